@@ -9,19 +9,19 @@ from rightofway.errors import (
     Location,
     Steps,
     Where,
-    in_file,
-    path_text,
-    under,
+    format_path,
+    locate_faults,
+    name_file,
 )
 
 Starts = Mapping[Steps, Where]
 
 
 def test_a_path_is_written_as_people_read_it() -> None:
-    assert path_text(("robots", 3, "stops", 0, "work")) == "robots[3].stops[0].work"
-    assert path_text(("map", "roadmap", "vertices", "bay 2")) == "map.roadmap.vertices['bay 2']"
-    assert path_text(("--step",)) == "--step"
-    assert path_text(("vertex 'a'", "barred", 0)) == "vertex 'a': barred[0]"
+    assert format_path(("robots", 3, "stops", 0, "work")) == "robots[3].stops[0].work"
+    assert format_path(("map", "roadmap", "vertices", "bay 2")) == "map.roadmap.vertices['bay 2']"
+    assert format_path(("--step",)) == "--step"
+    assert format_path(("vertex 'a'", "barred", 0)) == "vertex 'a': barred[0]"
 
 
 def test_a_location_begins_with_the_file_and_the_line() -> None:
@@ -36,7 +36,7 @@ def test_a_location_begins_with_the_file_and_the_line() -> None:
 
 def test_a_fault_in_a_file_that_a_document_names_has_both_places() -> None:
     try:
-        with in_file("hall.yaml"), under(("robots", "scen")), in_file("hall.scen"):
+        with name_file("hall.yaml"), locate_faults(("robots", "scen")), name_file("hall.scen"):
             raise InputError.at(Location(line=3, path=("goal",)), "is a wall")
     except InputError as error:
         (fault,) = error.faults
@@ -47,7 +47,7 @@ def test_a_fault_in_a_file_that_a_document_names_has_both_places() -> None:
 
 def test_the_other_place_of_a_fault_moves_with_it() -> None:
     """In a document it is a robot nearby, in a workbook a cell, in a CSV table a line."""
-    fault = InputFault((1, "name"), "R1 is the name of {other} already", other=0).within("robots")
+    fault = InputFault((1, "name"), "R1 is the name of {other} already", other=0).nest("robots")
     assert str(fault) == "robots[1].name: R1 is the name of robots[0] already"
     rows: Starts = {("robots", k): Location(file="r.csv", line=k + 2) for k in (0, 1)}
     assert str(fault.relocate(rows)) == "r.csv:3: name: R1 is the name of line 2 already"

@@ -14,7 +14,12 @@ import numpy as np
 import pytest
 
 import rightofway as rw
-from rightofway.arguments import ArgumentKind, checks_arguments, checks_its_arguments, kind_of
+from rightofway.arguments import (
+    ArgumentKind,
+    checks_arguments,
+    checks_its_arguments,
+    read_annotation,
+)
 
 ROOT = Path(__file__).parents[1]
 ROOMS = sorted(page.stem for page in (ROOT / "docs" / "api").glob("*.md") if page.stem != "index")
@@ -22,16 +27,16 @@ ROOMS = sorted(page.stem for page in (ROOT / "docs" / "api").glob("*.md") if pag
 
 STEPS = {
     "errors": {
-        "in_file",
+        "name_file",
         "is_printable",
-        "kernel_limits",
-        "listed",
-        "location_of",
-        "nearest",
-        "path_text",
-        "printable",
-        "shown",
-        "under",
+        "report_kernel_limits",
+        "join_names",
+        "as_location",
+        "find_nearest",
+        "format_path",
+        "escape_text",
+        "quote",
+        "locate_faults",
     },
     "model": {
         "checked_time_limit",
@@ -52,14 +57,14 @@ STEPS = {
     },
     "native": {
         "book_times",
-        "bound",
-        "compiler",
-        "excluded_by",
+        "bind_native",
+        "name_compiler",
+        "list_excluded",
         "bind_closures",
         "bind_rows",
         "bind_roads",
         "bind_rules",
-        "tracks_of",
+        "make_tracks",
     },
     "precedence": {
         "find_critical_circuit_without",
@@ -68,7 +73,7 @@ STEPS = {
         "find_shared_segment",
         "find_tight_arcs",
     },
-    "quantities": {"decimal"},
+    "quantities": {"format_decimal"},
     "site": {"measure_squared_distance", "measure_straight_length"},
 }
 """Steps of planners and of messages, taken for each robot or visit with what the package has made:
@@ -190,9 +195,9 @@ def test_what_does_not_belong_there_is_refused_with_a_reason(
 def test_an_annotation_admits_what_it_names_and_nothing_else(
     annotation: Any, fits: list[Any], does_not: list[Any]
 ) -> None:
-    kind: ArgumentKind = kind_of(annotation)
-    assert [value for value in fits if kind.fault(("it",), value)] == []
-    assert [value for value in does_not if not kind.fault(("it",), value)] == []
+    kind: ArgumentKind = read_annotation(annotation)
+    assert [value for value in fits if kind.find_fault(("it",), value)] == []
+    assert [value for value in does_not if not kind.find_fault(("it",), value)] == []
 
 
 def test_all_arguments_that_do_not_fit_are_named_with_their_items() -> None:
@@ -263,7 +268,7 @@ def test_planning_checks_no_argument_of_its_own_calls(monkeypatch: pytest.Monkey
     def fault(_: ArgumentKind, place: object, value: object) -> None:
         looked_at.append((place, value))
 
-    monkeypatch.setattr(ArgumentKind, "fault", fault)
+    monkeypatch.setattr(ArgumentKind, "find_fault", fault)
     rw.solve(DOOR, "two-level", seed=1, time_limit=None)
     assert looked_at == []
     assert double(1) == 2

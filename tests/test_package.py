@@ -2,12 +2,14 @@
 
 import inspect
 import re
+from fractions import Fraction
 from typing import Any
 
 import pytest
 
 import rightofway
 from rightofway import viz
+from rightofway.quantities import Units
 from tests.builders.fleets import PAPER, paper_scenario
 
 
@@ -66,6 +68,9 @@ def test_an_earlier_name_of_a_method_works_and_says_the_new_one() -> None:
     with pytest.warns(DeprecationWarning, match=message) as warned:
         assert fleet.roadmap() is fleet.build_roadmap()
     assert warned[0].filename == __file__
+    quantities = rightofway.Quantities(units=Units(), tick=Fraction(1))
+    with pytest.warns(DeprecationWarning, match="Quantities.duration is now format_duration"):
+        assert quantities.duration(3) == "3 time units"
 
 
 def test_what_is_not_there_is_said_as_usual() -> None:

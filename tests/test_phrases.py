@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from rightofway.errors import listed
+from rightofway.errors import join_names
 from rightofway.languages import read_tables
 from rightofway.phrases import Phrase, join_items, say_count, to_parts
 
@@ -74,7 +74,7 @@ def test_a_copy_of_a_phrase_keeps_its_values() -> None:
     [(["A"], "A"), (["A", "B"], "A and B"), (["A", "B", "C"], "A, B and C")],
 )
 def test_items_are_joined_as_in_a_sentence(items: list[str], text: str) -> None:
-    assert join_items(items) == listed(items) == text
+    assert join_items(items) == join_names(items) == text
 
 
 def test_plain_text_has_no_parts() -> None:

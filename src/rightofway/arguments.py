@@ -24,9 +24,15 @@ from warnings import warn
 
 import numpy as np
 
-from rightofway.errors import InputError, InputFault, Steps, shown
+from rightofway.errors import InputError, InputFault, Steps, quote
 
-__all__ = ["EarlierName", "checks_arguments", "checks_its_arguments", "one_for_each", "value_of"]
+__all__ = [
+    "EarlierName",
+    "checks_arguments",
+    "checks_its_arguments",
+    "get_value",
+    "require_one_for_each",
+]
 
 
 class EarlierName:
@@ -92,10 +98,10 @@ class ArgumentKind:
     name: str
     items: ArgumentKind | None = None
 
-    def fault(self, place: Steps, value: object) -> InputFault | None:
+    def find_fault(self, place: Steps, value: object) -> InputFault | None:
         """Return what is wrong with a value, None where it fits."""
         if not self.holds(value):
-            return InputFault(place, f"{shown(value)} does not fit (give {self.name})")
+            return InputFault(place, f"{quote(value)} does not fit (give {self.name})")
         if self.items is None or not isinstance(
             value, Sequence | AbstractSet | Mapping | np.ndarray
         ):
@@ -105,7 +111,7 @@ class ArgumentKind:
             if isinstance(value, Mapping)
             else enumerate(value)
         )
-        faults = (self.items.fault((*place, key), item) for key, item in entries)
+        faults = (self.items.find_fault((*place, key), item) for key, item in entries)
         return next(filter(None, faults), None)
 
 
@@ -140,14 +146,16 @@ PLAIN: dict[object, ArgumentKind] = {
 """The kinds of plain annotations."""
 
 
-def kind_of(annotation: Any) -> ArgumentKind:
+def read_annotation(annotation: Any) -> ArgumentKind:
     """Return what an annotation admits; what cannot be judged from outside is admitted."""
     annotation = getattr(annotation, "__supertype__", annotation)  # a NewType
     origin, inner = get_origin(annotation), get_args(annotation)
     if origin in (Union, types.UnionType):
-        kinds = [kind_of(choice) for choice in inner]
+        kinds = [read_annotation(choice) for choice in inner]
         name = " or ".join(kind.name for kind in kinds)
-        return ArgumentKind(lambda value: any(not kind.fault((), value) for kind in kinds), name)
+        return ArgumentKind(
+            lambda value: any(not kind.find_fault((), value) for kind in kinds), name
+        )
     if origin is Literal:
         words = " or ".join(map(repr, inner))
         return ArgumentKind(lambda value: isinstance(value, str) and value in inner, words)
@@ -161,7 +169,7 @@ def _plain_or_class(base: Any, inner: tuple[Any, ...]) -> ArgumentKind:
     if not inspect.isclass(base) or getattr(base, "_is_protocol", False):
         return ANYTHING
     if issubclass(base, Mapping):
-        values = kind_of(inner[1]) if inner else None
+        values = read_annotation(inner[1]) if inner else None
         return ArgumentKind(lambda value: isinstance(value, Mapping), "a mapping", values)
     if base in COLLECTIONS:
         return _collection(base, inner)
@@ -171,7 +179,7 @@ def _plain_or_class(base: Any, inner: tuple[Any, ...]) -> ArgumentKind:
 def _collection(base: type, inner: tuple[Any, ...]) -> ArgumentKind:
     """Return the kind of a list of items; of a tuple whose items differ, the length only."""
     is_uniform = len(inner) == 1 or inner[1:] == (Ellipsis,)
-    items = kind_of(inner[0]) if is_uniform else None
+    items = read_annotation(inner[0]) if is_uniform else None
     length = len(inner) if base is tuple and inner and not is_uniform else None
     admitted = ADMITTED.get(base, (Sequence, np.ndarray))
 
@@ -220,7 +228,7 @@ def checks_arguments(call: Callable[P, R]) -> Callable[P, R]:
     def kinds() -> dict[str, ArgumentKind]:
         hints = get_type_hints(call)
         return {
-            name: kind_of(hints.get(name, Any))
+            name: read_annotation(hints.get(name, Any))
             for name, parameter in parameters.items()
             if parameter.kind not in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD)
         }
@@ -234,7 +242,7 @@ def checks_arguments(call: Callable[P, R]) -> Callable[P, R]:
         faults = [
             fault
             for name, value in arguments
-            if name in known and (fault := known[name].fault((name,), value))
+            if name in known and (fault := known[name].find_fault((name,), value))
         ]
         if faults:
             raise InputError(faults)
@@ -249,7 +257,7 @@ def checks_its_arguments(call: Callable[..., Any]) -> bool:
     return MARK in getattr(call, "__dict__", {})
 
 
-def one_for_each(robots: Sized, **lists: Sized) -> None:
+def require_one_for_each(robots: Sized, **lists: Sized) -> None:
     """Refuse lists that do not have one item for each robot, by the names of the arguments.
 
     Raises
@@ -266,7 +274,7 @@ def one_for_each(robots: Sized, **lists: Sized) -> None:
         raise InputError(faults)
 
 
-def value_of(table: Mapping[str, R], key: str, place: str) -> R:
+def get_value(table: Mapping[str, R], key: str, place: str) -> R:
     """Return the value of a key that a caller gave.
 
     Raises
@@ -275,5 +283,5 @@ def value_of(table: Mapping[str, R], key: str, place: str) -> R:
         If the table has no such key.
     """
     if key not in table:
-        raise InputError.at(place, f"{shown(key)} is unknown (give {', '.join(sorted(table))})")
+        raise InputError.at(place, f"{quote(key)} is unknown (give {', '.join(sorted(table))})")
     return table[key]

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
-from rightofway.errors import InputError, listed
+from rightofway.errors import InputError, join_names
 from rightofway.model import Robot, Rules, Tick
 from rightofway.site import Roadmap, VertexId, measure_squared_distance
 
@@ -127,7 +127,7 @@ def _too_few(homeless: Sequence[Robot], robot: Robot, places: int, homes: int, s
         for count, noun in ((homes, "written home"), (stops, "stop"))
         if count
     ]
-    why = f", of which {listed(used)}" if used else ""
+    why = f", of which {join_names(used)}" if used else ""
     needing = f"{len(homeless)} robots need" if len(homeless) > 1 else "1 robot needs"
     has = "1 parking or charging place" if places == 1 else f"{places} parking and charging places"
     near = " that are far enough from each other" if robot.radius else ""
@@ -144,4 +144,4 @@ def _note(
         pairs = [
             f"{robot.name} at {roadmap.name(robot.home)}" for robot in dealt if robot.name in names
         ]
-        yield f"homes dealt out: {listed(pairs)}"
+        yield f"homes dealt out: {join_names(pairs)}"

@@ -27,17 +27,17 @@ class Deadline:
         """Return the deadline that many seconds from now."""
         return cls(None if seconds is None else time.monotonic() + seconds)
 
-    def sooner(self, share: float) -> Deadline:
+    def shorten(self, share: float) -> Deadline:
         """Return the deadline of a part of the time that is left."""
-        left = self.seconds_left()
+        left = self.measure_seconds_left()
         return self if left is None else Deadline.after(share * left)
 
-    def earlier(self, seconds: float) -> Deadline:
+    def bring_forward(self, seconds: float) -> Deadline:
         """Return the deadline that many seconds earlier; at most half of the time left is lost."""
-        left = self.seconds_left()
+        left = self.measure_seconds_left()
         return self if left is None else Deadline.after(max(left - seconds, left / 2))
 
-    def seconds_left(self) -> float | None:
+    def measure_seconds_left(self) -> float | None:
         """Return how long it is until then [s], never negative; None for no limit."""
         return None if self.at is None else max(self.at - time.monotonic(), 0.0)
 

@@ -37,16 +37,16 @@ __all__ = [
     "RightOfWayError",
     "Steps",
     "Where",
-    "in_file",
+    "as_location",
+    "escape_text",
+    "find_nearest",
+    "format_path",
     "is_printable",
-    "kernel_limits",
-    "listed",
-    "location_of",
-    "nearest",
-    "path_text",
-    "printable",
-    "shown",
-    "under",
+    "join_names",
+    "locate_faults",
+    "name_file",
+    "quote",
+    "report_kernel_limits",
 ]
 
 MAX_REASONS = 50
@@ -102,27 +102,27 @@ class Location:
     @property
     def place(self) -> str:
         """The cell and the path as text: ``robots[3].speed``."""
-        return ": ".join(part for part in (self.cell, path_text(self.path)) if part)
+        return ": ".join(part for part in (self.cell, format_path(self.path)) if part)
 
     @property
     def named(self) -> str:
         """The path as text, with the names of list items: ``robots[3] (R4): speed``."""
-        return path_text(self.path, self.names)
+        return format_path(self.path, self.names)
 
     @property
     def about(self) -> str:
         """The place as a list of faults has it, a robot by its name: ``R4: speed``."""
         for index, name in enumerate(self.names):
             if name and self.path[0] == "robots":
-                rest = path_text(self.path[index + 1 :], self.names[index + 1 :])
+                rest = format_path(self.path[index + 1 :], self.names[index + 1 :])
                 return f"{name}: {rest}" if rest else name
         return self.named or self.place
 
-    def within(self, outer: Where) -> Location:
+    def nest(self, outer: Where) -> Location:
         """Return the same place seen from outside: one in another file is the inner one there."""
-        whole = location_of(outer)
+        whole = as_location(outer)
         if whole.inner:
-            return replace(whole, inner=self.within(whole.inner))
+            return replace(whole, inner=self.nest(whole.inner))
         if self.file:
             return replace(whole, inner=self)
         return replace(
@@ -138,7 +138,7 @@ Where = str | int | Steps | Location
 """A place as code writes it: a key, an index, several of them, or a location."""
 
 
-def location_of(where: Where) -> Location:
+def as_location(where: Where) -> Location:
     """Return a place as a location; the empty text is the whole input."""
     if isinstance(where, Location):
         return where
@@ -147,7 +147,7 @@ def location_of(where: Where) -> Location:
     return Location() if where == "" else Location(path=(where,))
 
 
-def path_text(path: Steps, names: Sequence[str] = ()) -> str:
+def format_path(path: Steps, names: Sequence[str] = ()) -> str:
     """Return keys and list indices as text: ``robots[3].stops[0].work``.
 
     Parameters
@@ -163,7 +163,7 @@ def path_text(path: Steps, names: Sequence[str] = ()) -> str:
             text += f"{joint.removeprefix('.')}[{step}]"
             joint = "."
         elif joint == "." and not step.isidentifier():
-            text += f"[{shown(step)}]"
+            text += f"[{quote(step)}]"
         else:
             text += f"{joint}{step}"
             joint = "." if step.isidentifier() else ": "
@@ -193,13 +193,13 @@ class InputFault:
     other: Location | None
 
     def __init__(self, where: Where, words: str, other: Where | None = None) -> None:
-        object.__setattr__(self, "location", location_of(where))
-        object.__setattr__(self, "words", printable(words))
-        object.__setattr__(self, "other", None if other is None else location_of(other))
+        object.__setattr__(self, "location", as_location(where))
+        object.__setattr__(self, "words", escape_text(words))
+        object.__setattr__(self, "other", None if other is None else as_location(other))
 
     def __str__(self) -> str:
         text = ": ".join(part for part in (str(self.location), self.message) if part)
-        return printable(text)
+        return escape_text(text)
 
     @property
     def message(self) -> str:
@@ -212,7 +212,7 @@ class InputFault:
         pairs = zip(path, other.path, strict=False)
         shared = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
         line = "" if other.line is None else f"line {other.line}"
-        near = other.cell or line or path_text(other.path[max(shared - 1, 0) :])
+        near = other.cell or line or format_path(other.path[max(shared - 1, 0) :])
         return self.words.replace("{other}", near)
 
     @property
@@ -235,16 +235,16 @@ class InputFault:
         """The file or argument that it stands in; empty for data in no file."""
         return self.location.file
 
-    def moved(self, move: Callable[[Location], Location]) -> InputFault:
+    def map_locations(self, move: Callable[[Location], Location]) -> InputFault:
         """Return the same fault, its places as a function has them."""
         other = None if self.other is None else move(self.other)
         return InputFault(move(self.location), self.words, other)
 
-    def within(self, outer: Where) -> InputFault:
+    def nest(self, outer: Where) -> InputFault:
         """Return the same fault seen from outside ``outer``: ``a`` holding ``b`` is ``a.b``."""
         if self.file:
-            return self.at(self.location.within(outer))
-        return self.moved(lambda place: place.within(outer))
+            return self.place_at(self.location.nest(outer))
+        return self.map_locations(lambda place: place.nest(outer))
 
     def relocate(self, starts: Mapping[Steps, Where]) -> InputFault:
         """Return the same fault, the longest known start of its path as it is known there."""
@@ -253,18 +253,18 @@ class InputFault:
             for length in range(len(place.path), -1, -1):
                 if place.path[:length] in starts:
                     rest = replace(place, path=place.path[length:], names=())
-                    return rest.within(starts[place.path[:length]])
+                    return rest.nest(starts[place.path[:length]])
             return place
 
-        return self.moved(move)
+        return self.map_locations(move)
 
-    def at(self, location: Location) -> InputFault:
+    def place_at(self, location: Location) -> InputFault:
         """Return the same fault at another place."""
         return InputFault(location, self.words, self.other)
 
-    def in_file(self, file: str) -> InputFault:
+    def name_file(self, file: str) -> InputFault:
         """Return the same fault in a file or argument of this name."""
-        return self.at(replace(self.location, file=file))
+        return self.place_at(replace(self.location, file=file))
 
 
 class RightOfWayError(Exception):
@@ -284,7 +284,7 @@ class InputError(RightOfWayError, ValueError):
 
     def __init__(self, faults: Iterable[InputFault], source: str = "") -> None:
         self.faults = tuple(
-            fault.in_file(source) if source and not fault.file else fault for fault in faults
+            fault.name_file(source) if source and not fault.file else fault for fault in faults
         )
         super().__init__(self.faults)
 
@@ -303,7 +303,7 @@ class InputError(RightOfWayError, ValueError):
 
 
 @contextmanager
-def under(where: Where) -> Iterator[None]:
+def locate_faults(where: Where) -> Iterator[None]:
     """Report every fault raised inside as a fault at a place.
 
     Parameters
@@ -314,11 +314,11 @@ def under(where: Where) -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        raise InputError(fault.within(where) for fault in error.faults) from None
+        raise InputError(fault.nest(where) for fault in error.faults) from None
 
 
 @contextmanager
-def in_file(source: str) -> Iterator[None]:
+def name_file(source: str) -> Iterator[None]:
     """Name the file or argument in which the faults raised inside stand.
 
     Parameters
@@ -333,7 +333,7 @@ def in_file(source: str) -> Iterator[None]:
 
 
 @contextmanager
-def kernel_limits() -> Iterator[None]:
+def report_kernel_limits() -> Iterator[None]:
     """Raise as `InputError` what a native kernel refuses because its integers cannot hold it."""
     try:
         yield
@@ -429,7 +429,7 @@ class InvalidPlan(RightOfWayError):
     """A planner returned a plan that breaks a rule; please report it."""
 
 
-def shown(value: object) -> str:
+def quote(value: object) -> str:
     """Return a value as a message shows it: printable, on one line, and not longer than needed."""
     if value is None:
         return "nothing"
@@ -449,10 +449,10 @@ def shown(value: object) -> str:
 
 def _list_shown(items: list[object] | tuple[object, ...]) -> str:
     is_long = len(items) > FEW or any(isinstance(item, list | tuple) for item in items)
-    return f"a list of {len(items)}" if is_long else f"[{', '.join(map(shown, items))}]"
+    return f"a list of {len(items)}" if is_long else f"[{', '.join(map(quote, items))}]"
 
 
-def listed(names: Sequence[str]) -> str:
+def join_names(names: Sequence[str]) -> str:
     """Return names as a sentence has them: ``R1, R2 and R3``, long lists cut."""
     most = 2 * FEW
     if len(names) <= most:
@@ -462,12 +462,12 @@ def listed(names: Sequence[str]) -> str:
     )
 
 
-def printable(text: str) -> str:
+def escape_text(text: str) -> str:
     r"""Return text with escapes for control characters and for lone surrogates.
 
     Examples
     --------
-    >>> print(printable("a\x1b[2Jb\u202ec\ud800"))
+    >>> print(escape_text("a\x1b[2Jb\u202ec\ud800"))
     a\x1b[2Jb\u202ec\ud800
     """
     if text.isprintable():
@@ -482,7 +482,7 @@ def is_printable(text: str) -> bool:
     return bool(text) and text.isprintable()
 
 
-def nearest(word: object, known: Collection[str]) -> str | None:
+def find_nearest(word: object, known: Collection[str]) -> str | None:
     """Return the known word that was probably meant; None where the search would take long."""
     text = str(word)
     if len(text) > LONGEST or len(known) > MANY:

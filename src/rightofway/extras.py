@@ -9,7 +9,7 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import Any
 
-from rightofway.arguments import checks_arguments, value_of
+from rightofway.arguments import checks_arguments, get_value
 from rightofway.errors import InputError
 
 __all__ = ["EXTRAS", "load_library", "need"]
@@ -34,7 +34,7 @@ def need(library: str, purpose: str) -> None:
     purpose
         What needs it, for the message.
     """
-    extra = value_of(EXTRAS, library, "library")
+    extra = get_value(EXTRAS, library, "library")
     if find_spec(library) is None:
         remedy = f"pip install 'rightofway[{extra}]'"
         raise InputError.at("", f"{purpose} needs {library} ({remedy})")

@@ -9,7 +9,7 @@ from contextlib import suppress
 from io import BytesIO
 from pathlib import Path
 
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, quote
 
 __all__ = ["as_path", "make_archive", "write_whole"]
 
@@ -57,7 +57,7 @@ def as_path(given: str | os.PathLike[str], place: str = "path") -> Path:
     try:
         return Path(given)
     except TypeError:
-        raise InputError.at(place, f"{shown(given)} is no path (give text or a Path)") from None
+        raise InputError.at(place, f"{quote(given)} is no path (give text or a Path)") from None
 
 
 def write_whole(path: str | os.PathLike[str], content: bytes | str) -> None:

@@ -11,11 +11,11 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import Literal, get_args
 
-from rightofway.arguments import checks_arguments
-from rightofway.errors import InputError, InputFault, shown
+from rightofway.arguments import EarlierName, checks_arguments
+from rightofway.errors import InputError, InputFault, quote
 from rightofway.phrases import Phrase, say_count
 
-__all__ = ["Quantities", "Units", "decimal"]
+__all__ = ["Quantities", "Units", "format_decimal"]
 
 LengthUnit = Literal["mm", "cm", "m"]
 TimeUnit = Literal["ms", "s", "min", "h"]
@@ -63,7 +63,7 @@ class Units:
             value, known = getattr(self, key), get_args(kind)
             if value is not None and value not in known:
                 known_words = f"{', '.join(known[:-1])} or {known[-1]}"
-                faults.append(InputFault(key, f"{shown(value)} is no unit (give {known_words})"))
+                faults.append(InputFault(key, f"{quote(value)} is no unit (give {known_words})"))
         if faults:
             raise InputError(faults, "units")
 
@@ -77,9 +77,9 @@ class Units:
         """Length of the length unit [m], or None where it is not known."""
         return None if self.length is None else METRES[self.length]
 
-    def written_length(self, value: Value) -> str:
+    def format_length(self, value: Value) -> str:
         """Return a length: ``0.45 m``, ``0.45 length units``."""
-        number = decimal(value)
+        number = format_decimal(value)
         return (
             f"{number} {self.length}"
             if self.length
@@ -87,7 +87,7 @@ class Units:
         )
 
 
-def decimal(value: Value, digits: int = DIGITS) -> str:
+def format_decimal(value: Value, digits: int = DIGITS) -> str:
     """Return a number as a person writes it.
 
     Parameters
@@ -105,9 +105,11 @@ def decimal(value: Value, digits: int = DIGITS) -> str:
 
     Examples
     --------
-    >>> decimal(Fraction(1, 2)), decimal(Fraction(30313, 700)), decimal(5), decimal(4.999)
-    ('0.5', '43.30', '5', '5.00')
-    >>> decimal(Fraction(1, 3000))
+    >>> format_decimal(Fraction(1, 2)), format_decimal(Fraction(30313, 700))
+    ('0.5', '43.30')
+    >>> format_decimal(5), format_decimal(4.999)
+    ('5', '5.00')
+    >>> format_decimal(Fraction(1, 3000))
     '0.00033'
     """
     exact = Fraction(repr(value)) if isinstance(value, float) else Fraction(value)
@@ -143,10 +145,12 @@ class Quantities:
     Examples
     --------
     >>> q = Quantities(units=Units(length="m", time="s"), tick=Fraction(1, 2))
-    >>> q.duration(767), q.duration(3), q.length(Fraction(9, 20)), q.speed(Fraction(6, 5))
-    ('6 min 23.5 s', '1.5 s', '0.45 m', '1.2 m/s')
+    >>> q.format_duration(767), q.format_duration(3)
+    ('6 min 23.5 s', '1.5 s')
+    >>> q.format_length(Fraction(9, 20)), q.format_speed(Fraction(6, 5))
+    ('0.45 m', '1.2 m/s')
     >>> plain = Quantities(units=Units(), tick=Fraction(1, 2))
-    >>> plain.duration(2), plain.duration(3), plain.moment(3)
+    >>> plain.format_duration(2), plain.format_duration(3), plain.format_moment(3)
     ('1 time unit', '1.5 time units', 'time 1.5')
     """
 
@@ -156,38 +160,38 @@ class Quantities:
 
     def __post_init__(self) -> None:
         if not isinstance(self.units, Units):
-            raise InputError.at("units", f"{shown(self.units)} are no units (give Units)")
+            raise InputError.at("units", f"{quote(self.units)} are no units (give Units)")
         if not isinstance(self.tick, Fraction) or self.tick <= 0:
-            message = f"{shown(self.tick)} is no length of a tick (give a Fraction above 0)"
+            message = f"{quote(self.tick)} is no length of a tick (give a Fraction above 0)"
             raise InputError.at("tick", message)
         if not isinstance(self.in_ticks, bool):
-            message = f"{shown(self.in_ticks)} is neither true nor false (give True or False)"
+            message = f"{quote(self.in_ticks)} is neither true nor false (give True or False)"
             raise InputError.at("in_ticks", message)
 
     @checks_arguments
-    def duration(self, ticks: Value) -> str:
+    def format_duration(self, ticks: Value) -> str:
         """Return how long a number of ticks lasts: ``6 min 23 s``, ``2 time units``."""
         if self.in_ticks:
-            return say_count(decimal(ticks), "tick", "ticks")
+            return say_count(format_decimal(ticks), "tick", "ticks")
         time = self._time(ticks)
         seconds = self.units.seconds
         if seconds is None:
-            return say_count(decimal(time), "time unit", "time units")
+            return say_count(format_decimal(time), "time unit", "time units")
         return self._clock(time * seconds)
 
     @checks_arguments
-    def moment(self, ticks: Value) -> str:
+    def format_moment(self, ticks: Value) -> str:
         """Return a point in time: ``6 min 23 s`` after the start, ``time 2``, ``tick 4``."""
         if self.in_ticks:
-            return Phrase("tick {tick}", tick=decimal(ticks))
+            return Phrase("tick {tick}", tick=format_decimal(ticks))
         if self.units.time:
-            return self.duration(ticks)
-        return Phrase("time {time}", time=self.cell(ticks))
+            return self.format_duration(ticks)
+        return Phrase("time {time}", time=self.format_cell(ticks))
 
     @checks_arguments
-    def cell(self, ticks: Value) -> str:
+    def format_cell(self, ticks: Value) -> str:
         """Return a time as the bare number of a table's cell; `time_unit` is for its heading."""
-        return decimal(ticks if self.in_ticks else self._time(ticks))
+        return format_decimal(ticks if self.in_ticks else self._time(ticks))
 
     @property
     def time_unit(self) -> str:
@@ -195,7 +199,7 @@ class Quantities:
         return "ticks" if self.in_ticks else self.units.time or ""
 
     @checks_arguments
-    def heading(self, words: str) -> str:
+    def format_heading(self, words: str) -> str:
         """Return the heading of a column of times: ``completes [s]``."""
         if self.in_ticks:
             return Phrase("{heading} [ticks]", heading=words)
@@ -203,20 +207,30 @@ class Quantities:
         return Phrase("{heading} [{unit}]", heading=words, unit=unit) if unit else words
 
     @checks_arguments
-    def length(self, value: Value) -> str:
+    def format_length(self, value: Value) -> str:
         """Return a length: ``0.45 m``, ``0.45 length units``."""
-        return self.units.written_length(value)
+        return self.units.format_length(value)
 
     @checks_arguments
-    def speed(self, value: Value) -> str:
+    def format_speed(self, value: Value) -> str:
         """Return a speed: ``1.2 m/s``; a bare number where the scenario names no units."""
         length, time = self.units.length, self.units.time
-        return f"{decimal(value)} {length}/{time}" if length and time else decimal(value)
+        return (
+            f"{format_decimal(value)} {length}/{time}" if length and time else format_decimal(value)
+        )
 
-    def ticks_per_hour(self) -> Fraction | None:
+    def compute_ticks_per_hour(self) -> Fraction | None:
         """Return how many ticks an hour has, or None where the time unit is not known."""
         seconds = self.units.seconds
         return None if seconds is None else 3600 / (self.tick * seconds)
+
+    cell = EarlierName("format_cell")
+    duration = EarlierName("format_duration")
+    heading = EarlierName("format_heading")
+    length = EarlierName("format_length")
+    moment = EarlierName("format_moment")
+    speed = EarlierName("format_speed")
+    ticks_per_hour = EarlierName("compute_ticks_per_hour")
 
     def _time(self, ticks: Value) -> Fraction:
         exact = Fraction(repr(ticks)) if isinstance(ticks, float) else Fraction(ticks)
@@ -227,13 +241,13 @@ class Quantities:
         if seconds < 0:
             return f"-{self._clock(-seconds)}"
         if self.units.time == "ms" and seconds < 1:
-            return f"{decimal(seconds * 1000)} ms"
+            return f"{format_decimal(seconds * 1000)} ms"
         if _half_up(seconds * 100) < 60 * 100:
-            return f"{decimal(seconds)} s"
+            return f"{format_decimal(seconds)} s"
         if _half_up(seconds * 10) < 3600 * 10:
             tenths = Fraction(_half_up(seconds * 10), 10)
             minutes, rest = divmod(tenths, 60)
-            return f"{minutes} min" + (f" {decimal(rest, 1)} s" if rest else "")
+            return f"{minutes} min" + (f" {format_decimal(rest, 1)} s" if rest else "")
         minutes, rest_seconds = divmod(_half_up(seconds), 60)
         hours, minutes = divmod(minutes, 60)
         parts = ((hours, "h"), (minutes, "min"), (rest_seconds, "s"))

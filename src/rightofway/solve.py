@@ -12,7 +12,7 @@ import numpy as np
 
 from rightofway.check import check
 from rightofway.deadline import Deadline, limit_work
-from rightofway.errors import GaveUp, InputError, InvalidPlan, kernel_limits
+from rightofway.errors import GaveUp, InputError, InvalidPlan, report_kernel_limits
 from rightofway.model import (
     Objective,
     Outcome,
@@ -229,8 +229,8 @@ def _run(
     def keep() -> None:
         with_plan.append(time.perf_counter() - began)
 
-    with kernel_limits(), limit_work(deadline):
-        alone = compute_least_completions(task.scenario, time_limit=deadline.seconds_left())
+    with report_kernel_limits(), limit_work(deadline):
+        alone = compute_least_completions(task.scenario, time_limit=deadline.measure_seconds_left())
         if alone is None:
             raise GaveUp("time ran out while measuring distances (give a longer time limit)")
         refuse_stranded(task.scenario, np.flatnonzero(alone < 0).tolist())
@@ -240,7 +240,7 @@ def _run(
         task = replace(
             task,
             alone=alone,
-            deadline=deadline.earlier(seconds_per_visit * least_visits),
+            deadline=deadline.bring_forward(seconds_per_visit * least_visits),
             has_plan=keep,
         )
         if on_plan is not None:

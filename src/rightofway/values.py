@@ -9,7 +9,7 @@ from fractions import Fraction
 from numbers import Integral, Rational, Real
 from typing import Any, Literal, TypeVar
 
-from rightofway.errors import InputError, InputFault, Where, shown
+from rightofway.errors import InputError, InputFault, Where, quote
 
 T = TypeVar("T")
 
@@ -41,21 +41,21 @@ def exact(value: object, *, digits: int = DIGITS) -> Fraction:
     text = str(value) if isinstance(value, str | Decimal | float) else ""
     match = _NUMBER.fullmatch(text)
     if not match:
-        raise ValueError(f"{shown(value)} is not a number (write it like 3, 0.5 or 1/3)")
+        raise ValueError(f"{quote(value)} is not a number (write it like 3, 0.5 or 1/3)")
     most = 2 * COORDINATE_DIGITS  # to compute 1e999999999 would fill the memory
     if len(text) > most or abs(int(match["exponent"] or "0")) > most:
         raise _out_of_range(value, digits)
     try:
         return _in_range(Fraction(text), value, digits)
     except ZeroDivisionError:
-        raise ValueError(f"{shown(value)} divides by zero (give another denominator)") from None
+        raise ValueError(f"{quote(value)} divides by zero (give another denominator)") from None
 
 
 def coordinate(value: object) -> Fraction:
     """Return a coordinate exactly, as `exact` does; its decimals may be as many as a float has."""
     number = exact(value, digits=COORDINATE_DIGITS)
     if abs(number) > 10**DIGITS:
-        raise ValueError(f"{shown(value)} is out of range (give at most {DIGITS} digits)")
+        raise ValueError(f"{quote(value)} is out of range (give at most {DIGITS} digits)")
     return number
 
 
@@ -67,7 +67,7 @@ def _in_range(number: Fraction, value: object, digits: int) -> Fraction:
 
 def _out_of_range(value: object, digits: int) -> ValueError:
     return ValueError(
-        f"{shown(value)} is out of range (give at most {digits} digits before and after the point)"
+        f"{quote(value)} is out of range (give at most {digits} digits before and after the point)"
     )
 
 
@@ -104,7 +104,7 @@ def vertex(value: object) -> int:
     if isinstance(value, Integral) and not isinstance(value, bool):
         return int(value)
     raise ValueError(
-        f"{shown(value)} is no vertex number"
+        f"{quote(value)} is no vertex number"
         " (give roadmap.get_vertex(name), or build the fleet with FleetBuilder, which takes names)"
     )
 
@@ -128,7 +128,7 @@ def whole_number(value: object) -> int:
     """Return a whole number."""
     if isinstance(value, Integral) and not isinstance(value, bool):
         return int(value)
-    raise ValueError(f"{shown(value)} is no whole number (give 1 or more)")
+    raise ValueError(f"{quote(value)} is no whole number (give 1 or more)")
 
 
 def word_of(words: Sequence[str]) -> Callable[[object], str]:
@@ -138,7 +138,7 @@ def word_of(words: Sequence[str]) -> Callable[[object], str]:
         if isinstance(value, str) and value in words:
             return value
         *others, last = words
-        raise ValueError(f"{shown(value)} is unknown (give {', '.join(others)} or {last})")
+        raise ValueError(f"{quote(value)} is unknown (give {', '.join(others)} or {last})")
 
     return read
 
@@ -149,21 +149,21 @@ def names(value: object) -> frozenset[str]:
         isinstance(name, str) for name in value
     ):
         return frozenset(value)
-    raise ValueError(f"{shown(value)} are no names (give a list of texts)")
+    raise ValueError(f"{quote(value)} are no names (give a list of texts)")
 
 
 def text(value: object) -> str:
     """Return a name."""
     if isinstance(value, str):
         return value
-    raise ValueError(f"{shown(value)} is no name (give text)")
+    raise ValueError(f"{quote(value)} is no name (give text)")
 
 
 def truth(value: object) -> bool:
     """Return a truth value."""
     if isinstance(value, bool):
         return value
-    raise ValueError(f"{shown(value)} is neither true nor false (give True or False)")
+    raise ValueError(f"{quote(value)} is neither true nor false (give True or False)")
 
 
 def one_of(kind: type[T], fault: str, remedy: str) -> Callable[[object], T]:
@@ -172,7 +172,7 @@ def one_of(kind: type[T], fault: str, remedy: str) -> Callable[[object], T]:
     def read(value: object) -> T:
         if isinstance(value, kind):
             return value
-        raise ValueError(f"{shown(value)} is {fault} ({remedy})")
+        raise ValueError(f"{quote(value)} is {fault} ({remedy})")
 
     return read
 
@@ -182,7 +182,7 @@ def list_of(read: Callable[[object], T]) -> Callable[[object], tuple[T, ...]]:
 
     def read_each(values: object) -> tuple[T, ...]:
         if not isinstance(values, Iterable) or isinstance(values, str | bytes | Mapping):
-            raise ValueError(f"{shown(values)} is no list (give a list)")  # noqa: TRY004 (readers raise it)
+            raise ValueError(f"{quote(values)} is no list (give a list)")  # noqa: TRY004 (readers raise it)
         return tuple(at(index, read, value) for index, value in enumerate(values))
 
     return read_each
@@ -205,7 +205,7 @@ def at(where: Where, read: Callable[[object], T], value: object) -> T:
 def _faults_at(where: Where, error: ValueError) -> list[InputFault]:
     """Return the faults of a value that was refused, at its place."""
     if isinstance(error, InputError):
-        return [fault.within(where) for fault in error.faults]
+        return [fault.nest(where) for fault in error.faults]
     return [InputFault(where, str(error))]
 
 
@@ -213,7 +213,7 @@ def function(value: object) -> Callable[..., Any]:
     """Return a function."""
     if callable(value):
         return value
-    raise ValueError(f"{shown(value)} is no function (give one that takes one argument, or None)")
+    raise ValueError(f"{quote(value)} is no function (give one that takes one argument, or None)")
 
 
 def between(least: float, most: float) -> Callable[[object], float]:
@@ -223,7 +223,7 @@ def between(least: float, most: float) -> Callable[[object], float]:
         is_number = isinstance(value, Real) and not isinstance(value, bool)
         if is_number and least <= value <= most:  # type: ignore[operator]
             return float(value)  # type: ignore[arg-type]
-        raise ValueError(f"{shown(value)} is no number from {least:g} to {most:g} (give one)")
+        raise ValueError(f"{quote(value)} is no number from {least:g} to {most:g} (give one)")
 
     return read
 
@@ -238,5 +238,5 @@ def length(value: object, where: Where) -> Fraction:
     """
     checked = at(where, number, value)
     if checked <= 0:
-        raise InputError.at(where, f"{shown(value)} is not positive (give a length above 0)")
+        raise InputError.at(where, f"{quote(value)} is not positive (give a length above 0)")
     return checked

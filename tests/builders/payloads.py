@@ -179,7 +179,10 @@ def _times() -> object:
         found.append({
             "units": {"length": units.length, "time": units.time},
             "tick": [tick.numerator, tick.denominator],
-            "written": [[n, ours.duration(n), ours.moment(n), ours.cell(n)] for n in ticks],
+            "written": [
+                [n, ours.format_duration(n), ours.format_moment(n), ours.format_cell(n)]
+                for n in ticks
+            ],
         })  # fmt: skip
     return found
 

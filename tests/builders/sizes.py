@@ -8,7 +8,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from rightofway.model import Robot, Rules, Scenario, Stop
-from rightofway.native import clashes
+from rightofway.native import find_clashes
 from rightofway.site import Edge, Roadmap, VertexId, make_grid_roadmap, make_roadmap
 from rightofway.site.zones import Zone
 from tests.builders.fleets import grid_fleet, largest_part, random_fleet, random_grid
@@ -42,7 +42,7 @@ def has_room(scenario: Scenario) -> bool:
     resources = scenario.problem.resources
     itineraries = scenario.problem.itineraries
     ends = [one.home for one in itineraries], [one.last for one in itineraries]
-    return not any(any(clashes(resources, places)) for places in ends)
+    return not any(any(find_clashes(resources, places)) for places in ends)
 
 
 def sized(seed: int, *, robots: int = 4, headway: int = 0) -> Scenario:

@@ -104,7 +104,7 @@ class Restless:
         self.watched: list[float] = []
 
     def advance(self, deadline: Deadline) -> tuple[int, int]:
-        self.watched.append(deadline.seconds_left() or 0.0)
+        self.watched.append(deadline.measure_seconds_left() or 0.0)
         time.sleep(self.watched[-1])
         raise GaveUp("time ran out")
 

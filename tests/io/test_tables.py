@@ -56,7 +56,7 @@ def test_all_faults_are_named_by_line_and_heading(tmp_path: Path) -> None:
     with pytest.raises(InputError) as raised:
         rightofway.load(scenario(tmp_path, table))
     source = f"line 3: robots.table: {tmp_path / 'robots.csv'}"
-    assert [str(fault.in_file("")) for fault in raised.value.faults] == [
+    assert [str(fault.name_file("")) for fault in raised.value.faults] == [
         f"{source}:2: speed: 0 is not positive (give a number above 0)",
         f"{source}:3: home: N3, row 1, column 0, is blocked by '@' (N0 is free)",
         f"{source}:3: speed: 'fast' is not a number (write it like 3, 0.5 or 1/3)",

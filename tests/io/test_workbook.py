@@ -52,7 +52,7 @@ def fill(sheet: str, cell: str, colour: str) -> Edit:
 def faults_of(path: Path) -> list[str]:
     with pytest.raises(InputError) as raised:
         rightofway.load(path)
-    return [str(fault.in_file("")) for fault in raised.value.faults]
+    return [str(fault.name_file("")) for fault in raised.value.faults]
 
 
 def test_the_template_is_the_scenario_of_a_door(tmp_path: Path) -> None:
@@ -194,7 +194,7 @@ def test_rules_hold_rules_units_and_what_belongs_to_the_map(tmp_path: Path) -> N
     )  # fmt: skip
     scenario = rightofway.load(path)
     assert (scenario.rules.occupancy, scenario.rules.rotations) == ("both", False)
-    assert scenario.quantities.heading("time") == "time [s]"
+    assert scenario.quantities.format_heading("time") == "time [s]"
     assert scenario.roadmap.grid is not None
     assert scenario.roadmap.grid.cell_size == 2
 

@@ -86,7 +86,7 @@ def test_robots_that_come_too_close_come_as_close_as_the_oracle_finds(fleet: Sce
     found = [fault for fault in rightofway.check(plan).faults if fault.kind == "too close"]
     assert {fault.robots for fault in found} == set(met)
     for robots, square in met.items():
-        within = f"come within {fleet.quantities.length(sqrt(square))} ("
+        within = f"come within {fleet.quantities.format_length(sqrt(square))} ("
         assert any(fault.robots == robots and within in fault.message for fault in found)
 
 

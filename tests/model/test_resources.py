@@ -13,7 +13,7 @@ import pytest
 from rightofway.errors import InputError
 from rightofway.model import Resources, Rules, Scenario
 from rightofway.model.resources import bind_resources, circumscribe, close_pairs
-from rightofway.native import bind_lists, clashes, excluded_by, find_vertices_near
+from rightofway.native import bind_lists, find_clashes, find_vertices_near, list_excluded
 from rightofway.site import Edge, Roadmap, make_grid_roadmap, make_roadmap
 from rightofway.site.zones import NamedZone
 from tests.builders.any_fleet import any_fleet
@@ -25,7 +25,7 @@ from tests.oracles.space import incompatible
 
 def lists(resources: Resources) -> list[list[int]]:
     assert not resources.are_points
-    return [excluded_by(resources, row) for row in range(resources.n_rows)]
+    return [list_excluded(resources, row) for row in range(resources.n_rows)]
 
 
 def test_a_point_excludes_others_from_its_vertex_and_needs_no_lists() -> None:
@@ -33,9 +33,9 @@ def test_a_point_excludes_others_from_its_vertex_and_needs_no_lists() -> None:
     trips = [("N0", "N2"), ("N2", "N0")]
     resources = grid_fleet(["..."], trips).problem.resources
     assert bind_lists(resources) is None
-    excluded = [excluded_by(resources, row) for row in range(7)]
+    excluded = [list_excluded(resources, row) for row in range(7)]
     assert excluded == [[0], [1], [2], [], [], [], []]
-    assert list(clashes(resources, [1, 2])) == []
+    assert list(find_clashes(resources, [1, 2])) == []
     assert find_vertices_near(resources, 0, 2) == [2]
 
 
@@ -60,8 +60,8 @@ def test_on_a_grid_discs_that_touch_are_apart(radius: str, near: int) -> None:
     """The centre of a 5 x 5 grid has itself, 4 cells at distance 1, 4 at 1.414…, 4 at 2."""
     roadmap = make_grid_roadmap(["....."] * 5)
     resources = bind_resources(roadmap, [Fraction(radius)], Fraction(0))
-    assert len(excluded_by(resources, 12)) == near
-    assert not any(len(excluded_by(resources, row)) for row in range(25, 25 + roadmap.n_edges))
+    assert len(list_excluded(resources, 12)) == near
+    assert not any(len(list_excluded(resources, row)) for row in range(25, 25 + roadmap.n_edges))
 
 
 @pytest.mark.parametrize("shift", [(0, 0), (1_000_000, -7_000_000), (0.3, 1e-7)])
@@ -104,7 +104,7 @@ def test_rows_exclude_what_the_definition_does_unless_the_ends_of_edges_do(
     for i, j in permutations(range(len(scenario.robots)), 2):
         excludes = cache(partial(_incompatible, scenario, i, j))
         for x, one in enumerate(shapes):
-            found = set(excluded_by(resources, resources.vertex_row(i, x)))
+            found = set(list_excluded(resources, resources.vertex_row(i, x)))
             for y, other in enumerate(shapes):
                 if resources.vertex_row(j, y) in found:
                     assert excludes(one, other)

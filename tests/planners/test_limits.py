@@ -50,12 +50,12 @@ def test_a_time_limit_that_is_no_number_of_seconds_is_refused(
 
 def test_a_deadline_leaves_time_for_what_follows_but_keeps_half() -> None:
     deadline = Deadline.after(100)
-    left = [deadline.earlier(seconds).seconds_left() for seconds in (10, 80)]
+    left = [deadline.bring_forward(seconds).measure_seconds_left() for seconds in (10, 80)]
     assert left == [pytest.approx(90, abs=1), pytest.approx(50, abs=1)]
 
 
 def test_no_limit_has_no_earlier_one() -> None:
-    assert Deadline.after(None).earlier(10).seconds_left() is None
+    assert Deadline.after(None).bring_forward(10).measure_seconds_left() is None
 
 
 @pytest.mark.slow

@@ -11,7 +11,7 @@ import pytest
 import rightofway
 from rightofway import search
 from rightofway.errors import InputError
-from rightofway.native import bound
+from rightofway.native import bind_native
 
 DOOR = rightofway.load(Path(__file__).parents[2] / "examples/door.yaml")
 PROBLEM = DOOR.problem
@@ -27,7 +27,7 @@ MISUSE: list[tuple[Callable[[], Any], str]] = [
     (lambda: rightofway.run_laps(None), "scenario: nothing is no scenario"),  # type: ignore[arg-type]
     (lambda: rightofway.best_timetable(3), "scenario: 3 is no scenario"),  # type: ignore[arg-type]
     (lambda: rightofway.plan_of_laps(3), "result: 3 is no result of laps"),  # type: ignore[arg-type]
-    (lambda: bound(DOOR), "problem: .* is no problem"),  # type: ignore[arg-type]
+    (lambda: bind_native(DOOR), "problem: .* is no problem"),  # type: ignore[arg-type]
     (lambda: search.FleetSearch(PROBLEM, seed=-1), "seed: -1 is no seed"),
     (lambda: search.FleetSearch(PROBLEM, threads=-1), "threads: -1 is out of range"),
     (

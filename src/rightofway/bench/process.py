@@ -25,7 +25,7 @@ import rightofway
 from rightofway.arguments import checks_arguments
 from rightofway.bench.results import COLUMNS, Row
 from rightofway.bench.suite import Case
-from rightofway.native import compiler
+from rightofway.native import name_compiler
 
 GRACE = 60.0
 """A case is ended that many seconds after thrice its time limit [s]."""
@@ -170,7 +170,7 @@ def describe_machine() -> dict[str, Any]:
         "version": rightofway.__version__,
         "cpu": _cpu(),
         "cores": count_cores(),
-        "compiler": compiler(),
+        "compiler": name_compiler(),
         "python": platform.python_version(),
     }
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from rightofway.arguments import checks_arguments
 from rightofway.bench.fleets import Cell, draw_grid, find_largest_part, make_scenario_document
-from rightofway.errors import InputError, Steps, Where, in_file, under
+from rightofway.errors import InputError, Steps, Where, locate_faults, name_file
 from rightofway.io import dump_scenario, load, scenario_of
 from rightofway.io.faults import Faults, validate
 from rightofway.io.formats import SCENARIO_FORMAT, SUITE_FORMAT, check_format
@@ -141,7 +141,7 @@ def read_suite(path: Path | str) -> tuple[Case, ...]:
     from rightofway.io.suite import SuiteDocument
 
     path = Path(path)
-    with in_file(str(path)):
+    with name_file(str(path)):
         data = check_format(parse_toml(read_text(path)), SUITE_FORMAT)
         combined = list(_combinations(validate(SuiteDocument, data), path.parent))
     cases: dict[str, Case] = {}
@@ -203,7 +203,7 @@ def _note_twins(faults: Faults, key: str, names: Sequence[str | None]) -> None:
 def _maps(document: MapCasesDocument, counts: Sequence[int] | None, base: Path) -> tuple[_Map, ...]:
     """Read a map of a suite with each of its files; places of faults are relative to the map."""
     if document.scenario is not None:
-        with under("scenario"):
+        with locate_faults("scenario"):
             scenario = load(base / document.scenario)
         name, content = Path(document.scenario).stem, {"scenario": dump_scenario(scenario)}
         count = len(scenario.robots)

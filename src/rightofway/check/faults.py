@@ -263,13 +263,13 @@ class Names:
 
     def say_moment(self, tick: int) -> str:
         """Return a point in time: ``time 2``, ``6 min 23 s``."""
-        return self.quantities.moment(int(tick))
+        return self.quantities.format_moment(int(tick))
 
     def say_until(self, tick: int) -> str:
         """Return a point in time that follows another one in a sentence: ``2``, ``6 min 23 s``."""
         has_unit = self.quantities.time_unit and not self.quantities.in_ticks
-        return self.say_moment(tick) if has_unit else self.quantities.cell(int(tick))
+        return self.say_moment(tick) if has_unit else self.quantities.format_cell(int(tick))
 
     def say_duration(self, ticks: int) -> str:
         """Return how long something lasts: ``2 time units``."""
-        return self.quantities.duration(int(ticks))
+        return self.quantities.format_duration(int(ticks))

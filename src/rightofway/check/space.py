@@ -22,7 +22,7 @@ from rightofway.check.visits import Visits
 from rightofway.model import Plan, Tick
 from rightofway.model.sorting import order_by
 from rightofway.phrases import Phrase, join_items
-from rightofway.quantities import decimal
+from rightofway.quantities import format_decimal
 from rightofway.site import Roadmap, VertexId
 
 Indices = NDArray[np.int64]
@@ -381,9 +381,9 @@ def _judge_discs(visits: Visits, shapes: _Shapes, names: Names, collector: Fault
                     " {place}, {other} {other_place}",
                     one=one_robot,
                     other=other_robot,
-                    distance=quantities.length(shapes.compute_length(square[k])),
-                    needed=decimal(shapes.compute_length(Fraction(needed**2))),
-                    moment=quantities.moment(when[k]),
+                    distance=quantities.format_length(shapes.compute_length(square[k])),
+                    needed=format_decimal(shapes.compute_length(Fraction(needed**2))),
+                    moment=quantities.format_moment(when[k]),
                     place=where,
                     other_place=other_where,
                 ),

@@ -15,7 +15,7 @@ from rightofway.check.turning import MICRO
 from rightofway.check.visits import Visits
 from rightofway.model import Itinerary, Plan, Stage, Tick
 from rightofway.phrases import Phrase, join_items
-from rightofway.quantities import decimal
+from rightofway.quantities import format_decimal
 from rightofway.site import VertexId
 
 
@@ -115,7 +115,7 @@ def judge_turns(visits: Visits, names: Names, collector: FaultCollector) -> None
         reason = Phrase(
             "{robot} turns {angle} degrees at {vertex} in {time}, it needs {least}",
             robot=names.name_robot(robot),
-            angle=decimal(Fraction(int(visits.angle[visit]), MICRO), 6),
+            angle=format_decimal(Fraction(int(visits.angle[visit]), MICRO), 6),
             vertex=at,
             time=names.say_duration(stay[visit] - visits.drive[visit]),
             least=names.say_duration(visits.turn[visit]),

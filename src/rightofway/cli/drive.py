@@ -189,7 +189,7 @@ def drive(
     quantities = choose_quantities(opened.scenario, in_ticks=in_ticks)
 
     def narrate(tick: int, sentence: str) -> None:
-        say(Phrase("{time}  {text}", time=f"{quantities.cell(tick):>8}", text=sentence))
+        say(Phrase("{time}  {text}", time=f"{quantities.format_cell(tick):>8}", text=sentence))
 
     from rightofway.control.demo import drive_demo
 

@@ -10,7 +10,7 @@ import click
 from rightofway.cli.completion import complete_words
 from rightofway.cli.options import require_writable
 from rightofway.cli.terminal import say, say_written
-from rightofway.errors import InputError, nearest
+from rightofway.errors import InputError, find_nearest
 from rightofway.files import write_whole
 from rightofway.phrases import Phrase
 from rightofway.report.examples import (
@@ -98,7 +98,7 @@ def _example(name: str) -> Path:
     if stem not in known and len(within) == 1:
         stem = within[0]
     if stem not in known:
-        meant = nearest(stem, known)
+        meant = find_nearest(stem, known)
         remedy = f"did you mean {meant}?" if meant else f"give one of: {', '.join(known)}"
         raise click.BadParameter(f"{name!r} is not an example ({remedy})", param_hint="NAME")
     beside = find_examples_folder() / stem

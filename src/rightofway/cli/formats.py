@@ -14,7 +14,7 @@ from rightofway.cli.inputs import add_foreign_options, count_option, read_either
 from rightofway.cli.options import ListingCommand, require_writable
 from rightofway.cli.outputs import put_text, write
 from rightofway.cli.terminal import put_json, say, say_of, say_written
-from rightofway.errors import InputError, nearest
+from rightofway.errors import InputError, find_nearest
 from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
@@ -135,7 +135,7 @@ def _check_format(name: str | None) -> None:
     """Refuse, before any work, a format that is not known."""
     known = tuple(_names())
     if name is not None and name not in known:
-        meant = nearest(name, known)
+        meant = find_nearest(name, known)
         hint = f"did you mean {meant}?" if meant else f"give one of {', '.join(known)}"
         raise click.BadParameter(f"{name!r} is no format ({hint})", param_hint="--to")
 
@@ -185,7 +185,7 @@ def _write_layout(source: str, path: str, name: str | None, radius: Fraction | N
     try:
         text, losses = layout_text(layout, name)
     except InputError as error:
-        raise InputError(fault.in_file(source) for fault in error.faults) from None
+        raise InputError(fault.name_file(source) for fault in error.faults) from None
     put_text(text, path)
     for note in (*layout.notes, *losses):
         say_of(path, note)
@@ -222,7 +222,7 @@ def _write_plan(plan: Plan, path: str, name: str | None) -> None:
                 Phrase("work, turning and ways back are left out, only cells and steps are kept"),
             )
         if plan.scenario.problem.clock.tick != 1:
-            step = plan.scenario.quantities.duration(1)
+            step = plan.scenario.quantities.format_duration(1)
             say_of(path, Phrase("a step lasts {time}", time=step))
     elif path == "-" or path.lower().endswith((".json", ".xlsx")):
         write(plan, path)

@@ -119,7 +119,7 @@ def laps(
     deadline = choose_deadline(time_limit)
     with limit_work(deadline):
         problem = read_scenario(scenario)
-    time_limit = deadline.seconds_left()
+    time_limit = deadline.measure_seconds_left()
     with show_progress(time_limit) as report:
         if rule == TIMETABLE:
             run = best_timetable(

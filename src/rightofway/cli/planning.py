@@ -197,9 +197,9 @@ def bound(
     losses: tuple[ForcedLoss, ...] = ()
     if time_limit is not None:
         deadline = Deadline.after(time_limit)
-        share = deadline.sooner(SHARE_OF_PAIRS).seconds_left()
+        share = deadline.shorten(SHARE_OF_PAIRS).measure_seconds_left()
         losses = find_forced_losses(problem, time_limit=share)
-        proof, is_reached = prove_bound(problem, time_limit=deadline.seconds_left())
+        proof, is_reached = prove_bound(problem, time_limit=deadline.measure_seconds_left())
     if as_json:
         robots = [{"name": name, "alone": ticks} for name, ticks in zip(names, alone, strict=True)]
         bounds = {"flowtime": sum(alone), "makespan": max(alone)}
@@ -259,7 +259,7 @@ def _run(
         plan = search(
             problem,
             planner,
-            deadline.seconds_left(),
+            deadline.measure_seconds_left(),
             seed,
             options=options,
             report=report,

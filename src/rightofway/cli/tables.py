@@ -78,7 +78,7 @@ def _shown(
     step: Fraction | None,
     in_ticks: bool,
 ) -> _Shown:
-    from rightofway.quantities import decimal
+    from rightofway.quantities import format_decimal
     from rightofway.viz.table import end_of
 
     if step == 0:
@@ -88,11 +88,11 @@ def _shown(
     tick = Fraction(1) if in_ticks else quantities.tick
     end = end_of(plan, names)
     if first > end * tick:
-        message = f"everything has ended at {quantities.moment(end)} (give less)"
-        raise InputError.at("--from", f"{decimal(first)} is too late: {message}")
+        message = f"everything has ended at {quantities.format_moment(end)} (give less)"
+        raise InputError.at("--from", f"{format_decimal(first)} is too late: {message}")
     if last is not None and last < first:
-        begin = decimal(first)
-        message = f"{decimal(last)} is before --from, {begin} (give {begin} or more)"
+        begin = format_decimal(first)
+        message = f"{format_decimal(last)} is before --from, {begin} (give {begin} or more)"
         raise InputError.at("--to", message)
     return _Shown(
         first_tick=math.ceil(first / tick),
@@ -328,15 +328,15 @@ def _group_words(
 ) -> list[str]:
     i, j = (plan.scenario.robots[robot].name for robot in decision.robots)
     place = PlaceNames(plan.scenario, numbered=True)(decision.vertices[0])
-    moment = quantities.moment(decision.tick)
+    moment = quantities.format_moment(decision.tick)
     meeting = {"robot": i, "other": j, "place": place, "moment": moment}
     lines: list[str] = [Phrase("{robot} and {other} meet at {place} at {moment}.", **meeting)]
     for number, pair in enumerate(completions, 1):
         if pair is None:
             lines.append(Phrase("List {number}: no way was found.", number=str(number)))
             continue
-        first, other = map(quantities.cell, pair)
-        total = quantities.duration(sum(pair))
+        first, other = map(quantities.format_cell, pair)
+        total = quantities.format_duration(sum(pair))
         sums = f"W({i}) + W({j}) = {first} + {other}"
         values = {"number": str(number), "sum": sums, "total": total}
         lines.append(Phrase("List {number}: {sum} = {total}", **values))

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rightofway.deadline import Deadline
-from rightofway.errors import nearest, printable
+from rightofway.errors import escape_text, find_nearest
 from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ def _set_language(context: click.Context, _parameter: click.Parameter, given: st
 
     known = [ENGLISH, *find_languages()]
     if given not in known:
-        meant = nearest(given, known)
+        meant = find_nearest(given, known)
         remedy = f"did you mean {meant}?" if meant else f"give {' or '.join(known)}"
         raise click.BadParameter(f"{given!r} is not a known language ({remedy})")
     context.meta[LANGUAGE] = given
@@ -115,7 +115,7 @@ def complain(message: str) -> None:
     from rightofway.languages import translate
 
     text = translate(message, get_language())
-    click.echo("\n".join(map(printable, text.split("\n"))), err=True)
+    click.echo("\n".join(map(escape_text, text.split("\n"))), err=True)
 
 
 def put_report(report: str | Iterable[Part]) -> None:
@@ -153,14 +153,14 @@ def show_progress(
     began = time.monotonic() if since is None else since
     latest, ended, shown_in = [""], threading.Event(), get_language()
     from rightofway.languages import translate
-    from rightofway.quantities import decimal
+    from rightofway.quantities import format_decimal
 
     def show(message: str) -> None:
         latest[0] = message
         passed = f"{time.monotonic() - began:.1f}"
         seconds = Phrase("{time} s", time=passed)
         if limit is not None:
-            seconds = Phrase("{time} of {limit} s", time=passed, limit=decimal(limit))
+            seconds = Phrase("{time} of {limit} s", time=passed, limit=format_decimal(limit))
         line = ", ".join(filter(None, [translate(seconds, shown_in), translate(message, shown_in)]))
         while len(line) >= measure_width() and ", " in line:
             line = line.rpartition(", ")[0]

@@ -271,7 +271,7 @@ def _write(plan: Plan, path: str, extras: dict[str, Any]) -> None:
 
     if path.lower().endswith(".gif"):
         film = write_gif(plan, path)
-        apart = plan.scenario.quantities.duration(film.ticks_per_frame)
+        apart = plan.scenario.quantities.format_duration(film.ticks_per_frame)
         say(Phrase("{number} frames, {time} apart", number=str(film.frames), time=apart))
     else:
         write_page(plan, path, **extras)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from urllib.parse import unquote, urlsplit
 
 from rightofway.control.endpoints import Letter
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, quote
 
 if TYPE_CHECKING:
     import aiomqtt
@@ -83,7 +83,7 @@ class Broker:
             parts, port = urlsplit(""), None
         if port is None or not parts.hostname or parts.path.strip("/") or parts.query:
             remedy = "give mqtt://host, mqtt://user@host:port, or mqtts://… with TLS"
-            raise InputError.at("broker", f"{shown(url)} is no address of a broker ({remedy})")
+            raise InputError.at("broker", f"{quote(url)} is no address of a broker ({remedy})")
         if parts.password is not None:
             remedy = f"set {PASSWORD}, or give --password-file"
             raise InputError.at("broker", f"a password is in the address ({remedy})")

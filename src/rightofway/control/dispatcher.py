@@ -21,7 +21,7 @@ from rightofway.control.ledger import Edge, Ledger, RobotLedger, RouteToDrive
 from rightofway.control.messages import Message
 from rightofway.control.rest import RestPlanner, StopToMake, list_stops_to_make
 from rightofway.control.routes import make_routes_to_drive
-from rightofway.errors import GaveUp, InputError, nearest, shown
+from rightofway.errors import GaveUp, InputError, find_nearest, quote
 from rightofway.model import Plan
 from rightofway.precedence import Part, ReleaseGraph
 from rightofway.search import Distances
@@ -250,7 +250,7 @@ class Dispatcher:
         robot, _, job = name.rpartition("/")
         number = self.number_of(robot)
         if job not in self.ledger.robots[number].failed:
-            raise InputError.at("job", f"{shown(name)} has not failed (see rightofway jobs list)")
+            raise InputError.at("job", f"{quote(name)} has not failed (see rightofway jobs list)")
         return {"robot": number, "job": job}
 
     def replan(self) -> list[Message]:
@@ -392,8 +392,8 @@ class Dispatcher:
         """
         names = self.ledger.names
         if name not in names:
-            meant = nearest(name, names) or names[0]
-            raise InputError.at("robot", f"{shown(name)} is no robot (for example {meant})")
+            meant = find_nearest(name, names) or names[0]
+            raise InputError.at("robot", f"{quote(name)} is no robot (for example {meant})")
         return names.index(name)
 
     def note(self, *entries: Entry, text: str) -> list[Message]:
@@ -510,8 +510,8 @@ class Dispatcher:
         own = self.ledger.robots[number]
         if job in own.route.all_jobs:
             state = "done" if job in own.finished else "released"
-            raise InputError.at("job", f"{shown(name)} is {state} already (it cannot be changed)")
-        raise InputError.at("job", f"{shown(name)} is no job (see rightofway jobs list)")
+            raise InputError.at("job", f"{quote(name)} is {state} already (it cannot be changed)")
+        raise InputError.at("job", f"{quote(name)} is no job (see rightofway jobs list)")
 
 
 def _route_from(route: RouteToDrive, place: str) -> RouteToDrive:

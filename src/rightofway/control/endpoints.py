@@ -19,7 +19,7 @@ from rightofway.control.messages import Condition, InstantAction, Message, Order
 from rightofway.control.notices import Notices
 from rightofway.control.order_map import OrderLane, OrderMap, Place
 from rightofway.control.simulated_robot import SimulatedRobot
-from rightofway.errors import InputError, printable, shown
+from rightofway.errors import InputError, escape_text, quote
 from rightofway.phrases import Phrase
 
 __all__ = ["ControlEnd", "Letter", "RobotEnd"]
@@ -169,7 +169,7 @@ class ControlEnd:
             self._compare(robot, vda5050.read(vda5050.Factsheet, document, "factsheet"))
         except InputError as error:
             path = ".".join(step for step in error.faults[0].path if isinstance(step, str))
-            reason = Phrase("sent what cannot be read: {error}", error=printable(str(error)))
+            reason = Phrase("sent what cannot be read: {error}", error=escape_text(str(error)))
             self.notices.report_once(robot, f"message {path}", reason)
         return []
 
@@ -364,11 +364,11 @@ def _document(payload: bytes) -> dict[str, Any]:
         document = json.loads(payload)
     except (ValueError, RecursionError) as error:
         message = (
-            f"{shown(payload[:200].decode(errors='replace'))} is no JSON"
+            f"{quote(payload[:200].decode(errors='replace'))} is no JSON"
             " (the sender has to send it)"
         )
         raise InputError.at("message", message) from error
     if not isinstance(document, dict):
-        message = f"{shown(document)} is no JSON object (the sender has to send one)"
+        message = f"{quote(document)} is no JSON object (the sender has to send one)"
         raise InputError.at("message", message)
     return document

@@ -22,7 +22,7 @@ from rightofway.control.messages import (
     OrderNode,
     RobotState,
 )
-from rightofway.errors import InputError, printable
+from rightofway.errors import InputError, escape_text
 from rightofway.phrases import Phrase
 from rightofway.precedence import Arrival, Part, ReleaseGraph
 
@@ -433,7 +433,7 @@ class FleetControl:
             return Phrase("it drives to node {node}, which was not released", node=str(beyond[0]))
         places = own.route.stretch(sent.offset, end + 1)
         if state.order_id == own.order_id and state.last_place not in {*places, ""}:
-            return Phrase("it is at {place}, off its way", place=printable(state.last_place[:80]))
+            return Phrase("it is at {place}, off its way", place=escape_text(state.last_place[:80]))
         return None
 
     def _fault_of_order(self, robot: int, own: RobotLedger, state: RobotState) -> str | None:
@@ -441,7 +441,7 @@ class FleetControl:
         if not state.order_id:
             return None
         if not self.ledger.owns(robot, state.order_id):
-            order = printable(state.order_id[:80])
+            order = escape_text(state.order_id[:80])
             return Phrase("it has order {order}, which is not ours", order=order)
         number = int(state.order_id.rpartition("-")[2])
         if number < own.first_order and state.nodes:
@@ -484,7 +484,7 @@ class FleetControl:
             if stands_at is not None:
                 yield self._new_order(robot, stands_at, own.released)
             elif own.fault is None:
-                place = printable(state.last_place[:80])
+                place = escape_text(state.last_place[:80])
                 fault = Phrase("it stands at {place}, which it does not hold", place=place)
                 yield self._fault_entry(robot, fault, state)
 

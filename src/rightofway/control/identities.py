@@ -14,7 +14,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field
 
-from rightofway.errors import InputError, in_file, nearest, shown
+from rightofway.errors import InputError, find_nearest, name_file, quote
 from rightofway.io.faults import Faults, validate
 from rightofway.io.fields import Angle, Document, NotNegative, optional
 from rightofway.io.scenario.writer import yaml_of
@@ -98,14 +98,14 @@ class Identity:
     def __post_init__(self) -> None:
         if self.version not in VERSIONS:
             known = ", ".join(VERSIONS)
-            message = f"{shown(self.version)} is no version of VDA 5050 (one of {known})"
+            message = f"{quote(self.version)} is no version of VDA 5050 (one of {known})"
             raise InputError.at("version", message)
         if not self.interface:
             object.__setattr__(self, "interface", "uagv" if self.version < "3" else "vda5050")
         for key in ("interface", "manufacturer", "serial_number"):
             value = getattr(self, key)
             if not value or FORBIDDEN & set(value):
-                message = f"{shown(value)} cannot be part of a topic (leave out / + # $)"
+                message = f"{quote(value)} cannot be part of a topic (leave out / + # $)"
                 raise InputError.at(key, message)
 
     def get_topic(self, name: str) -> str:
@@ -122,7 +122,7 @@ class Identity:
 
 def _topic_part(value: str) -> str:
     if not value or FORBIDDEN & set(value):
-        raise ValueError(f"{shown(value)} cannot be part of a topic (leave out / + # $)")
+        raise ValueError(f"{quote(value)} cannot be part of a topic (leave out / + # $)")
     return value
 
 
@@ -198,12 +198,12 @@ def load_identities(path: Path | str, names: Sequence[str]) -> list[Identity]:
         With every fault: a robot without an identity, one that the plan does not have, two robots
         of one serial number, keys that are unknown.
     """
-    with in_file(str(path)):
+    with name_file(str(path)):
         document = validate(IdentitiesDocument, parse_document(read_text(Path(path)), Path(path)))
         faults = Faults()
         for name in document.robots:
             if name not in names:
-                near = nearest(name, names)
+                near = find_nearest(name, names)
                 remedy = f"did you mean {near!r}?" if near else "take it out"
                 faults.note(("robots", name), f"the plan has no robot of this name ({remedy})")
         owners = dict[str, str]()
@@ -219,7 +219,7 @@ def load_identities(path: Path | str, names: Sequence[str]) -> list[Identity]:
             identities.append(identity)
             other = owners.setdefault(identity.get_topic(""), name)
             if other != name:
-                message = f"{shown(own.serial)} is the serial number of {other}, too (correct one)"
+                message = f"{quote(own.serial)} is the serial number of {other}, too (correct one)"
                 faults.note(("robots", name, "serial"), message)
         faults.stop(["robots"])
         return identities

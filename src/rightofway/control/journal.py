@@ -15,7 +15,7 @@ from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, quote
 
 Entry = Mapping[str, Any]
 """A journal entry as JSON has it, with its ``kind``."""
@@ -138,7 +138,7 @@ class SqliteJournal:
             try:
                 yield json.loads(text)
             except ValueError as error:
-                message = f"{shown(text)} is no entry of a journal (name another file)"
+                message = f"{quote(text)} is no entry of a journal (name another file)"
                 raise InputError.at(("entry", number), message) from error
 
     def commit(self, entries: Iterable[Entry]) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 from rightofway.control.journal import Entry
 from rightofway.control.messages import AUTOMATIC, Condition
-from rightofway.errors import printable
+from rightofway.errors import escape_text
 from rightofway.phrases import Phrase, to_parts
 from rightofway.report.driving import describe_robot
 
@@ -65,8 +65,8 @@ class Notices:
         """
         text = ""
         if sentence:
-            plain = sentence if isinstance(sentence, Phrase) else printable(sentence)
-            text = describe_robot(printable(self._names[robot]), plain)
+            plain = sentence if isinstance(sentence, Phrase) else escape_text(sentence)
+            text = describe_robot(escape_text(self._names[robot]), plain)
             self._report(text)
         self._keep(make_notice(to_parts(text), robot, kind, is_over=is_over))
 
@@ -143,7 +143,7 @@ def _troubles(condition: Condition) -> Iterator[tuple[str, tuple[str, str]]]:
     if condition.mode not in AUTOMATIC:
         begin = Phrase(
             "is in mode {mode}: it gets nothing more until it is in AUTOMATIC again",
-            mode=printable(condition.mode[:40]),
+            mode=escape_text(condition.mode[:40]),
         )
         yield "mode", (begin, Phrase("is in an automatic mode again"))
     if condition.is_paused:
@@ -152,13 +152,13 @@ def _troubles(condition: Condition) -> Iterator[tuple[str, tuple[str, str]]]:
     if condition.emergency_stop not in {"NONE", ""}:
         begin = Phrase(
             "is in emergency stop ({stop}): a person has to look",
-            stop=printable(condition.emergency_stop[:40]),
+            stop=escape_text(condition.emergency_stop[:40]),
         )
         yield "emergency stop", (begin, Phrase("is out of its emergency stop"))
     for error in condition.errors:
-        level, kind = printable(error.level[:40]), printable(error.kind[:60])
+        level, kind = escape_text(error.level[:40]), escape_text(error.kind[:60])
         sentence = Phrase("reports {level} {error}", level=level, error=kind)
         if error.description:
-            words = printable(error.description[:200])
+            words = escape_text(error.description[:200])
             sentence = Phrase("{report}: {words}", report=sentence, words=words)
         yield f"error {error.level[:40]} {error.kind[:60]}", (sentence, "")

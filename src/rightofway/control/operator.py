@@ -15,7 +15,7 @@ from rightofway.control.commands import Answer, Commands
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.journal import Entry
 from rightofway.control.messages import Message
-from rightofway.errors import GaveUp, InputError, shown
+from rightofway.errors import GaveUp, InputError, quote
 
 __all__ = ["Operator"]
 
@@ -105,7 +105,7 @@ class Operator:
         robots = range(len(names)) if name is None else [dispatcher.number_of(name)]
         entry = OPERATIONS.get(kind)
         if entry is None:
-            raise InputError.at("command", f"{shown(kind)} is no command (see rightofway jobs)")
+            raise InputError.at("command", f"{quote(kind)} is no command (see rightofway jobs)")
         if name is None and kind not in {"hold", "go"}:
             raise InputError.at("robot", f"{kind} needs the name of a robot (give one)")
         text = f"{name or 'all robots'}: {kind}"

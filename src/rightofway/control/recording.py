@@ -14,7 +14,7 @@ from typing import Any, Protocol
 from rightofway.control.journal import JournalRow
 from rightofway.control.ledger import Ledger, RobotLedger, RouteToDrive
 from rightofway.control.story import Story
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, quote
 from rightofway.model import Plan
 from rightofway.phrases import to_parts
 from rightofway.report.driving import say_start
@@ -217,7 +217,7 @@ class Recording:
                 try:
                     self._roadmap.get_vertex(place)
                 except InputError:
-                    message = f"is of another map, with {shown(place)} (give the plan of it)"
+                    message = f"is of another map, with {quote(place)} (give the plan of it)"
                     raise InputError.at("journal", message) from None
 
     def _notice(self, entry: Any, tick: float) -> None:

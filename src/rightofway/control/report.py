@@ -35,14 +35,14 @@ def report(result: DemoResult, quantities: Quantities, language: str = ENGLISH) 
 def _totals(result: DemoResult, quantities: Quantities) -> Iterator[tuple[str, str]]:
     yield Phrase("jobs"), Phrase("{number} done", number=str(sum(result.jobs)))
     if result.trace is None:
-        time = quantities.duration(result.now)
+        time = quantities.format_duration(result.now)
         yield Phrase("laps"), Phrase("{number} in {time}", number=str(sum(result.laps)), time=time)
     else:
         makespan = max(completion or 0 for completion in result.trace.completion)
         text = Phrase(
             "{makespan}; planned {planned}",
-            makespan=quantities.duration(makespan),
-            planned=quantities.duration(max(result.plan.completions)),
+            makespan=quantities.format_duration(makespan),
+            planned=quantities.format_duration(max(result.plan.completions)),
         )
         yield Phrase("makespan"), text
     sent = result.messages
@@ -60,15 +60,16 @@ def _robots(result: DemoResult, quantities: Quantities) -> Iterator[Part]:
         yield Phrase("laps of each robot")
         headings = (Phrase("laps"), Phrase("mean lap"))
         times = [
-            (str(laps), quantities.cell(round(result.now / laps)) if laps else "-")
+            (str(laps), quantities.format_cell(round(result.now / laps)) if laps else "-")
             for laps in result.laps
         ]
     else:
-        yield quantities.heading(Phrase("completion of each robot"))
+        yield quantities.format_heading(Phrase("completion of each robot"))
         headings = (Phrase("planned"), Phrase("actual"))
         pairs = zip(result.plan.completions, result.trace.completion, strict=True)
         times = [
-            (quantities.cell(planned), quantities.cell(actual or 0)) for planned, actual in pairs
+            (quantities.format_cell(planned), quantities.format_cell(actual or 0))
+            for planned, actual in pairs
         ]
     rows = [
         (robots[robot].name, str(result.jobs[robot]), str(result.waits[robot]), *times[robot])

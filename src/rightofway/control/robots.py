@@ -21,7 +21,7 @@ from rightofway.control.endpoints import Letter, RobotEnd
 from rightofway.control.identities import Identity
 from rightofway.control.messages import Condition, RobotError
 from rightofway.control.simulated_robot import SimulatedRobot
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, quote
 from rightofway.model import Plan
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ def parse_troubles(texts: Iterable[str]) -> dict[str, float]:
             value = -1.0
         if kind not in TROUBLES or not 0 <= value <= (100 if kind == "late" else 1):
             known = ", ".join(TROUBLES)
-            message = f"{shown(text)} is no trouble (give kind:share; kinds are {known})"
+            message = f"{quote(text)} is no trouble (give kind:share; kinds are {known})"
             raise InputError.at("trouble", message)
         troubles[kind] = value
     return troubles

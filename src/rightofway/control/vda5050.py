@@ -23,7 +23,7 @@ from rightofway.control.messages import (
     RobotState,
 )
 from rightofway.control.order_map import OrderLane, OrderMap, Place, Work
-from rightofway.errors import InputError, InputFault, shown
+from rightofway.errors import InputError, InputFault, quote
 
 __all__ = [
     "ActionState",
@@ -571,5 +571,5 @@ def read(model: type[_AnyModel], document: Mapping[str, Any], name: str) -> _Any
         return model.model_validate(document)
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
-        message = f"{first['msg'].lower()}: {shown(first['input'])} (the sender has to send it)"
+        message = f"{first['msg'].lower()}: {quote(first['input'])} (the sender has to send it)"
         raise InputError([InputFault((name, *first["loc"]), message)]) from error

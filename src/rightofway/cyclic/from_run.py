@@ -58,7 +58,7 @@ class SimulatedRun:
         self._simulator = CyclicSimulator(context, "first-come")
         self.known, self.pace = 0, 0.0
         self.result = advance(self._simulator, Deadline.after(0))
-        left = problem.deadline.seconds_left() or 0.0
+        left = problem.deadline.measure_seconds_left() or 0.0
         most, look = params.most_share * left, params.most_share * left / params.looks
         if rule != "first-come":
             self._advance_laps(params.laps_dispersing, look, most)
@@ -115,11 +115,11 @@ def choose_runs(
     rest = iter(((direct, "least-loss"), (direct, "first-come"), (context, "least-loss")))
     tried, enough = [baseline], params.good * baseline.value
     loss = params.seam * float(problem.worth([1] * len(problem)))
-    reserve = (1 - params.continuing_share) * (deadline.seconds_left() or 0)
+    reserve = (1 - params.continuing_share) * (deadline.measure_seconds_left() or 0)
 
     def best() -> SimulatedRun:
         """Return the run with the largest estimated value after continuing and closing."""
-        seconds = max((deadline.seconds_left() or 0) - reserve, 0)
+        seconds = max((deadline.measure_seconds_left() or 0) - reserve, 0)
         return max(
             tried,
             key=lambda run: float(run.value) - loss / max(run.known + run.pace * seconds, 1),
@@ -130,7 +130,7 @@ def choose_runs(
         while run.value <= enough and (another := next(rest, None)):
             tried.append(SimulatedRun(problem, *another, params))
             run = best()
-        run.advance(max((deadline.seconds_left() or 0) - reserve, 0) / left)
+        run.advance(max((deadline.measure_seconds_left() or 0) - reserve, 0) / left)
     return [run.result for run in tried if all(run.result.laps_made())]
 
 

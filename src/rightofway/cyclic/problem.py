@@ -80,12 +80,12 @@ class CyclicProblem:
 
     def sooner(self, share: float) -> Self:
         """Return the same problem with a share of the time left."""
-        return replace(self, deadline=self.deadline.sooner(share))
+        return replace(self, deadline=self.deadline.shorten(share))
 
     @property
     def is_out_of_time(self) -> bool:
         """Whether the deadline has passed."""
-        return self.deadline.seconds_left() == 0
+        return self.deadline.measure_seconds_left() == 0
 
     def with_ways(self, laps: Sequence[Lap]) -> Self:
         """Return the same problem with one more candidate lap for each robot."""
@@ -188,7 +188,7 @@ class CyclicProblem:
         if lap or not self.round_trips:
             return None
         phase = self.draw.randrange(int(bookings.period))
-        seconds = self.deadline.seconds_left()
+        seconds = self.deadline.measure_seconds_left()
         trip = self.round_trips[robot]
         way_found = bookings.find_route(trip, phase, robot=robot, time_limit=seconds)
         if way_found is None:
@@ -203,6 +203,9 @@ class CyclicProblem:
     def _search(
         self, bookings: PeriodicBookings, robot: int, lap: Lap, count: int
     ) -> RobotCycle | None:
-        phase, seconds = self.draw.randrange(int(bookings.period)), self.deadline.seconds_left()
+        phase, seconds = (
+            self.draw.randrange(int(bookings.period)),
+            self.deadline.measure_seconds_left(),
+        )
         enter = bookings.search(lap, count, phase, robot=robot, time_limit=seconds)
         return None if enter is None else RobotCycle(lap, count, enter)

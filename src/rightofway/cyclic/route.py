@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, InputFault
 from rightofway.model import BookingRules, Lap, Robot, Route, Scenario, Tick, lap_of
-from rightofway.native import BookedRows, excluded_by
+from rightofway.native import BookedRows, list_excluded
 from rightofway.planners.routing import (
     clear_routes,
     find_direct_routes,
@@ -163,7 +163,7 @@ class GroupContext:
         """Return the rows of other robots that keep a robot from the drive into a visit."""
         resources = self.scenario.problem.resources
         row, edge = self.booked_at(index, visit)[0], self.booked_at(index, visit - 1)[1]
-        return (*excluded_by(resources, row), *excluded_by(resources, edge))
+        return (*list_excluded(resources, row), *list_excluded(resources, edge))
 
     @property
     def reach(self) -> int:
@@ -219,7 +219,7 @@ def _one_lap_each(scenario: Scenario) -> tuple[Scenario, Distances]:
     if scenario.rules.ends == "none" and all(robot.ends != "home" for robot in scenario.robots):
         raise InputError.at(("rules", "return"), NOTHING_REPEATS)
     faults = [
-        fault.within(("robots", index))
+        fault.nest(("robots", index))
         for index, robot in enumerate(scenario.robots)
         for fault in _faults(robot, scenario)
     ]
@@ -250,7 +250,7 @@ def take_out_closed_places(scenario: Scenario) -> Scenario:
         return scenario
     once = "is at one time, and laps come again (take it out, or close the place for ever, from 0)"
     faults = [
-        InputFault("", once).within(("closures", index))
+        InputFault("", once).nest(("closures", index))
         for index, closure in enumerate(scenario.closures)
         if closure.from_ > 0 or closure.until is not None
     ]
@@ -309,7 +309,7 @@ def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
     avoiding, roadmap, resources = list(routes), scenario.roadmap, scenario.problem.resources
     itineraries = scenario.problem.itineraries
     at_home = [
-        frozenset(excluded_by(resources, resources.vertex_row(robot, itinerary.home)))
+        frozenset(list_excluded(resources, resources.vertex_row(robot, itinerary.home)))
         for robot, itinerary in enumerate(itineraries)
     ]
     owners = defaultdict[int, list[int]](list)  # of homes, by the rows that exclude them
@@ -397,5 +397,5 @@ def rows_of(scenario: Scenario, robot: int, lap: Lap) -> LapRows:
     booked = frozenset(
         np.concatenate(resources.rows_of_lap(scenario.roadmap, robot, lap.vertices)).tolist()
     )
-    excluded = (excluded_by(resources, row) for row in booked)
+    excluded = (list_excluded(resources, row) for row in booked)
     return LapRows(booked, frozenset(chain.from_iterable(excluded)))

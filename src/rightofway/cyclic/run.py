@@ -16,7 +16,7 @@ from rightofway.cyclic.route import (
 )
 from rightofway.cyclic.rules import NATIVE_RULES, RULES
 from rightofway.cyclic.simulator import CyclicSimulator, Deadlock
-from rightofway.errors import GaveUp, kernel_limits
+from rightofway.errors import GaveUp, report_kernel_limits
 from rightofway.model import Scenario, checked_time_limit
 from rightofway.model.given import checked_scenario, require_functions
 from rightofway.model.place_names import PlaceNames
@@ -29,7 +29,7 @@ Simulation = CyclicSimulator | RollingHorizon
 """The simulation of a group under a lap rule."""
 
 
-@kernel_limits()
+@report_kernel_limits()
 def run_laps(
     scenario: Scenario,
     rule: str = "first-come",
@@ -122,11 +122,11 @@ def share_time(
                     robots=str(sizes[index]),
                 )
             )
-            share = deadline.sooner(max(sizes[index] / left, least_share))
+            share = deadline.shorten(max(sizes[index] / left, least_share))
             left -= sizes[index]
             results[index] = advance(simulations[index], share)
         open_ones = [index for index in open_ones if results[index].ends == "open"]
-        if deadline.seconds_left() == 0:
+        if deadline.measure_seconds_left() == 0:
             break
     return [results[index] for index in range(len(simulations))]
 
@@ -157,6 +157,6 @@ def advance(simulation: Simulation, deadline: Deadline) -> GroupResult:
 def _explain(deadlock: Deadlock, context: GroupContext) -> str:
     names, place = context.names, PlaceNames(context.scenario)
     i, j = (names[robot] for robot in deadlock.robots)
-    moment = context.scenario.quantities.moment(deadlock.tick)
+    moment = context.scenario.quantities.format_moment(deadlock.tick)
     where = Phrase("{name} ({what})", name=place(deadlock.vertex), what=moment)
     return describe_deadlock((i, j), where, [names[robot] for robot in deadlock.circle])

@@ -120,7 +120,7 @@ class CyclicSimulator:
         GaveUp
             If time runs out; another call continues.
         """
-        answer = self._kernel.advance(deadline.seconds_left())
+        answer = self._kernel.advance(deadline.measure_seconds_left())
         if answer == OPEN:
             raise GaveUp("time ran out before a state came again (give a longer time limit)")
         if answer == REPEATS:

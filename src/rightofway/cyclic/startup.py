@@ -17,7 +17,7 @@ from rightofway.cyclic.result import BaselineComparison, GroupResult
 from rightofway.cyclic.route import CyclicRoute, GroupContext
 from rightofway.model import Scenario, Tick
 from rightofway.model.lap import compute_dwell_between_laps
-from rightofway.native import excluded_by
+from rightofway.native import list_excluded
 from rightofway.precedence import CyclicSchedule
 
 
@@ -93,7 +93,7 @@ def _passes(scenario: Scenario, timetable: CyclicSchedule) -> dict[int, NDArray[
     booked = list[list[tuple[int, ...]]]()  # of each visit of each lap
     for index, (robot, lap) in enumerate(zip(timetable.robots, timetable.laps, strict=True)):
         rows = resources.rows_of_lap(scenario.roadmap, robot, lap.vertices)
-        for row in excluded_by(resources, int(rows[0][0])):
+        for row in list_excluded(resources, int(rows[0][0])):
             owners[row].append(index)
         booked.append(list(zip(rows[0].tolist(), rows[1].tolist(), strict=True)))
     passes = defaultdict[int, list[NDArray[np.int64]]](list)

@@ -29,7 +29,7 @@ from rightofway.cyclic.route import (
 from rightofway.cyclic.rules import TIMETABLE
 from rightofway.cyclic.run import advance, simulation_of
 from rightofway.cyclic.startup import start
-from rightofway.errors import GaveUp, InputError, kernel_limits
+from rightofway.errors import GaveUp, InputError, report_kernel_limits
 from rightofway.model import Scenario, Tick, checked_time_limit
 from rightofway.model.given import checked_scenario, require_functions, require_number, require_seed
 from rightofway.phrases import Phrase
@@ -63,7 +63,7 @@ class ChoiceParams:
     most_visits: int = 20_000  # Up to this many visits, a fractional cycle time becomes whole.
 
 
-@kernel_limits()
+@report_kernel_limits()
 def best_timetable(
     scenario: Scenario,
     *,
@@ -327,7 +327,7 @@ def _fair_pattern(problem: CyclicProblem, run: GroupResult) -> Candidate | None:
 
 def _simulated(problem: CyclicProblem, rule: str, share: float) -> GroupResult:
     """Simulate the group on its usual routes for a share of the time."""
-    return advance(simulation_of(problem.context, rule), problem.deadline.sooner(share))
+    return advance(simulation_of(problem.context, rule), problem.deadline.shorten(share))
 
 
 def _baseline(problem: CyclicProblem, run: GroupResult) -> tuple[BaselineEnds, Fraction]:

@@ -14,7 +14,7 @@ from rightofway.check import check
 from rightofway.cyclic.bottleneck import begin_with_longest_run
 from rightofway.cyclic.pattern import Pattern
 from rightofway.cyclic.result import CyclicResult, GroupResult
-from rightofway.errors import GaveUp, InputError, shown
+from rightofway.errors import GaveUp, InputError, quote
 from rightofway.model import Plan, PlannerRun, SteadyState, Track
 from rightofway.model.given import require_number
 from rightofway.phrases import Phrase
@@ -48,7 +48,7 @@ def plan_of_laps(result: CyclicResult, laps: int | None = None) -> Plan:
     """
     if not isinstance(result, CyclicResult):
         remedy = "simulate laps with rightofway.run_laps"
-        raise InputError.at("result", f"{shown(result)} is no result of laps ({remedy})")
+        raise InputError.at("result", f"{quote(result)} is no result of laps ({remedy})")
     plan = unroll_laps(result, None if laps is None else require_number("laps", laps, 1, MOST_LAPS))
     report = check(plan)
     if not report.ok:

@@ -46,7 +46,7 @@ from rightofway.model import (
     route_of,
     turns_along,
 )
-from rightofway.native import clashes, excluded_by
+from rightofway.native import find_clashes, list_excluded
 from rightofway.planners import Deadline, Task
 from rightofway.planners.lacam import build_timetable_if_possible
 from rightofway.planners.moves import find_tracks_by_moves
@@ -162,7 +162,7 @@ def list_held(scenario: Scenario, paths: Mapping[int, Sequence[int]]) -> Held:
             for ends in pairwise(path)
             if (edge := roadmap.find_edge(*ends)) is not None
         )
-        rows.update(other for row in own for other in excluded_by(resources, row))
+        rows.update(other for row in own for other in list_excluded(resources, row))
     n_vertices, count = resources.n_vertices, resources.n_vertices + resources.n_edges
     sizes = {int(resources.size_of[k]) for k in range(len(scenario.robots)) if k not in paths}
     shut = {row % count for row in rows if row // count in sizes}
@@ -214,7 +214,7 @@ def replan(
     options = {"iterations": NEIGHBOURHOODS * len(stages)}
     plans = [first]
     try:
-        left = deadline.seconds_left()
+        left = deadline.measure_seconds_left()
         plans.insert(0, improve(first, time_limit=left, seed=seed, options=options))
     except (NoPlanExists, GaveUp):
         pass  # the first plan is kept
@@ -263,7 +263,7 @@ def _another_way(
     is_simple = rest.problem.resources.are_points and not rest.closures
     find = _together if is_simple else _by_turns
     for cut_off, tried in islice(_choices(rest, broken, commitments), MOST_CHOICES):
-        if deadline.seconds_left() == 0:
+        if deadline.measure_seconds_left() == 0:
             return None
         try:
             other_routes = find(_rest(rest, rest.roadmap, tried), cut_off, seed, deadline)
@@ -293,7 +293,7 @@ def _together(
         rest.problem.in_steps(),
         seed=seed,
         most_effort=MOST_STEPS * len(rest.robots),
-        time_limit=deadline.seconds_left(),
+        time_limit=deadline.measure_seconds_left(),
         spreads=False,
         ends_anywhere=cut_off,
     )
@@ -307,10 +307,10 @@ def _by_turns(
     task = Task(scenario=rest, seed=seed, deadline=deadline)
     tracks: Sequence[Track] = ()
     ends = [itinerary.last for itinerary in problem.itineraries]
-    if not any(clashes(problem.resources, ends)):
+    if not any(find_clashes(problem.resources, ends)):
         search = make_fleet_search(task)
         turns = sorted(range(len(rest.robots)), key=search.compute_alone().tolist().__getitem__)
-        searches, limit = SEARCHES * len(turns), deadline.sooner(SHARE).seconds_left()
+        searches, limit = SEARCHES * len(turns), deadline.shorten(SHARE).measure_seconds_left()
         if search.prioritize(turns, searches=searches, time_limit=limit):
             tracks = search.list_tracks()
     if tracks:

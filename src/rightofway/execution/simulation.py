@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
 from rightofway.check import check
-from rightofway.errors import InputError, kernel_limits
+from rightofway.errors import InputError, report_kernel_limits
 from rightofway.execution.delays import DEFAULT_DELAYS, Delay, delay_model_of, read_delays
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
 from rightofway.execution.statistics import (
@@ -35,7 +35,7 @@ MOST_RUNS = 10**9
 """More would take years."""
 
 
-@kernel_limits()
+@report_kernel_limits()
 def simulate(
     plan: Plan,
     delays: str | Iterable[str] = DEFAULT_DELAYS,
@@ -199,14 +199,14 @@ def _execute(
         batch = adg.make_runs(seed, first, min(chunk, runs - first))
         if any(policy):
             monitor = ExecutionMonitor(adg, policy, seed, first, deadline)
-            if deadline.seconds_left() == 0:  # replanning may have been cut short
+            if deadline.measure_seconds_left() == 0:  # replanning may have been cut short
                 if first:
                     return
                 traces[first] = monitor.trace()
             yield _Runs.watched(monitor, batch)
         else:
             yield _Runs(batch)
-        if deadline.seconds_left() == 0:
+        if deadline.measure_seconds_left() == 0:
             return
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.arguments import EarlierName
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, quote
 from rightofway.model import NEVER, ExecutionTrace, Plan
 from rightofway.precedence import ActionDependencyGraph, RunBatch
 from rightofway.site import VertexId
@@ -303,7 +303,7 @@ class SimulationResult:
         ahead it assumes different bookings. Otherwise the tracks have no faults.
         """
         if not isinstance(run, Integral) or not 0 <= run < self.runs:
-            message = f"run {shown(run)} is not among the {self.runs} runs (0 is the first)"
+            message = f"run {quote(run)} is not among the {self.runs} runs (0 is the first)"
             raise InputError.at("run", message)
         return self._trace(int(run))
 

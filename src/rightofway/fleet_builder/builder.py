@@ -11,7 +11,7 @@ from typing import Any, Literal, Self
 
 from rightofway.arguments import EarlierName
 from rightofway.assign import HOMELESS, deal_homes
-from rightofway.errors import InputError, Where, in_file, shown, under
+from rightofway.errors import InputError, Where, locate_faults, name_file, quote
 from rightofway.files import as_path
 from rightofway.fleet_builder.lanes import DrawnLanes, read_graph
 from rightofway.fleet_builder.values import (
@@ -144,7 +144,7 @@ class FleetBuilder:
         frame: dict[str, Any] = {"cell_size": cell_size, "y_up": self._y_up, "origin": corner}
         if grid is not None:
             rows = grid.strip("\n").split("\n") if isinstance(grid, str) else grid
-            with under("grid"):
+            with locate_faults("grid"):
                 self._roadmap = make_grid_roadmap(rows, **frame)
         elif map_file is not None:
             from rightofway.io import load_map
@@ -184,7 +184,7 @@ class FleetBuilder:
             For a name that is none or taken, a position that is not a number, or where the map is a
             grid or robots were added already.
         """
-        self._refuse_fixed_map(f"vertex {shown(name)}")
+        self._refuse_fixed_map(f"vertex {quote(name)}")
         self._drawn.add_vertex(name, x, y, barred=barred, surcharge=surcharge)
         return self
 
@@ -224,7 +224,7 @@ class FleetBuilder:
             For a vertex that is not there, a length that is not positive, no length where both
             vertices are at one position, or ``both_ways`` that is neither true nor false.
         """
-        self._refuse_fixed_map(f"edge {shown(tail)} to {shown(head)}")
+        self._refuse_fixed_map(f"edge {quote(tail)} to {quote(head)}")
         require_truths(both_ways=both_ways)
         self._drawn.add_edge(
             tail,
@@ -260,9 +260,9 @@ class FleetBuilder:
         InputError
             Where the map is a grid or robots were added already.
         """
-        self._refuse_fixed_map(f"zone {shown(name)}")
-        place = f"zone {shown(name)}"
-        with under(place):
+        self._refuse_fixed_map(f"zone {quote(name)}")
+        place = f"zone {quote(name)}"
+        with locate_faults(place):
             at("name", text, name)
             named = at("vertices", list_of(text), vertices)
             listed = at("edges", list_of(lambda ends: ends), edges)
@@ -324,7 +324,7 @@ class FleetBuilder:
         InputError
             For a place that is not on the map, with what is there, and for a value of a wrong kind.
         """
-        source = f"robot {shown(name)}"
+        source = f"robot {quote(name)}"
         if radius is not None and size is not None:
             raise InputError.at("", "has both radius and size (give one of them)", source)
         if (target is None) == (stops is None):
@@ -332,7 +332,7 @@ class FleetBuilder:
             raise InputError.at("", f"{problem} (give either target or stops)", source)
         trip: list[tuple[Where, Any, Number]] = [("target", target, work)]
         if stops is not None:
-            with in_file(source):
+            with name_file(source):
                 given = at("stops", list_of(lambda stop: stop), stops)
             trip = [(("stops", k), *place_and_work(stop)) for k, stop in enumerate(given)]
         try:
@@ -353,7 +353,7 @@ class FleetBuilder:
                 weight=weight,  # type: ignore[arg-type]
             )
         except InputError as error:
-            raise InputError(fault.in_file(source) for fault in error.faults) from None
+            raise InputError(fault.name_file(source) for fault in error.faults) from None
         self._robots.append(robot)
         return self
 
@@ -399,7 +399,7 @@ class FleetBuilder:
                 radius=radius,  # type: ignore[arg-type]
             )
         except InputError as error:
-            raise InputError(fault.in_file(source) for fault in error.faults) from None
+            raise InputError(fault.name_file(source) for fault in error.faults) from None
         if faults := list(find_closure_faults(closure, self.build_roadmap())):
             raise InputError(faults, source)
         self._closures.append(closure)
@@ -467,7 +467,7 @@ class FleetBuilder:
             and place not in (roadmap.labels or ())
         ):
             return self._stations[place]
-        with under(key):
+        with locate_faults(key):
             return find_vertex_at(roadmap, as_place(place, roadmap), units=self._units)
 
     def _refuse_fixed_map(self, place: str) -> None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
-from rightofway.errors import InputError, nearest, shown, under
+from rightofway.errors import InputError, find_nearest, locate_faults, quote
 from rightofway.fleet_builder.values import read_point, read_surcharge, read_types
 from rightofway.site import (
     Edge,
@@ -53,7 +53,7 @@ class DrawnLanes:
         self, name: str, x: Number, y: Number, *, barred: Iterable[str], surcharge: Number
     ) -> None:
         """Add a vertex, as `FleetBuilder.add_vertex`."""
-        place = f"vertex {shown(name)}"
+        place = f"vertex {quote(name)}"
         if not isinstance(name, str) or not name:
             raise InputError.at(place, "is no name (give text)")
         if name in self.positions:
@@ -76,15 +76,15 @@ class DrawnLanes:
         surcharge: Number,
     ) -> None:
         """Add an edge, as `FleetBuilder.add_edge`."""
-        place = f"edge {shown(tail)} to {shown(head)}"
+        place = f"edge {quote(tail)} to {quote(head)}"
         for name in (tail, head):
             if not isinstance(name, str) or name not in self.positions:
-                near = nearest(name, self.positions)
+                near = find_nearest(name, self.positions)
                 hint = f"did you mean {near!r}?" if near else "add it first"
-                raise InputError.at(place, f"no vertex is named {shown(name)} ({hint})")
+                raise InputError.at(place, f"no vertex is named {quote(name)} ({hint})")
         given = None if length is None else exact_length(length, (place, "length"))
         if given is None:
-            with under(place):
+            with locate_faults(place):
                 measure_straight_length(self._square(tail, head))
         limit = None if max_speed is None else exact_length(max_speed, (place, "max_speed"))
         more = {
@@ -137,7 +137,7 @@ class DrawnLanes:
 def read_graph(graph: Any) -> DrawnLanes:
     """Return the lanes of a `networkx` graph; drawn if all its nodes have positions."""
     if not all(hasattr(graph, name) for name in ("nodes", "edges", "is_directed")):
-        raise InputError.at("graph", f"{shown(graph)} is no graph (give a networkx graph)")
+        raise InputError.at("graph", f"{quote(graph)} is no graph (give a networkx graph)")
     at = {node: _position(node, data) for node, data in graph.nodes(data=True)}
     is_drawn = all(at.values())
     lanes = DrawnLanes(is_drawn=is_drawn)

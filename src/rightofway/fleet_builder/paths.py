@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence, Sized
 from fractions import Fraction
 from typing import Any
 
-from rightofway.errors import InputError, nearest, shown, under
+from rightofway.errors import InputError, find_nearest, locate_faults, quote
 from rightofway.model import Plan, PlannerRun, Scenario, Track
 from rightofway.model.given import checked_scenario
 from rightofway.site.places import as_place, find_vertex_at
@@ -49,12 +49,12 @@ def plan_of_paths(scenario: Scenario, paths: Mapping[str, Sequence[Any]]) -> Pla
     names = [robot.name for robot in checked_scenario(scenario).robots]
     if not isinstance(paths, Mapping):
         remedy = 'give each robot its path by its name, like {"R1": ["N0", "N1"]}'
-        raise InputError.at("paths", f"{shown(paths)} are no paths ({remedy})")
+        raise InputError.at("paths", f"{quote(paths)} are no paths ({remedy})")
     for name in paths:
         if name not in names:
-            near = nearest(name, names)
+            near = find_nearest(name, names)
             hint = f"did you mean {near!r}?" if near else f"robots are {', '.join(names)}"
-            raise InputError.at("paths", f"no robot is named {shown(name)} ({hint})")
+            raise InputError.at("paths", f"no robot is named {quote(name)} ({hint})")
     missing = [name for name in names if _is_missing(paths.get(name))]
     if missing:
         raise InputError.at("paths", f"{missing[0]} has no path (give at least its home)")
@@ -67,7 +67,7 @@ def _track(scenario: Scenario, name: str, path: Sequence[Any]) -> Track:
     """Return the visits of a path; a robot that stays makes one of them."""
     vertices, enter = list[int](), list[int]()
     for index, (place, tick) in enumerate(_timed(scenario, name, path)):
-        with under(("paths", name, index)):
+        with locate_faults(("paths", name, index)):
             roadmap = scenario.roadmap
             vertex = find_vertex_at(roadmap, as_place(place, roadmap), units=scenario.units)
         if not vertices or vertices[-1] != vertex:
@@ -82,7 +82,7 @@ def _timed(scenario: Scenario, name: str, path: Sequence[Any]) -> Iterator[tuple
     pairs = [_is_pair(item) for item in path]
     for index, item in enumerate(path):
         if pairs[index] != pairs[0]:
-            message = f"{shown(item)} is a pair, or another item is (give a tick to all or none)"
+            message = f"{quote(item)} is a pair, or another item is (give a tick to all or none)"
             raise InputError.at(("paths", name, index), message)
         if pairs[index]:
             yield item[0], item[1]

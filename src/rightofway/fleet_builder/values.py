@@ -7,7 +7,7 @@ from dataclasses import fields, replace
 from fractions import Fraction
 from typing import Any
 
-from rightofway.errors import InputError, Where, shown
+from rightofway.errors import InputError, Where, quote
 from rightofway.model import Rules
 from rightofway.model.resources import circumscribe
 from rightofway.quantities import Units
@@ -24,7 +24,7 @@ def read_rules(given: dict[str, Any]) -> Rules:
     base = own.pop("rules", None)
     if base is not None and base != "classic":
         remedy = 'give "classic", or each rule by its name, like headway=1'
-        raise InputError.at("rules", f"{shown(base)} is no name of rules ({remedy})")
+        raise InputError.at("rules", f"{quote(base)} is no name of rules ({remedy})")
     for name in own:
         if name == "return":
             remedy = 'give ends="none" or ends="home"'
@@ -40,7 +40,7 @@ def read_units(given: Units | Mapping[str, Any] | None) -> Units:
         return given or Units()
     if not (isinstance(given, Mapping) and given.keys() <= {"length", "time"}):
         remedy = 'give {"length": "m", "time": "s"}'
-        raise InputError.at("units", f"{shown(given)} are no units ({remedy})")
+        raise InputError.at("units", f"{quote(given)} are no units ({remedy})")
     return Units(**given)
 
 
@@ -49,7 +49,7 @@ def read_types(place: Where, given: Iterable[str]) -> frozenset[str]:
     try:
         return names(given if isinstance(given, str) else list(given))
     except (TypeError, ValueError):
-        message = f"{shown(given)} are no types of robots (give a list of texts)"
+        message = f"{quote(given)} are no types of robots (give a list of texts)"
         raise InputError.at(place, message) from None
 
 
@@ -57,21 +57,21 @@ def read_surcharge(place: Where, given: Number) -> Fraction:
     """Return a surcharge, which is not negative [time unit]."""
     surcharge = at(place, number, given)
     if surcharge < 0:
-        raise InputError.at(place, f"{shown(given)} is negative (give 0 or more)")
+        raise InputError.at(place, f"{quote(given)} is negative (give 0 or more)")
     return surcharge
 
 
 def read_pair(place: Where, given: Any) -> tuple[Any, Any]:
     """Return both parts of (x, y)."""
     if not isinstance(given, list | tuple) or len(given) != 2:  # noqa: PLR2004 (x and y)
-        raise InputError.at(place, f"{shown(given)} is no point (give (x, y))")
+        raise InputError.at(place, f"{quote(given)} is no point (give (x, y))")
     return given[0], given[1]
 
 
 def read_ends(place: Where, given: Any) -> tuple[Any, Any]:
     """Return both ends of an edge."""
     if not isinstance(given, list | tuple) or len(given) != 2:  # noqa: PLR2004 (tail and head)
-        raise InputError.at(place, f"{shown(given)} is no edge (give (tail, head))")
+        raise InputError.at(place, f"{quote(given)} is no edge (give (tail, head))")
     return given[0], given[1]
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, TypeVar, get_args
 
-from rightofway.errors import InputError, InputFault, Where, nearest, shown, under
+from rightofway.errors import InputError, InputFault, Where, find_nearest, locate_faults, quote
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -31,7 +31,7 @@ class Faults:
         try:
             if where == "":  # of a million lanes of a map, each is read so
                 return read(*arguments)
-            with under(where):
+            with locate_faults(where):
                 return read(*arguments)
         except InputError as error:
             self._faults += error.faults
@@ -92,7 +92,7 @@ def _faults_of(details: ErrorDetails, model: type[BaseModel]) -> Iterator[InputF
     path = tuple(step for step in details["loc"] if step != "[key]")
     error = details.get("ctx", {}).get("error")
     if isinstance(error, InputError):  # raised by a validator of ours, perhaps at places inside
-        yield from (fault.within(path) for fault in error.faults)
+        yield from (fault.nest(path) for fault in error.faults)
     else:
         yield InputFault(path, _message_of(details, model))
 
@@ -121,8 +121,8 @@ def _message_of(details: ErrorDetails, model: type[BaseModel]) -> str:
     if kind == "value_error":
         return str(details["ctx"]["error"])
     if kind in _KINDS:
-        return f"{shown(value)} is not {_KINDS[kind]} (give {remedy})"
-    return f"{shown(value)} does not fit (give {remedy})"
+        return f"{quote(value)} is not {_KINDS[kind]} (give {remedy})"
+    return f"{quote(value)} does not fit (give {remedy})"
 
 
 MEANT = {
@@ -145,7 +145,7 @@ def _unknown_key(key: int | str, owner: type[BaseModel]) -> str:
     meant = MEANT.get(str(key).lower(), "")
     if meant.partition(":")[0] in known:
         return f"unknown key (write {meant})"
-    near = nearest(str(key).lower(), known)
+    near = find_nearest(str(key).lower(), known)
     return (
         f"unknown key (did you mean {near}?)"
         if near

@@ -24,7 +24,7 @@ from pydantic import (
 )
 from pydantic_core import CoreSchema, core_schema
 
-from rightofway.errors import is_printable, shown
+from rightofway.errors import is_printable, quote
 from rightofway.model.attributes import list_attributes
 from rightofway.phrases import join_parts
 from rightofway.site import VertexId
@@ -102,21 +102,21 @@ def positive(value: object) -> Fraction:
     """Return a number above 0; ValueError for any other value."""
     number = exact(value)
     if number <= 0:
-        raise ValueError(f"{shown(value)} is not positive (give a number above 0)")
+        raise ValueError(f"{quote(value)} is not positive (give a number above 0)")
     return number
 
 
 def _not_negative(value: object) -> Fraction:
     number = exact(value)
     if number < 0 or str(value).startswith("-"):
-        raise ValueError(f"{shown(value)} is negative (give 0 or more)")
+        raise ValueError(f"{quote(value)} is negative (give 0 or more)")
     return number
 
 
 def _share(value: object) -> Fraction:
     number = _not_negative(value)
     if number > 1:
-        raise ValueError(f"{shown(value)} is above 1 (give a share from 0 to 1)")
+        raise ValueError(f"{quote(value)} is above 1 (give a share from 0 to 1)")
     return number
 
 
@@ -165,7 +165,7 @@ Turning = Annotated[Fraction | Literal["cell"], _or_word(_not_negative, _NOT_NEG
 def _list_of(count: int, numbers: str, number: Callable[[object], Fraction]) -> Kind:
     def read(value: object) -> tuple[Fraction, ...]:
         if not isinstance(value, list | tuple) or len(value) != count:
-            raise ValueError(f"{shown(value)} does not fit (give {numbers})")
+            raise ValueError(f"{quote(value)} does not fit (give {numbers})")
         return tuple(number(item) for item in value)
 
     return Kind(read, {"type": "array", "items": _ANY, "minItems": count, "maxItems": count})
@@ -184,13 +184,13 @@ Rectangle = Annotated[_Four, _list_of(4, "[x, y, width, height]", exact)]
 
 def _name(value: str) -> str:
     if not is_printable(value):
-        raise ValueError(f"{shown(value)} is no name (give characters that can be printed)")
+        raise ValueError(f"{quote(value)} is no name (give characters that can be printed)")
     return value
 
 
 def _words(value: str) -> str:
     if value and not is_printable(value):
-        raise ValueError(f"{shown(value)} cannot be shown (give printable text on one line)")
+        raise ValueError(f"{quote(value)} cannot be shown (give printable text on one line)")
     return value
 
 

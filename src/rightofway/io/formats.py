@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, Literal
 
 from rightofway.arguments import checks_arguments
-from rightofway.errors import InputError, nearest, shown
+from rightofway.errors import InputError, find_nearest, quote
 
 SCENARIO_FORMAT = "rightofway-scenario/1"
 PLAN_FORMAT = "rightofway-plan/1"
@@ -19,10 +19,10 @@ def check_format(document: Any, known: str) -> dict[str, Any]:
     """
     line = f'format = "{known}"' if known == SUITE_FORMAT else f"format: {known}"
     if not isinstance(document, dict):
-        fault = "nothing is in it" if document is None else f"{shown(document)} is no document"
+        fault = "nothing is in it" if document is None else f"{quote(document)} is no document"
         raise InputError.at("", f"{fault} (begin with {line})")
     if "format" not in document:
-        if any(nearest(str(key).lower(), ["format"]) for key in document):
+        if any(find_nearest(str(key).lower(), ["format"]) for key in document):
             return {**document, "format": known}  # the misspelt key is reported with all else
         if known == SCENARIO_FORMAT and not {"map", "robots"} & set(document):
             message = f"this is no scenario and no known layout (a scenario begins with {line})"
@@ -30,7 +30,7 @@ def check_format(document: Any, known: str) -> dict[str, Any]:
         raise InputError.at("format", f"is missing (put {line} at the top)")
     name = document["format"]
     if name != known:
-        raise InputError.at("format", f"{shown(name)} is {_not_wanted(name, known)}")
+        raise InputError.at("format", f"{quote(name)} is {_not_wanted(name, known)}")
     return document
 
 

@@ -13,7 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rightofway.errors import InputError, InputFault, Location, in_file, is_printable
+from rightofway.errors import InputError, InputFault, Location, is_printable, name_file
 from rightofway.io.text import MAX_DEPTH, parse_document, read_text
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ _JSON_ONLY = re.compile(r"\\u[dD][89a-fA-F][0-9a-fA-F]{2}|\\/|\t")
 @contextmanager
 def document_of(path: Path, text: str | None = None) -> Iterator[Any]:
     """Yield the data of a YAML or JSON file; faults raised inside name the file and the line."""
-    with in_file(str(path)):
+    with name_file(str(path)):
         text = read_text(path) if text is None else text
         data = parse_document(text, path)
         with lines_of(text):
@@ -56,7 +56,7 @@ def locate(faults: Iterable[InputFault], text: str) -> Iterator[InputFault]:
         if root is None or not has_no_line:
             yield fault
         else:
-            yield fault.at(_locate(fault.location, root))
+            yield fault.place_at(_locate(fault.location, root))
 
 
 def _root(text: str) -> yaml.Node | None:

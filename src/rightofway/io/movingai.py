@@ -16,7 +16,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from rightofway.arguments import checks_arguments
-from rightofway.errors import InputError, InputFault, Location, in_file, shown
+from rightofway.errors import InputError, InputFault, Location, name_file, quote
 from rightofway.files import write_whole
 from rightofway.io.faults import Faults
 from rightofway.io.text import read_text
@@ -54,7 +54,7 @@ def load_map(path: Path | str) -> tuple[str, ...]:
         For a header without height and width, a type other than a grid's, or rows that do not
         agree with the header; the place is the line.
     """
-    with in_file(str(path)):
+    with name_file(str(path)):
         lines = read_text(Path(path)).rstrip().split("\n")
         header: dict[str, str] = {}
         for number, line in enumerate(lines, start=1):
@@ -70,11 +70,11 @@ def load_map(path: Path | str) -> tuple[str, ...]:
 def _check_header(key: str, value: str, where: Location) -> None:
     if key not in {"type", "height", "width"}:
         remedy = "give type, height, width, map, in this order"
-        raise InputError.at(where, f"{shown(key)} is no line of a header ({remedy})")
+        raise InputError.at(where, f"{quote(key)} is no line of a header ({remedy})")
     if key == "type" and value not in {"octile", "tile"}:
-        raise InputError.at(where, f"type {shown(value)} is not known (give octile)")
+        raise InputError.at(where, f"type {quote(value)} is not known (give octile)")
     if key != "type" and not (_SIZE.fullmatch(value) and int(value)):
-        raise InputError.at(where, f"{key} {shown(value)} is no size (give a count of cells)")
+        raise InputError.at(where, f"{key} {quote(value)} is no size (give a count of cells)")
 
 
 def _check_rows(lines: list[str], header: dict[str, str], above: int) -> tuple[str, ...]:
@@ -110,7 +110,7 @@ def load_scen(path: Path | str) -> tuple[ScenRow, ...]:
         For rows that are not made of nine columns; the place is the line.
     """
     faults, rows = Faults(), list[ScenRow | None]()
-    with in_file(str(path)):
+    with name_file(str(path)):
         lines = read_text(Path(path)).rstrip().split("\n")
         for number, line in enumerate(lines, start=1):
             if number > 1 or not line.startswith("version"):
@@ -128,7 +128,7 @@ def _scen_row(line: int, text: str) -> ScenRow:
     numbers = [columns[index].strip() for index in range(2, 8)]
     for number in numbers:
         if not _SIZE.fullmatch(number):
-            raise InputError.at("", f"{shown(number)} is no count of cells (give {_COLUMNS})")
+            raise InputError.at("", f"{quote(number)} is no count of cells (give {_COLUMNS})")
     width, height, start_x, start_y, goal_x, goal_y = map(int, numbers)
     return ScenRow(
         line=line,

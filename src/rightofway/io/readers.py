@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 from rightofway.arguments import checks_arguments
-from rightofway.errors import InputError, Steps, Where, in_file, shown
+from rightofway.errors import InputError, Steps, Where, name_file, quote
 from rightofway.files import as_path
 from rightofway.io.foreign import format_of_text, read_foreign
 from rightofway.io.formats import SCENARIO_FORMAT
@@ -56,12 +56,12 @@ def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
     """
     path = as_path(path)
     if path.suffix.lower() == ".scen":
-        with in_file(str(path)):
+        with name_file(str(path)):
             return _classic(path, count)
     if path.suffix.lower() in WORKBOOKS:
         _refuse_count(count)
         return load_workbook_scenario(path)
-    with in_file(str(path)):
+    with name_file(str(path)):
         _refuse_count(count)
         refuse_layout(path)
         text = read_text(path)
@@ -130,7 +130,7 @@ def load_either(
     path = as_path(path)
     if path.suffix.lower() in {".scen", *WORKBOOKS}:
         return load_with_notes(path, count)
-    with in_file(str(path)):
+    with name_file(str(path)):
         _refuse_count(count)
     text, foreign = _foreign(path, map_file, scen)
     if foreign is not None:
@@ -149,7 +149,7 @@ def _classic(path: Path, count: int | None) -> Loaded:
     beside = [Path(map_name), Path("..", "maps", map_name)]
     name_beside = next((name for name in beside if is_regular(path.parent / name)), None)
     if name_beside is None:
-        message = f"its map {shown(map_name)} is neither beside it nor in ../maps (put it there)"
+        message = f"its map {quote(map_name)} is neither beside it nor in ../maps (put it there)"
         raise InputError.at("", message)
     document = {
         "format": SCENARIO_FORMAT,
@@ -163,7 +163,8 @@ def _classic(path: Path, count: int | None) -> Loaded:
         starts: dict[Steps, Where] = {("robots", "scen"): "", ("robots",): ""}
         moved = (fault.relocate(starts) for fault in error.faults)
         raise InputError(
-            fault.at(fault.location.inner) if fault.location.inner else fault for fault in moved
+            fault.place_at(fault.location.inner) if fault.location.inner else fault
+            for fault in moved
         ) from None
 
 
@@ -184,7 +185,7 @@ def _foreign(
     path: Path, map_file: Path | str | None, scen: Path | str | None
 ) -> tuple[str, Plan | None]:
     """Return the text of a file, and its plan if it is one of another program."""
-    with in_file(str(path)):
+    with name_file(str(path)):
         refuse_layout(path)
         text = read_text(path)
         places = {"map_file": map_file, "scen": scen}

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from rightofway.arguments import checks_arguments, value_of
+from rightofway.arguments import checks_arguments, get_value
 from rightofway.io.text import json_line
 from rightofway.metrics.events import list_events
 from rightofway.model import Plan, Stays, Track
@@ -74,7 +74,7 @@ def site_plan_text(plan: Plan, name: str) -> tuple[str, tuple[str, ...]]:
     tuple
         The text, and what had to be assumed, a sentence each.
     """
-    return value_of(SITE_PLAN_FORMATS, name, "name").write(plan), tuple(_assumed(plan, name))
+    return get_value(SITE_PLAN_FORMATS, name, "name").write(plan), tuple(_assumed(plan, name))
 
 
 def _assumed(plan: Plan, name: str) -> Iterator[str]:

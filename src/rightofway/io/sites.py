@@ -8,7 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from rightofway.errors import InputError, in_file
+from rightofway.errors import InputError, name_file
 from rightofway.io.faults import validate
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.layouts import describe_layout, is_layout, read_layout
@@ -92,7 +92,7 @@ def read_sites(path: Path | str, choice: Choice, robots: Path | str | None = Non
 
 def _level(path: Path, layout: Layout, choice: Choice) -> Level:
     """Return the level that is wanted, with lanes of the vehicle type that is wanted."""
-    with in_file(str(path)):
+    with name_file(str(path)):
         if choice.cell_size is not None:
             message = "is given with a layout of lanes, which has no cells (take it out)"
             raise InputError.at("cell_size", message)

@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
-from rightofway.errors import InputError, Location, Steps, is_printable, shown
+from rightofway.errors import InputError, Location, Steps, is_printable, quote
 from rightofway.values import DIGITS, coordinate
 
 BILLION = 10**9
@@ -64,7 +64,7 @@ class Source:
     def mapping(self) -> dict[str, Any]:
         """Return the value as a mapping."""
         if not isinstance(self.value, dict):
-            raise self.fault(f"{shown(self.value)} is not a mapping of keys to values (mend it)")
+            raise self.fault(f"{quote(self.value)} is not a mapping of keys to values (mend it)")
         return self.value
 
     def entries(self) -> Iterator[tuple[str, Source]]:
@@ -75,7 +75,7 @@ class Source:
     def items(self) -> list[Source]:
         """Return the items of a list."""
         if not isinstance(self.value, list):
-            raise self.fault(f"{shown(self.value)} is not a list (mend it)")
+            raise self.fault(f"{quote(self.value)} is not a list (mend it)")
         return [self.child(index, item) for index, item in enumerate(self.value)]
 
     def items_under(self, *keys: str) -> list[Source]:
@@ -89,7 +89,7 @@ class Source:
         if isinstance(value, int) and not isinstance(value, bool):
             value = str(value)
         if not isinstance(value, str) or not is_printable(value) or len(value) > LONGEST_NAME:
-            raise self.fault(f"{shown(self.value)} is no name (give printable text)")
+            raise self.fault(f"{quote(self.value)} is no name (give printable text)")
         return value
 
     def number(self) -> Fraction:
@@ -103,7 +103,7 @@ class Source:
     def read_whole(self, least: int, most: int) -> int:
         """Return the value as a whole number within bounds."""
         if type(self.value) is not int or not least <= self.value <= most:
-            message = f"{shown(self.value)} does not fit"
+            message = f"{quote(self.value)} does not fit"
             raise self.fault(f"{message} (give a whole number from {least} to {most})")
         return self.value
 
@@ -114,14 +114,14 @@ class Source:
             return True
         if word in (False, *FALSE):
             return False
-        raise self.fault(f"{shown(self.value)} is neither true nor false (mend it)")
+        raise self.fault(f"{quote(self.value)} is neither true nor false (mend it)")
 
 
 @lru_cache(maxsize=2**16, typed=True)  # the numbers of a site repeat
 def _number(value: Hashable) -> Fraction:
     number = coordinate(value.strip() if isinstance(value, str) else value)
     if abs(number) > 10 ** (DIGITS // 2):
-        raise ValueError(f"{shown(value)} is out of range (check the unit)")
+        raise ValueError(f"{quote(value)} is out of range (check the unit)")
     return (
         number if BILLION % number.denominator == 0 else Fraction(round(number * BILLION), BILLION)
     )

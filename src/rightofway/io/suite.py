@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal, Self, TypeVar
 
 from pydantic import AfterValidator, ConfigDict, Field, model_validator
 
-from rightofway.errors import shown
+from rightofway.errors import quote
 from rightofway.io.fields import (
     Count,
     Document,
@@ -31,7 +31,7 @@ T = TypeVar("T", bound=Hashable)
 def _each_once(values: list[T]) -> list[T]:
     twice = next((value for index, value in enumerate(values) if value in values[:index]), None)
     if twice is not None:
-        raise ValueError(f"{shown(twice)} stands there twice (give each once)")
+        raise ValueError(f"{quote(twice)} stands there twice (give each once)")
     return values
 
 
@@ -43,10 +43,10 @@ def _pair(least: int, most: int, numbers: str, *, in_order: bool = False) -> Kin
         fits = [type(item) is int and least <= item <= most for item in items]
         if len(fits) != 2 or not all(fits):  # noqa: PLR2004 (a pair)
             raise ValueError(
-                f"{shown(value)} does not fit (give {numbers}, from {least} to {most})"
+                f"{quote(value)} does not fit (give {numbers}, from {least} to {most})"
             )
         if in_order and items[0] > items[1]:
-            raise ValueError(f"{shown(value)} is empty (give the least first, then the most)")
+            raise ValueError(f"{quote(value)} is empty (give the least first, then the most)")
         return (items[0], items[1])
 
     number = {"type": "integer", "minimum": least, "maximum": most}
@@ -56,7 +56,7 @@ def _pair(least: int, most: int, numbers: str, *, in_order: bool = False) -> Kin
 def _share(value: object) -> float:
     share = exact(value)
     if not 0 <= share < 1:
-        raise ValueError(f"{shown(value)} is no share (give 0 or more, below 1)")
+        raise ValueError(f"{quote(value)} is no share (give 0 or more, below 1)")
     return float(share)
 
 

@@ -20,9 +20,9 @@ from rightofway.errors import (
     Location,
     Steps,
     Where,
-    in_file,
-    nearest,
-    shown,
+    find_nearest,
+    name_file,
+    quote,
 )
 from rightofway.io.faults import Faults
 from rightofway.io.text import parse_yaml, read_text
@@ -130,10 +130,10 @@ def records_of(
             faults.note(place, f"the column {key!r} is given twice (take one out)")
             key = "note"
         elif not (is_stop or key in known or key in NOTES):
-            near, listed = nearest(key, known), ", ".join(known)
+            near, listed = find_nearest(key, known), ", ".join(known)
             more = ", stop 1, work 1, …" if has_stops else ""
             hint = f"did you mean {near}?" if near else f"known: {listed}{more}"
-            faults.note(place, f"{shown(heading)} is no key of {noun} ({hint})")
+            faults.note(place, f"{quote(heading)} is no key of {noun} ({hint})")
             key = "note"
         columns[column] = key
     for number, values in rows:
@@ -181,17 +181,7 @@ def heading_key(heading: Any) -> str:
 
 
 def value_of(key: str, value: Any, words: Collection[str] = WORD_KEYS) -> Any:
-    """Return the value of a cell as a document has it under a key.
-
-    Parameters
-    ----------
-    key
-        The key.
-    value
-        What the cell holds.
-    words
-        Keys whose values are text, also where they look like numbers.
-    """
+    """Return the value of a cell as a document has it under a key; ``words`` are keys of text."""
     if not isinstance(value, str):
         return str(value) if key in words and not isinstance(value, bool) else value
     if key in TRUTH_KEYS:
@@ -216,7 +206,7 @@ def robots_of_csv(path: Path, known: Iterable[str], names_it: Where) -> CellDocu
     InputError
         If it cannot be read.
     """
-    with in_file(str(path)):
+    with name_file(str(path)):
         lines = read_text(path).splitlines()
         delimiter = max(",;\t", key=lines[0].count) if lines else ","
         try:
@@ -232,6 +222,6 @@ def robots_of_csv(path: Path, known: Iterable[str], names_it: Where) -> CellDocu
     def cell(row: int, column: int) -> Location:
         is_named = row > 1 and 1 < column <= len(headings)
         steps = (headings[column - 1],) if is_named and headings[column - 1] else ()
-        return Location(file=str(path), line=row, path=steps).within(names_it)
+        return Location(file=str(path), line=row, path=steps).nest(names_it)
 
     return robots_of_rows(((number, row) for number, row in filled if row), cell, known)

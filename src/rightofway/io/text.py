@@ -23,7 +23,7 @@ from weakref import WeakKeyDictionary
 
 from rightofway.arguments import checks_arguments
 from rightofway.deadline import READING, limit_loop
-from rightofway.errors import InputError, InputFault, Location, in_file, shown
+from rightofway.errors import InputError, InputFault, Location, name_file, quote
 
 MAX_BYTES = 2**29
 """Largest file that is read [bytes]."""
@@ -97,7 +97,7 @@ def load_delays(path: Path | str) -> tuple[str, ...]:
     InputError
         If there is no such file, or no list of texts in it.
     """
-    with in_file(str(path)):
+    with name_file(str(path)):
         causes = parse_document(read_text(Path(path)), Path(path))
         if isinstance(causes, dict) and list(causes) == ["delays"]:
             causes = causes["delays"]
@@ -110,7 +110,7 @@ def load_delays(path: Path | str) -> tuple[str, ...]:
 def read_text(path: Path) -> str:
     """Return the text of a file, UTF-8 with any kind of line end; ``-`` is standard input."""
     source = str(path)
-    with in_file(source):
+    with name_file(source):
         data = content_of(path)
     if not data or data.isspace():
         raise InputError.at("", "the file is empty (give it some content)", source)
@@ -190,7 +190,7 @@ def choose_limit() -> int:
     if given is None:
         return MAX_CHARACTERS
     if not given.isascii() or not given.isdecimal() or len(given) > LONGEST_TOKEN:
-        raise InputError.at("", f"{LIMIT} is {shown(given)} (give a number of characters)")
+        raise InputError.at("", f"{LIMIT} is {quote(given)} (give a number of characters)")
     return int(given)
 
 
@@ -225,7 +225,7 @@ def refuse_special(path: Path) -> None:
         raise InputError.at("", "'-' names no file here (name a file)")
     is_there = os.path.exists(path)  # noqa: PTH110 - Path.exists raises for a long name
     if is_there and not (is_regular(path) or path.is_dir()):
-        message = f"{shown(str(path))} is a device or a pipe, not a file (name a file)"
+        message = f"{quote(str(path))} is a device or a pipe, not a file (name a file)"
         raise InputError.at("", message)
 
 
@@ -295,7 +295,7 @@ def parse_json(text: str) -> Any:
         raise InputError(
             InputFault(
                 _path_to(mapping, data),
-                f"the key {shown(key)} is given twice (take one out)",
+                f"the key {quote(key)} is given twice (take one out)",
             )
             for mapping, key in doubled
         )
@@ -409,7 +409,7 @@ class _Builder:
         """Take the next event of the parser."""
         line, tag = event.start_mark.line + 1, getattr(event, "tag", None)
         if tag is not None:
-            raise _fault(line, f"the tag {shown(tag)} is not allowed (take it out)")
+            raise _fault(line, f"the tag {quote(tag)} is not allowed (take it out)")
         match type(event).__name__:
             case "DocumentStartEvent":
                 self.documents += 1
@@ -463,10 +463,10 @@ class _Builder:
         elif self.number_keys and type(value) is int and str(value) not in parent.value:
             parent.key = str(value)
         elif not isinstance(value, str):
-            message = f"the key {shown(value)} is not text"
+            message = f"the key {quote(value)} is not text"
             raise _fault(line, f"{message} (put it in quotes, or add what is missing)")
         elif value in parent.value:
-            raise _fault(line, f"the key {shown(value)} is given twice (take one out)")
+            raise _fault(line, f"the key {quote(value)} is given twice (take one out)")
         else:
             parent.key = value
 

@@ -19,7 +19,7 @@ from rightofway.model.attributes import Attribute
 from rightofway.model.closures import Closure
 from rightofway.model.place_names import PlaceNames
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
-from rightofway.quantities import Quantities, decimal
+from rightofway.quantities import Quantities, format_decimal
 from rightofway.site import Roadmap
 
 NAMED = 2
@@ -139,7 +139,11 @@ def _time(scenario: Scenario, value: Fraction) -> str:
     """Return a time [time unit] as people read it."""
     quantities = scenario.quantities
     times = Quantities(units=quantities.units, tick=Fraction(1))
-    return times.cell(value) if quantities.units.seconds is None else times.duration(value)
+    return (
+        times.format_cell(value)
+        if quantities.units.seconds is None
+        else times.format_duration(value)
+    )
 
 
 def _value(scenario: Scenario, attribute: Attribute, value: Any) -> str:
@@ -149,12 +153,12 @@ def _value(scenario: Scenario, attribute: Attribute, value: Any) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if attribute.measure == "speed":
-        return scenario.quantities.speed(value)
+        return scenario.quantities.format_speed(value)
     if attribute.measure == "length":
-        return scenario.quantities.length(value)
+        return scenario.quantities.format_length(value)
     if isinstance(value, str):
         return value
-    return _time(scenario, value) if attribute.measure == "time" else decimal(value)
+    return _time(scenario, value) if attribute.measure == "time" else format_decimal(value)
 
 
 def _attributes(

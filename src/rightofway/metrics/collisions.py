@@ -12,11 +12,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.arguments import checks_arguments, one_for_each
+from rightofway.arguments import checks_arguments, require_one_for_each
 from rightofway.model import NEVER, Plan, Scenario, Stays, Tick, Track, stays_of
 from rightofway.model.resources import Resources
 from rightofway.model.sorting import order_by
-from rightofway.native import book_times, excluded_by
+from rightofway.native import book_times, list_excluded
 from rightofway.site import VertexId
 
 
@@ -97,7 +97,7 @@ def find_collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Collis
     -----
     The paper's list counts the ticks of these intervals one by one.
     """
-    one_for_each(scenario.robots, tracks=tracks)
+    require_one_for_each(scenario.robots, tracks=tracks)
     bookings = list_bookings(scenario, tracks, stays_of(scenario, tracks))
     columns = (bookings.vertex, bookings.start, bookings.end, bookings.robot)
     collisions_at_vertex: list[Collision] = []
@@ -213,7 +213,7 @@ def find_near_misses(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NearM
     Bookings of places that exclude each other overlap. What follows without a gap for the same two
     robots is one near miss.
     """
-    one_for_each(scenario.robots, tracks=tracks)
+    require_one_for_each(scenario.robots, tracks=tracks)
     resources = scenario.problem.resources
     if resources.are_points:  # their bookings exclude each other at one vertex: collisions
         return ()
@@ -224,7 +224,7 @@ def find_near_misses(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NearM
     overlaps: defaultdict[tuple[int, int], list[_Overlap]] = defaultdict(list)
     for row, bookings in of_row.items():
         others = chain.from_iterable(
-            of_row.get(excluded_row, ()) for excluded_row in excluded_by(resources, row)
+            of_row.get(excluded_row, ()) for excluded_row in list_excluded(resources, row)
         )
         for booking, other in product(bookings, list(others)):
             start, end = max(booking.start, other.start), min(booking.end, other.end)

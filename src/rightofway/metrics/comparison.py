@@ -17,7 +17,7 @@ from rightofway.errors import InputError
 from rightofway.metrics.changes import Change, find_changes
 from rightofway.metrics.measure import measure
 from rightofway.model import Plan
-from rightofway.quantities import Units, decimal
+from rightofway.quantities import Units, format_decimal
 
 MAX_COMPARED = 8
 """Plans that are compared at once."""
@@ -76,7 +76,7 @@ class Comparison:
 
     @staticmethod
     def _plan(plan: Plan, scale: int, changed: Sequence[Change]) -> dict[str, Any]:
-        metrics, run, duration = measure(plan), plan.run, plan.scenario.quantities.duration
+        metrics, run, duration = measure(plan), plan.run, plan.scenario.quantities.format_duration
         costs = {
             "flowtime": metrics.flowtime,
             "makespan": metrics.makespan,
@@ -93,7 +93,7 @@ class Comparison:
             "text": {
                 **{key: duration(ticks) for key, ticks in costs.items()},
                 "gap": "" if gap is None else f"{gap:.1%}",
-                "seconds": "" if run.seconds is None else f"{decimal(run.seconds)} s",
+                "seconds": "" if run.seconds is None else f"{format_decimal(run.seconds)} s",
             },
             "changes": [change.as_dict() for change in changed],
         }

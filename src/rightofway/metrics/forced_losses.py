@@ -70,11 +70,11 @@ def find_forced_losses(
     search, losses = ConflictBasedSearch(scenario.problem), []
     alone = [search.search_together([robot], states=STATES)[1] for robot in range(len(tracks))]
     for robots, vertex in list(_meetings(scenario, tracks).items())[:MOST_PAIRS]:
-        if deadline.seconds_left() == 0:
+        if deadline.measure_seconds_left() == 0:
             break
         least = [alone[robot] for robot in robots]
         _, together = search.search_together(
-            robots, states=STATES, time_limit=deadline.seconds_left()
+            robots, states=STATES, time_limit=deadline.measure_seconds_left()
         )
         if together is None or None in least:
             continue  # such robots have no plan at all

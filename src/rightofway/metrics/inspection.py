@@ -14,7 +14,7 @@ from itertools import pairwise
 import numpy as np
 
 from rightofway.arguments import checks_arguments
-from rightofway.errors import listed
+from rightofway.errors import join_names
 from rightofway.metrics.connectivity import (
     Corridor,
     Ways,
@@ -29,7 +29,7 @@ from rightofway.metrics.connectivity import (
 from rightofway.metrics.nearness import find_nearness, round_distance
 from rightofway.metrics.site import SEVERITIES, Finding, Inspection, Kind, Site, list_trip
 from rightofway.phrases import Phrase, say_count
-from rightofway.quantities import decimal
+from rightofway.quantities import format_decimal
 from rightofway.site import Roadmap
 
 MOST_PLACES = 200
@@ -196,7 +196,7 @@ def _outside(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator
                 pieces.append(sorted(reached))
         for piece in sorted(pieces, key=lambda vertices: (-len(vertices), vertices[0])):
             own = [vertex for vertex in piece if vertex in site.places]
-            names = listed([site.name(vertex) for vertex in own or piece])
+            names = join_names([site.name(vertex) for vertex in own or piece])
             if site.roadmap.has_cells and not own and len(piece) > 1:
                 cells = say_count(len(piece), "cell", "cells")
                 names = Phrase(
@@ -252,7 +252,7 @@ def _on_the_way(
                 "let no other robot need the way while one stands there, or add a way round"
             )
         taken.add(spot)
-        away = site.units.written_length(round_distance(site.roadmap, vertex, spot))
+        away = site.units.format_length(round_distance(site.roadmap, vertex, spot))
         return Phrase(
             "park at {place}, {distance} away, which no route needs, or add a way round",
             place=site.name(spot),
@@ -264,7 +264,7 @@ def _on_the_way(
     for vertex, beyond in sorted(separating, key=lambda pair: (-len(pair[1]), pair[0])):
         rest = inside - beyond - {vertex}
         few = sorted(beyond if len(beyond) <= len(rest) else rest)
-        parted = listed([site.name(place) for place in few])
+        parted = join_names([site.name(place) for place in few])
         others = say_count(len(inside) - 1 - len(few), "other place", "other places")
         yield Finding(
             kind="through way",
@@ -341,7 +341,7 @@ def _corridors(
                 " {round}",
                 one=names[0],
                 other=names[1],
-                length=site.units.written_length(corridor.steps * scale),
+                length=site.units.format_length(corridor.steps * scale),
                 users=users,
                 round=Phrase("no way leads round it")
                 if is_only
@@ -424,4 +424,4 @@ def _bottlenecks(
 
 
 def _percent(share: float | Fraction) -> str:
-    return f"{decimal(Fraction(round(100 * share)))} %"
+    return f"{format_decimal(Fraction(round(100 * share)))} %"

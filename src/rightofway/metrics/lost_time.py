@@ -19,7 +19,7 @@ from itertools import groupby, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.arguments import checks_arguments, one_for_each
+from rightofway.arguments import checks_arguments, require_one_for_each
 from rightofway.metrics.collisions import BookedPlaces, list_bookings
 from rightofway.metrics.measure import measure
 from rightofway.metrics.waits import NOBODY, find_freeing_visits
@@ -113,7 +113,7 @@ def join_waits(
     stays
         The parts of their visits.
     """
-    one_for_each(scenario.robots, tracks=tracks, stays=stays)
+    require_one_for_each(scenario.robots, tracks=tracks, stays=stays)
     return tuple(_joined_waits(scenario, tracks, stays))
 
 

@@ -36,7 +36,7 @@ def find_nearness(site: Site) -> Iterator[Finding]:
 
 def _beside_walls(site: Site) -> Iterator[Finding]:
     """Yield for each radius where a robot would reach into the walls of a grid."""
-    roadmap, length = site.roadmap, site.units.written_length
+    roadmap, length = site.roadmap, site.units.format_length
     if roadmap.grid is None or site.rules.walls == "strict":
         return
     wide = {robot.radius for robot in site.robots if 2 * robot.radius > roadmap.grid.cell_size}
@@ -64,7 +64,7 @@ def _beside_walls(site: Site) -> Iterator[Finding]:
 def _near(site: Site) -> Iterator[Finding]:
     """Yield vertices and lanes that are nearer than the robots are wide, and lanes that cross."""
     roadmap, room = site.roadmap, site.room
-    length = site.units.written_length
+    length = site.units.format_length
     need = None
     if room:
         sizes = join_items([length(radius) for radius in dict.fromkeys(site.radii)])
@@ -156,7 +156,7 @@ def _near_vertices(
     for first, other in pairs.vertices:
         if roadmap.is_along_one_lane((first, other)):
             continue
-        apart = site.units.written_length(round_distance(roadmap, first, other))
+        apart = site.units.format_length(round_distance(roadmap, first, other))
         both_homes = _homes_clash(site, first, other)
         is_joined = (
             roadmap.find_edge(first, other) is not None

@@ -11,11 +11,11 @@ from itertools import pairwise
 from typing import Literal
 
 from rightofway.arguments import checks_arguments
-from rightofway.errors import listed
+from rightofway.errors import join_names
 from rightofway.model import Robot, Rules
 from rightofway.model.place_names import middle
 from rightofway.phrases import Phrase, say_count
-from rightofway.quantities import Units, decimal
+from rightofway.quantities import Units, format_decimal
 from rightofway.site import Roadmap
 
 Severity = Literal["error", "warning", "note"]
@@ -162,7 +162,7 @@ class Site:
             for stop in robot.stops:
                 stops[int(stop.at)].append(robot.name)
         names = {
-            at: Phrase("stop of {robots}", robots=listed(sorted(set(of))))
+            at: Phrase("stop of {robots}", robots=join_names(sorted(set(of))))
             for at, of in stops.items()
         }
         return names | self.homes
@@ -233,8 +233,8 @@ def describe_site(site: Site, inspection: Inspection) -> tuple[str, ...]:
         "{vertices}, {edges}, {width} x {height}; {places}.",
         vertices=say_count(inspection.vertices, "vertex", "vertices"),
         edges=edges,
-        width=decimal(across),
-        height=site.units.written_length(down),
+        width=format_decimal(across),
+        height=site.units.format_length(down),
         places=say_count(inspection.places, "place", "places"),
     )
     sentences = [size]
@@ -248,7 +248,7 @@ def describe_site(site: Site, inspection: Inspection) -> tuple[str, ...]:
             Phrase(
                 "{number} strongly connected parts, of {sizes} vertices.",
                 number=str(len(inspection.parts)),
-                sizes=listed(cut),
+                sizes=join_names(cut),
             )
         )
     if inspection.sampled:

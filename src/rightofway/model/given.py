@@ -6,7 +6,7 @@ from collections.abc import Callable
 from numbers import Integral
 from typing import Any
 
-from rightofway.errors import InputError, Where, shown
+from rightofway.errors import InputError, Where, quote
 from rightofway.model.plan import Plan
 from rightofway.model.scenario import Scenario
 from rightofway.values import at, function, one_of, optional, truth
@@ -66,7 +66,7 @@ def require_number(place: Where, value: int, least: int, most: int, fault: str =
     is_whole = isinstance(value, Integral) and not isinstance(value, bool)
     if not is_whole or not least <= value <= most:
         remedy = f"give a whole number from {least} to {most}"
-        raise InputError.at(place, f"{shown(value)} {fault or 'is out of range'} ({remedy})")
+        raise InputError.at(place, f"{quote(value)} {fault or 'is out of range'} ({remedy})")
     return int(value)
 
 
@@ -74,5 +74,5 @@ def require_index(place: Where, index: int, count: int) -> int:
     """Return what a caller gave as the number of a robot, or of another one of ``count``."""
     if not isinstance(index, Integral) or not 0 <= index < count:
         known = f"give 0 to {count - 1}" if count else "there are none"
-        raise InputError.at(place, f"{shown(index)} is none of {count} ({known})")
+        raise InputError.at(place, f"{quote(index)} is none of {count} ({known})")
     return int(index)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
 
-from rightofway.arguments import checks_arguments, one_for_each
+from rightofway.arguments import checks_arguments, require_one_for_each
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model.route import Track
 from rightofway.model.scenario import Scenario
@@ -47,7 +47,7 @@ class Objective(StrEnum):
         tracks
             One track for each robot.
         """
-        one_for_each(scenario.robots, tracks=tracks)
+        require_one_for_each(scenario.robots, tracks=tracks)
         if self is Objective.WEIGHTED:
             return cost_of(scenario, tracks)
         if self is Objective.COST:

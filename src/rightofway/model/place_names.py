@@ -7,7 +7,7 @@ from functools import cached_property
 
 from rightofway.model.scenario import Scenario
 from rightofway.phrases import Phrase
-from rightofway.quantities import decimal
+from rightofway.quantities import format_decimal
 from rightofway.site import Roadmap
 
 DECIMALS = 3
@@ -16,7 +16,7 @@ DECIMALS = 3
 
 def middle(roadmap: Roadmap, vertex: int) -> str:
     """Return the middle of a cell in the site's frame: ``7.25, 4.75``."""
-    return ", ".join(decimal(part, DECIMALS) for part in roadmap.get_point(vertex))
+    return ", ".join(format_decimal(part, DECIMALS) for part in roadmap.get_point(vertex))
 
 
 class PlaceNames:

@@ -8,7 +8,7 @@ from importlib import import_module
 from typing import Any, Literal, TypeVar
 
 from rightofway.arguments import checks_arguments
-from rightofway.errors import InputError, nearest, shown
+from rightofway.errors import InputError, find_nearest, quote
 from rightofway.model.figures import provided
 from rightofway.model.lost_time import LostTime
 from rightofway.model.outcome import Outcome
@@ -360,9 +360,9 @@ class Plan:
         """
         names = [robot.name for robot in self.scenario.robots]
         if name not in names:
-            near = nearest(name, names)
+            near = find_nearest(name, names)
             hint = f"did you mean {near!r}?" if near else f"the first is {names[0]!r}"
-            raise InputError.at("robots", f"no robot is named {shown(name)} ({hint})")
+            raise InputError.at("robots", f"no robot is named {quote(name)} ({hint})")
         robot = names.index(name)
         track, vertex = self.tracks[robot], self.scenario.roadmap.name
         return RobotPlan(

@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.deadline import check_work
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, quote
 from rightofway.site import Point, Roadmap, measure_squared_distance
 from rightofway.site.nearness import Lines, PointGrid
 from rightofway.site.zones import Zone
@@ -262,7 +262,7 @@ def _refuse_large_zones(roadmap: Roadmap) -> None:
         n_members = len(list_members(roadmap, zone))
         n_pairs += n_members * (n_members - 1) // 2
         if n_pairs > MOST_PAIRS_IN_ZONES:
-            message = f"zone {shown(zone.name)} holds {n_members} vertices and lanes, and zones"
+            message = f"zone {quote(zone.name)} holds {n_members} vertices and lanes, and zones"
             message += f" up to it {n_pairs} pairs of them, more than {MOST_PAIRS_IN_ZONES}"
             raise InputError.at(("map", "zones"), f"{message} (draw smaller zones)")
 

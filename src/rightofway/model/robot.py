@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Literal
 
-from rightofway.errors import shown
+from rightofway.errors import quote
 from rightofway.model.attributes import attribute, list_attributes, list_readers
 from rightofway.phrases import Phrase
 from rightofway.site import VertexId
@@ -175,7 +175,7 @@ class Robot:
     def __post_init__(self) -> None:
         coerced(
             self,
-            f"robot {shown(self.name)}",
+            f"robot {quote(self.name)}",
             name=text,
             home=vertex,
             stops=_stops,
@@ -190,7 +190,7 @@ class Robot:
 def _stops(value: object) -> tuple[Stop, ...]:
     if isinstance(value, list | tuple) and all(isinstance(stop, Stop) for stop in value):
         return tuple(value)
-    raise ValueError(f"{shown(value)} are no stops (give a list of Stop(at=vertex, work=time))")
+    raise ValueError(f"{quote(value)} are no stops (give a list of Stop(at=vertex, work=time))")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, quote
 from rightofway.model.problem import Itinerary, Stage, least_dwell
 from rightofway.model.units import NEVER, Tick
 from rightofway.site import Roadmap, VertexId
@@ -76,7 +76,7 @@ def _whole_numbers(value: object) -> object:
     """Return an array of whole numbers."""
     if isinstance(value, np.ndarray) and value.ndim == 1 and value.dtype.kind == "i":
         return value
-    raise ValueError(f"{shown(value)} is no array of whole numbers (make it with Track.of)")
+    raise ValueError(f"{quote(value)} is no array of whole numbers (make it with Track.of)")
 
 
 def _array_of(kind: type[np.signedinteger[Any]]) -> Callable[[object], NDArray[Any]]:
@@ -89,9 +89,9 @@ def _array_of(kind: type[np.signedinteger[Any]]) -> Callable[[object], NDArray[A
         except ValueError:  # rows of several lengths
             array = np.array(None)
         if array.ndim != 1 or (len(array) and array.dtype.kind not in "iu"):
-            raise ValueError(f"{shown(values)} is no list of whole numbers (give one)")
+            raise ValueError(f"{quote(values)} is no list of whole numbers (give one)")
         if len(array) and not least <= array.min() <= array.max() <= most:
-            raise ValueError(f"{shown(values)} is out of range (give {least} to {most})")
+            raise ValueError(f"{quote(values)} is out of range (give {least} to {most})")
         return array.astype(kind)
 
     return read

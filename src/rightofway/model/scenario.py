@@ -6,14 +6,14 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
-from rightofway.errors import InputError, InputFault, Where, shown
+from rightofway.errors import InputError, InputFault, Where, quote
 from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.model.figures import provided
 from rightofway.model.problem import HEAVIEST, Problem, bind_problem, scale_weights
 from rightofway.model.resources import find_too_short_edges
 from rightofway.model.robot import Robot, Rules, Turn
 from rightofway.model.units import Clock
-from rightofway.quantities import Quantities, Units, decimal
+from rightofway.quantities import Quantities, Units, format_decimal
 from rightofway.site import Roadmap, VertexId
 from rightofway.site.walls import clear_of_walls, reaches_walls
 
@@ -65,7 +65,7 @@ class Scenario:
             faults = [*_rule_faults(self), *_fleet_faults(self), *_space_faults(self)]
             for index, closure in enumerate(self.closures):
                 of_closure = find_closure_faults(closure, self.roadmap)
-                faults += [fault.within(("closures", index)) for fault in of_closure]
+                faults += [fault.nest(("closures", index)) for fault in of_closure]
         if faults:
             raise InputError(faults)
         object.__setattr__(
@@ -103,22 +103,22 @@ def _kind_faults(scenario: Scenario) -> Iterator[InputFault]:
     roadmap, robots, rules = scenario.roadmap, scenario.robots, scenario.rules
     if not isinstance(roadmap, Roadmap):
         remedy = "give a Roadmap, or build the fleet with FleetBuilder"
-        yield InputFault("roadmap", f"{shown(roadmap)} is no roadmap ({remedy})")
+        yield InputFault("roadmap", f"{quote(roadmap)} is no roadmap ({remedy})")
     if not isinstance(robots, list | tuple):
-        yield InputFault("robots", f"{shown(robots)} is no fleet (give a list of Robot)")
+        yield InputFault("robots", f"{quote(robots)} is no fleet (give a list of Robot)")
         return
     for index, robot in enumerate(robots):
         if not isinstance(robot, Robot):
-            yield InputFault(("robots", index), f"{shown(robot)} is no robot (give a Robot)")
+            yield InputFault(("robots", index), f"{quote(robot)} is no robot (give a Robot)")
     if not isinstance(rules, Rules):
-        yield InputFault("rules", f"{shown(rules)} are no rules (give Rules)")
+        yield InputFault("rules", f"{quote(rules)} are no rules (give Rules)")
     if not isinstance(scenario.closures, list | tuple):
-        message = f"{shown(scenario.closures)} are no closures (give a list of Closure)"
+        message = f"{quote(scenario.closures)} are no closures (give a list of Closure)"
         yield InputFault("closures", message)
     else:
         for index, closure in enumerate(scenario.closures):
             if not isinstance(closure, Closure):
-                message = f"{shown(closure)} is no closure (give a Closure)"
+                message = f"{quote(closure)} is no closure (give a Closure)"
                 yield InputFault(("closures", index), message)
     yield from _measure_faults(scenario)
 
@@ -126,9 +126,9 @@ def _kind_faults(scenario: Scenario) -> Iterator[InputFault]:
 def _measure_faults(scenario: Scenario) -> Iterator[InputFault]:
     """Yield a clock and units that are not of the right kind."""
     if not isinstance(scenario.clock, Clock | None):
-        yield InputFault("clock", f"{shown(scenario.clock)} is no clock (leave it out)")
+        yield InputFault("clock", f"{quote(scenario.clock)} is no clock (leave it out)")
     if not isinstance(scenario.units, Units):
-        yield InputFault("units", f"{shown(scenario.units)} are no units (give Units)")
+        yield InputFault("units", f"{quote(scenario.units)} are no units (give Units)")
 
 
 def _rule_faults(scenario: Scenario) -> Iterator[InputFault]:
@@ -168,9 +168,8 @@ def _space_faults(scenario: Scenario) -> Iterator[InputFault]:
         yield InputFault(("rules", "occupancy"), message)
     if all(robot.radius <= 0 for robot in scenario.robots):
         if rules.clearance > 0:
-            message = (
-                f"{decimal(rules.clearance)} is for robots with a size (give a robot a radius)"
-            )
+            remedy = "give a robot a radius"
+            message = f"{format_decimal(rules.clearance)} is for robots with a size ({remedy})"
             yield InputFault(("rules", "clearance"), message)
         return
     if rules.occupancy == "one":
@@ -181,9 +180,9 @@ def _space_faults(scenario: Scenario) -> Iterator[InputFault]:
         name = scenario.roadmap.name
         yield InputFault(
             "roadmap",
-            f"the edge from {name(tail)} to {name(head)} is {decimal(length)} long, but its ends"
-            f" are {decimal(about, 6)} apart (robots with a size drive straight: give its length"
-            " or move an end)",
+            f"the edge from {name(tail)} to {name(head)} is {format_decimal(length)} long, but its"
+            f" ends are {format_decimal(about, 6)} apart (robots with a size drive straight: give"
+            " its length or move an end)",
         )
 
 
@@ -191,7 +190,7 @@ def _fleet_faults(scenario: Scenario) -> Iterator[InputFault]:
     if not scenario.robots:
         yield InputFault("robots", "there is none (give at least one)")
     for index, robot in enumerate(scenario.robots):
-        yield from (fault.within(("robots", index)) for fault in _robot_faults(robot, scenario))
+        yield from (fault.nest(("robots", index)) for fault in _robot_faults(robot, scenario))
     yield from _weight_faults(scenario.robots)
     name = scenario.roadmap.name
     names = [robot.name for robot in scenario.robots]
@@ -275,4 +274,4 @@ def _place_faults(robot: Robot, roadmap: Roadmap) -> Iterator[InputFault]:
         for place, vertex in known:
             if reaches[vertex]:
                 message = f"{roadmap.name(vertex)} is too near to a wall for a radius of"
-                yield InputFault(place, f"{message} {decimal(robot.radius)} (move it)")
+                yield InputFault(place, f"{message} {format_decimal(robot.radius)} (move it)")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, quote
 from rightofway.model.units import Tick
 from rightofway.values import coerced, list_of, whole_number
 
@@ -54,7 +54,7 @@ class SteadyState:
 def _visit(value: object) -> tuple[int, int]:
     """Return a visit: a robot and an index in its track."""
     if not isinstance(value, list | tuple) or len(value) != 2:  # noqa: PLR2004 (robot and visit)
-        raise ValueError(f"{shown(value)} is no visit (give a robot and the index of its visit)")
+        raise ValueError(f"{quote(value)} is no visit (give a robot and the index of its visit)")
     robot, visit = map(whole_number, value)
     return robot, visit
 

@@ -16,7 +16,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, quote
 from rightofway.model.resources import read_exact_positions
 from rightofway.model.units import Clock, Tick
 from rightofway.site import Roadmap
@@ -95,8 +95,8 @@ def compute_turnings(
             angles = measure_angles(roadmap)
             ticks = [clock.ticks(angle * ANGLE_STEP / rate) for angle in angles.angles]
             if ticks and ticks[-1] > LONGEST_TURN:
-                longest = f"a turn takes {shown(ticks[-1])} ticks of {shown(clock.tick)}"
-                message = f"{shown(rate)} is too slow: {longest} (give a faster one)"
+                longest = f"a turn takes {quote(ticks[-1])} ticks of {quote(clock.tick)}"
+                message = f"{quote(rate)} is too slow: {longest} (give a faster one)"
                 raise InputError.at(("robots", robot, "turn_rate"), message)
             turnings[rate] = Turning(angles=angles, ticks=np.array(ticks, np.int64))
     return [turnings[rate] for rate in rates]

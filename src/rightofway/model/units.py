@@ -14,7 +14,7 @@ from fractions import Fraction
 from numbers import Real
 from typing import TYPE_CHECKING, NewType
 
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, quote
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -99,6 +99,6 @@ def checked_time_limit(seconds: float | None) -> float | None:
     if seconds is None:
         return None
     if isinstance(seconds, bool) or not isinstance(seconds, Real) or not seconds >= 0:
-        message = f"{shown(seconds)} is no number of seconds (give 0 or more, or None for no limit)"
+        message = f"{quote(seconds)} is no number of seconds (give 0 or more, or None for no limit)"
         raise InputError.at("time_limit", message)
     return None if seconds > sys.float_info.max else float(seconds)

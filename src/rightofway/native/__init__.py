@@ -8,29 +8,29 @@ from rightofway.native.bookings import (
     book_times,
 )
 from rightofway.native.problem import (
+    bind_native,
     bind_roads,
     bind_rules,
     bind_turning,
-    bound,
-    compiler,
-    tracks_of,
+    make_tracks,
+    name_compiler,
 )
-from rightofway.native.resources import bind_lists, clashes, excluded_by, find_vertices_near
+from rightofway.native.resources import bind_lists, find_clashes, find_vertices_near, list_excluded
 
 __all__ = [
     "BookedRows",
     "ClosedPlaces",
     "bind_closures",
     "bind_lists",
+    "bind_native",
     "bind_roads",
     "bind_rows",
     "bind_rules",
     "bind_turning",
     "book_times",
-    "bound",
-    "clashes",
-    "compiler",
-    "excluded_by",
+    "find_clashes",
     "find_vertices_near",
-    "tracks_of",
+    "list_excluded",
+    "make_tracks",
+    "name_compiler",
 ]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.arguments import checks_arguments
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, quote
 from rightofway.model import BookingRules, Problem, Tick, Track
 from rightofway.model.turning import Turning
 from rightofway.native.resources import bind_lists
@@ -22,7 +22,7 @@ _BOUND: WeakKeyDictionary[Problem, _core.Problem] = WeakKeyDictionary()
 atexit.register(_BOUND.clear)  # a problem that lives to the end takes no native object along
 
 
-def bound(problem: Problem) -> _core.Problem:
+def bind_native(problem: Problem) -> _core.Problem:
     """Return the native twin of a problem, which is made once and kept with it.
 
     Robots of one pace need the same ticks for every edge.
@@ -40,7 +40,7 @@ def bound(problem: Problem) -> _core.Problem:
         If it is no problem.
     """
     if not isinstance(problem, Problem):
-        raise InputError.at("problem", f"{shown(problem)} is no problem (give scenario.problem)")
+        raise InputError.at("problem", f"{quote(problem)} is no problem (give scenario.problem)")
     native = _BOUND.get(problem)
     if native is None:
         roadmap, robots, sizes = problem.roadmap, problem.itineraries, problem.resources
@@ -124,7 +124,7 @@ def bind_turning(turnings: Sequence[Turning | None]) -> _core.Turning | None:
     )
 
 
-def tracks_of(
+def make_tracks(
     first_visit: NDArray[np.int32], vertices: NDArray[np.int32], enter: NDArray[np.int64]
 ) -> list[Track]:
     """Return a track for each robot.
@@ -142,6 +142,6 @@ def tracks_of(
     ]
 
 
-def compiler() -> str:
+def name_compiler() -> str:
     """Return the name and version of what compiled the native core, like ``GCC 12.2.0``."""
     return _core.compiler()

@@ -99,7 +99,7 @@ def _limbs(numbers: Iterable[int], n_limbs: int) -> NDArray[np.uint32]:
     return np.frombuffer(text, np.dtype("<u4")).astype(np.uint32)
 
 
-def excluded_by(resources: Resources, row: int) -> list[int]:
+def list_excluded(resources: Resources, row: int) -> list[int]:
     """Return the rows that a booking of a row excludes; called for each visit.
 
     Parameters
@@ -129,13 +129,13 @@ def find_vertices_near(resources: Resources, robot: int, vertex: int) -> list[in
         Where it is.
     """
     n_resources = resources.n_vertices + resources.n_edges
-    excluded = excluded_by(resources, resources.vertex_row(robot, vertex))
+    excluded = list_excluded(resources, resources.vertex_row(robot, vertex))
     numbers = (row % n_resources for row in excluded)
     return [number for number in numbers if number < resources.n_vertices]
 
 
 @checks_arguments
-def clashes(resources: Resources, places: Sequence[int]) -> Iterator[tuple[int, int]]:
+def find_clashes(resources: Resources, places: Sequence[int]) -> Iterator[tuple[int, int]]:
     """Yield pairs of robots (i, j), i < j, that cannot stay at their places at one time.
 
     Parameters
@@ -150,5 +150,5 @@ def clashes(resources: Resources, places: Sequence[int]) -> Iterator[tuple[int, 
     for robot, row in enumerate(rows):
         holders.setdefault(row, []).append(robot)
     for robot, row in enumerate(rows):
-        for other in excluded_by(resources, row):
+        for other in list_excluded(resources, row):
             yield from ((robot, holder) for holder in holders.get(other, ()) if robot < holder)

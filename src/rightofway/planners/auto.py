@@ -83,7 +83,7 @@ def _explained(task: Task) -> Draft | None:
     if len(task.scenario.robots) > FEW:
         return None
     options = {"swaps": "resolve", "routes": "clear"}
-    hurried = replace(task, options=options, start=None, deadline=task.deadline.sooner(SHARE))
+    hurried = replace(task, options=options, start=None, deadline=task.deadline.shorten(SHARE))
     try:
         explained = two_level(hurried)
     except GaveUp:
@@ -119,7 +119,7 @@ class _Prover:
 
     def __init__(self, task: Task) -> None:
         self._task = task
-        self._whole = task.deadline.seconds_left()
+        self._whole = task.deadline.measure_seconds_left()
         self._search: ConflictBasedSearch | None = None
 
     def prove(self, draft: Draft, nodes: int, share: float = 1.0) -> Draft:
@@ -183,7 +183,7 @@ class _Prover:
             return None
         if self._search is None:
             self._search = ConflictBasedSearch(task.scenario.problem)
-        limit = task.deadline.sooner(share).seconds_left()
+        limit = task.deadline.shorten(share).measure_seconds_left()
         try:
             self._search.run(upper=upper, nodes=nodes or None, time_limit=limit)
         except KeyboardInterrupt:
@@ -192,7 +192,7 @@ class _Prover:
         return self._search
 
     def _has_time(self) -> bool:
-        left = self._task.deadline.seconds_left()
+        left = self._task.deadline.measure_seconds_left()
         return left is None or left > LEAST_IDLE * (self._whole or 0)
 
 

@@ -41,7 +41,7 @@ def prove_bound(
     """
     deadline = Deadline.after(time_limit)
     search = ConflictBasedSearch(scenario.problem)
-    search.run(nodes=nodes or None, time_limit=deadline.sooner(SHARE).seconds_left())
+    search.run(nodes=nodes or None, time_limit=deadline.shorten(SHARE).measure_seconds_left())
     if search.bound is None:
         raise NoPlanExists("the tree of constraints ends without a plan")
     least, is_reached = search.bound, search.tracks is not None
@@ -53,5 +53,5 @@ def prove_bound(
 def compute_price_bound(scenario: Scenario, deadline: Deadline, steps: int) -> Tick:
     """Return a lower bound by prices of places."""
     prices = PriceAscent(scenario.problem)
-    prices.run(steps=steps or None, time_limit=deadline.seconds_left())
+    prices.run(steps=steps or None, time_limit=deadline.measure_seconds_left())
     return prices.bound

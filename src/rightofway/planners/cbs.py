@@ -88,7 +88,7 @@ def _of_least_flowtime(task: Task, first: Draft | None) -> Draft:
             upper=upper,
             enough=None if upper is None else ceil(upper / factor),
             nodes=task.options["nodes"] or None,
-            time_limit=task.deadline.seconds_left(),
+            time_limit=task.deadline.measure_seconds_left(),
         )
     except KeyboardInterrupt:
         if not task.keep_best or first is None:
@@ -159,7 +159,7 @@ def _of_least_makespan(task: Task, first: Draft) -> Draft:
     left = task.options["nodes"] or None
     n_nodes = 0
     while tried < best and best > factor * bound and (left is None or left > 1):
-        seconds = task.deadline.sooner(SHARE_OF_TREE).seconds_left()
+        seconds = task.deadline.shorten(SHARE_OF_TREE).measure_seconds_left()
         if seconds == 0:
             break
         search = _search(task, latest=latest)
@@ -197,7 +197,7 @@ def _first_plan(task: Task) -> Draft | None:
         return Draft(tracks=task.start, status=Phrase("the plan given"))
     iterations = ITERATIONS_PER_ROBOT * len(task.scenario.robots)
     hurried = replace(
-        task, options={"iterations": iterations}, deadline=task.deadline.sooner(SHARE)
+        task, options={"iterations": iterations}, deadline=task.deadline.shorten(SHARE)
     )
     try:
         return improve_best(hurried, make_fleet_search(hurried))

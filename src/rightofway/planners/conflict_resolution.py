@@ -179,7 +179,7 @@ def list_rights_if_waits(
 def plan_by_rule(task: Task, distances: Distances, routes: Sequence[Route], rule: Rule) -> Draft:
     """Plan a fleet by rights of way, and where time is short for that by `lacam`."""
     try:
-        hurried = replace(task, deadline=task.deadline.sooner(SHARE))
+        hurried = replace(task, deadline=task.deadline.shorten(SHARE))
         return plan_on_routes(hurried, distances, PartialPlan(hurried, routes), rule)
     except GaveUp:
         because = Phrase("time was short, so all were planned together")
@@ -281,7 +281,7 @@ class _Reservations:
     def place(self, robot: int) -> bool:
         """Give a robot its earliest track among the others, if there is one."""
         self.bookings.release(robot)
-        left = self.task.deadline.seconds_left()
+        left = self.task.deadline.measure_seconds_left()
         track = find_earliest_track(robot, self.bookings, self.distances, time_limit=left)
         if track is None:
             self.hold_home(robot)

@@ -105,7 +105,7 @@ def _on_other_routes(
         search.start(old_tracks)
     except ValueError:
         return None  # without rotations the search keeps a headway, which the plan need not have
-    limit = task.deadline.seconds_left()
+    limit = task.deadline.measure_seconds_left()
     if not search.repair([waits, goes_first], searches=SEARCHES, time_limit=limit):
         return None
     tracks = search.list_tracks()

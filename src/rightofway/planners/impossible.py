@@ -20,12 +20,12 @@ from fractions import Fraction
 from itertools import pairwise
 
 from rightofway.deadline import Deadline
-from rightofway.errors import MAX_REASONS, Blockage, GaveUp, NoPlanExists, listed
+from rightofway.errors import MAX_REASONS, Blockage, GaveUp, NoPlanExists, join_names
 from rightofway.model import Outcome, OutcomeKind, Plan, PlannerRun, Scenario, Tick, Track
 from rightofway.model.closures import Closure
 from rightofway.model.place_names import PlaceNames
 from rightofway.model.resources import distance
-from rightofway.native import clashes
+from rightofway.native import find_clashes
 from rightofway.phrases import Phrase
 from rightofway.search import (
     Bookings,
@@ -87,7 +87,7 @@ def _shared_ends(scenario: Scenario) -> Iterator[Blockage]:
     for vertex, names in holders.items():
         if len(names) > 1:
             place = PlaceNames(scenario)(vertex)
-            values = {"robots": listed(names), "place": place}
+            values = {"robots": join_names(names), "place": place}
             if len(names) == 2:  # noqa: PLR2004
                 reason = Phrase("{robots} would both have to stay at {place} for ever", **values)
                 remedy = Phrase("let one of them end elsewhere")
@@ -100,13 +100,13 @@ def _shared_ends(scenario: Scenario) -> Iterator[Blockage]:
 def _clashes(scenario: Scenario) -> Iterator[Blockage]:
     """Yield where two robots would start or end too near to each other."""
     itineraries, roadmap = scenario.problem.itineraries, scenario.roadmap
-    length, clearance = scenario.quantities.length, scenario.rules.clearance
+    length, clearance = scenario.quantities.format_length, scenario.rules.clearance
     homes, ends = (
         [itinerary.home for itinerary in itineraries],
         [itinerary.last for itinerary in itineraries],
     )
     for when, places in (("start", homes), ("end", ends)):
-        for pair in clashes(scenario.problem.resources, places):
+        for pair in find_clashes(scenario.problem.resources, places):
             start, other_start = (places[robot] for robot in pair)
             if start == other_start:
                 continue  # a shared end
@@ -185,7 +185,7 @@ def refuse_closed_ways(
 def _has_track_alone(
     scenario: Scenario, robot: int, distances: Distances, deadline: Deadline
 ) -> bool:
-    left = deadline.seconds_left()
+    left = deadline.measure_seconds_left()
     track = find_earliest_track(robot, Bookings(scenario.problem), distances, time_limit=left)
     return track is not None
 
@@ -210,7 +210,9 @@ def _closed_in(
     if len(left) == 1:
         remedy = Phrase("open it earlier, or give the robot other places")
     reason = Phrase(
-        "{robot} cannot make its trip, even alone: {closures}", robot=name, closures=listed(closed)
+        "{robot} cannot make its trip, even alone: {closures}",
+        robot=name,
+        closures=join_names(closed),
     )
     return Blockage(reason, (name,), tuple(map(scenario.roadmap.name, places)), remedy)
 
@@ -224,10 +226,10 @@ def _closed_text(scenario: Scenario, closure: Closure) -> Phrase:
     place = places[0]
     if len(places) > 1:
         place = Phrase("{first} to {last}", first=place, last=places[-1])
-    values = {"way": place, "begin": quantities.moment(int(closure.from_ // tick))}
+    values = {"way": place, "begin": quantities.format_moment(int(closure.from_ // tick))}
     if closure.until is None:
         return Phrase("{way} is closed from {begin} on", **values)
-    end = quantities.moment(ticks(closure.until))
+    end = quantities.format_moment(ticks(closure.until))
     return Phrase("{way} is closed from {begin} to {end}", **values, end=end)
 
 
@@ -307,7 +309,7 @@ def make_fleet_of(scenario: Scenario, robots: Iterable[int]) -> Scenario:
 def explain_no_room(scenario: Scenario, robots: Sequence[int]) -> Blockage:
     """Return why robots that are proven to have no plan together have none."""
     names = tuple(scenario.robots[robot].name for robot in robots)
-    blocked_robots = listed(names)
+    blocked_robots = join_names(names)
     if len(names) > LARGEST_SET:
         blocked_robots = Phrase("all {number} robots", number=str(len(names)))
         if len(names) < len(scenario.robots):
@@ -345,7 +347,7 @@ def _is_blocked(
     """Return whether it is proven that some robots of a fleet have no plan."""
     if len(robots) < 2:  # noqa: PLR2004 (a robot alone is never blocked)
         return False
-    left = deadline.seconds_left()
+    left = deadline.measure_seconds_left()
     fleet = make_fleet_of(scenario, robots)
     try:
         plan_by_lacam(
@@ -362,12 +364,12 @@ def _is_blocked(
 
 def _described(scenario: Scenario, robots: Sequence[int]) -> Blockage:
     roadmap, names = scenario.roadmap, tuple(scenario.robots[robot].name for robot in robots)
-    blocked = Phrase("{robots} block each other", robots=listed(names))
+    blocked = Phrase("{robots} block each other", robots=join_names(names))
     if len(names) < len(scenario.robots):
         blocked = Phrase("{fact}, whatever the other robots do", fact=blocked)
     narrow = _narrow_places(scenario, robots)
     if narrow:
-        passed = {"fact": blocked, "places": listed(list(map(PlaceNames(scenario), narrow)))}
+        passed = {"fact": blocked, "places": join_names(list(map(PlaceNames(scenario), narrow)))}
         reason = Phrase("{fact}: all of them have to pass {places}", **passed)
         if len(names) == 2:  # noqa: PLR2004
             reason = Phrase("{fact}: both have to pass {places}", **passed)

@@ -74,7 +74,7 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
         tracks = plan_by_lacam(
             problem.in_steps(),
             seed=task.seed,
-            time_limit=task.deadline.seconds_left(),
+            time_limit=task.deadline.measure_seconds_left(),
             spreads=spreads and problem.is_open,
         )
     except NoPlanExists:
@@ -111,7 +111,7 @@ def plan_by_instants(
             make_planning_problem(scenario),
             seed=task.seed,
             most_effort=most_effort if effort is None else min(effort, most_effort),
-            time_limit=task.deadline.sooner(share if robots <= MANY else 1).seconds_left(),
+            time_limit=task.deadline.shorten(share if robots <= MANY else 1).measure_seconds_left(),
             spreads=spreads,
         )
     except NoPlanExists:

@@ -114,7 +114,7 @@ def _together(task: Task) -> Draft | None:
 def _quickly_together(task: Task) -> Draft | None:
     """Plan by LaCAM: in an instant, or not at all, as in long narrow lanes."""
     share = SHARE if task.scenario.problem.resources.are_points else SHARE_WITH_SIZES
-    hurried = replace(task, deadline=task.deadline.sooner(share))
+    hurried = replace(task, deadline=task.deadline.shorten(share))
     draft = plan_by_instants(hurried, effort=EFFORT * len(task.scenario.robots))
     if draft is None:
         return None
@@ -125,7 +125,7 @@ def _quickly_together(task: Task) -> Draft | None:
 def _in_turn(task: Task, search: FleetSearch, *, has_plan: bool) -> Draft | None:
     """Plan robots one after another; without a plan, LaCAM needs time for a second attempt."""
     if not has_plan and task.scenario.problem.resources.are_points:
-        task = replace(task, deadline=task.deadline.sooner(SHARE_IN_TURN))
+        task = replace(task, deadline=task.deadline.shorten(SHARE_IN_TURN))
     draft = plan_in_turn(task, search, "shortest", has_plan=has_plan)
     if draft is not None:
         task.better(lambda: draft.tracks)
@@ -145,7 +145,7 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     search.start(spaced)
     is_open = task.scenario.problem.closures is None
     retiming = RETIMING if is_open else RETIMING_AMONG_CLOSURES
-    deadline = task.deadline.earlier(retiming * sum(map(len, spaced)))
+    deadline = task.deadline.bring_forward(retiming * sum(map(len, spaced)))
     weights = [itinerary.weight for itinerary in task.scenario.problem.itineraries]
     alone, before = int(np.dot(weights, search.compute_alone())), search.cost
     bound = alone if first.proof is None else max(alone, first.proof.bound)
@@ -158,14 +158,14 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
             done += search.improve(
                 iterations - done,
                 patience=patience,
-                time_limit=deadline.seconds_left(),
+                time_limit=deadline.measure_seconds_left(),
                 pause=BETWEEN_REPORTS,
             )
             rate = (done - done_before) / (time.perf_counter() - began)
             if search.cost < cost:
                 task.better(search.list_tracks)
             task.report(_progress(task, search.cost, bound, rate))
-            if search.idle >= patience or deadline.seconds_left() == 0:
+            if search.idle >= patience or deadline.measure_seconds_left() == 0:
                 break
     except KeyboardInterrupt:
         if not task.keep_best:
@@ -189,7 +189,7 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
 
 def _progress(task: Task, cost: int, bound: int, rate: float) -> str:
     """Return what the search has reached."""
-    reached = task.scenario.quantities.duration(cost)
+    reached = task.scenario.quantities.format_duration(cost)
     figures = [Phrase("{cause} {time}", cause=str(minimized(task.scenario)), time=reached)]
     if bound:
         figures.append(Phrase("{gap} above the bound", gap=f"{cost / bound - 1:.1%}"))

@@ -32,7 +32,7 @@ from typing import NamedTuple
 from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Scenario, Tick, Track, least_dwell
-from rightofway.native import excluded_by
+from rightofway.native import list_excluded
 from rightofway.phrases import Phrase
 from rightofway.planners.impossible import explain_no_room, find_smallest_set, make_fleet_of
 from rightofway.planners.task import Draft, Task, make_planning_problem
@@ -229,7 +229,7 @@ class SingleMoves:
     def _mask_of(self, row: int) -> int:
         """Return the rows that a booking excludes, as bits."""
         if row not in self._excluded:
-            self._excluded[row] = sum(1 << other for other in excluded_by(self.resources, row))
+            self._excluded[row] = sum(1 << other for other in list_excluded(self.resources, row))
         return self._excluded[row]
 
 

@@ -11,7 +11,7 @@ from dataclasses import asdict, dataclass, fields
 from fractions import Fraction
 from typing import Annotated, Any, Literal, Self, get_args, get_origin, get_type_hints
 
-from rightofway.errors import InputError, nearest
+from rightofway.errors import InputError, find_nearest
 from rightofway.values import exact
 
 Value = str | int | Fraction
@@ -170,7 +170,7 @@ class PlannerOptions:
 
 def describe_unknown(name: str, owner: str, known: list[str]) -> str:
     """Return a sentence on a name that is not known, with the nearest one that is."""
-    near = nearest(name, known)
+    near = find_nearest(name, known)
     hint = f"did you mean {near!r}? " if near else ""
     return f"{name!r} is unknown to {owner} ({hint}known: {', '.join(known) or 'none'})"
 

@@ -141,7 +141,7 @@ def _best_of(
         if best is None or reached < least:
             best, least = draft, reached
             task.better(lambda: draft.tracks)
-            flowtime = task.scenario.quantities.duration(reached)
+            flowtime = task.scenario.quantities.format_duration(reached)
             values = {"number": str(tried), "flowtime": str(flowtime)}
             task.report(Phrase("order {number}: flowtime {flowtime}", **values))
         return reached

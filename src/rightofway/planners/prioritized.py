@@ -77,7 +77,7 @@ def plan_in_turn(
 
     None if no plan was found, or no time is left; that proves nothing.
     """
-    if len(task.scenario.robots) > MOST_ROBOTS or task.deadline.seconds_left() == 0:
+    if len(task.scenario.robots) > MOST_ROBOTS or task.deadline.measure_seconds_left() == 0:
         return None
     turns = _in_order(task.scenario, search, order, task.seed)
     problem = task.scenario.problem
@@ -110,7 +110,7 @@ def _patiently(task: Task, search: FleetSearch, turns: Sequence[int], share: flo
 
 
 def _part(deadline: Deadline, share: float) -> float | None:
-    return deadline.sooner(share).seconds_left()
+    return deadline.shorten(share).measure_seconds_left()
 
 
 def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
@@ -125,7 +125,7 @@ def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
 
 
 def _at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:
-    if task.deadline.seconds_left() == 0:
+    if task.deadline.measure_seconds_left() == 0:
         return None
     paced = _paced(task.scenario)
     # One thread: the greedy attempt is not needed here, and would slow this one on a busy machine.

@@ -33,7 +33,7 @@ def choose_routes_among_closures(task: Task, distances: Distances) -> list[Route
     refuse_the_impossible(task.scenario, distances)
     bookings, routes = Bookings(make_planning_problem(task.scenario)), list[Route]()
     for robot, itinerary in enumerate(task.scenario.problem.itineraries):
-        left = task.deadline.seconds_left()
+        left = task.deadline.measure_seconds_left()
         track = find_earliest_track(robot, bookings, distances, time_limit=left)
         if track is None:
             name = task.scenario.robots[robot].name

@@ -21,7 +21,7 @@ from typing import NamedTuple
 from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import NEVER, Scenario, Tick, Track, least_dwell
-from rightofway.native import excluded_by
+from rightofway.native import list_excluded
 from rightofway.phrases import Phrase
 from rightofway.planners.impossible import explain_no_room, find_smallest_set, make_fleet_of
 from rightofway.planners.moves import Move, SingleMoves, State
@@ -46,7 +46,7 @@ def plan_by_timed_moves(task: Task) -> Draft | None:
     NoPlanExists
         With a small set of robots that have no plan.
     """
-    scenario, deadline = task.scenario, task.deadline.sooner(SHARE)
+    scenario, deadline = task.scenario, task.deadline.shorten(SHARE)
     everybody = range(len(scenario.robots))
     if len(everybody) > FEW_ROBOTS:
         return None
@@ -79,7 +79,7 @@ def _search(moves: _TimedMoves, deadline: Deadline) -> _Timed | None:
     for expanded in range(MOST_STATES):
         if not waiting and moves.is_proof:
             return None
-        if not waiting or (expanded % BETWEEN_CHECKS == 0 and deadline.seconds_left() == 0):
+        if not waiting or (expanded % BETWEEN_CHECKS == 0 and deadline.measure_seconds_left() == 0):
             break
         _, _, node = heappop(waiting)
         if not any(node is other for other in known[node.state]):
@@ -230,7 +230,7 @@ class _TimedMoves(SingleMoves):
         ends = dict(timed.ends)
         along = self.resources.edge_row(robot, move.edge)
         for left in (along, self.resources.vertex_row(robot, timed.state.places[robot])):
-            for row in excluded_by(self.resources, left):
+            for row in list_excluded(self.resources, left):
                 ends[row, robot] = self._rules.end(enter)
         edges = timed.edges
         if itinerary.turning is not None:

@@ -87,10 +87,10 @@ def make_first_plan(task: Task, old: Plan) -> tuple[Track, ...] | None:
     unchanged = [robot for robot, old_route in old_routes.items() if not old_route.has_changed]
     others = [robot for robot in range(len(task.scenario.robots)) if robot not in old_routes]
     refuse_closed_ways(task.scenario, task.deadline, others)
-    hurried = replace(task, deadline=task.deadline.sooner(SHARE))
+    hurried = replace(task, deadline=task.deadline.shorten(SHARE))
     search = make_fleet_search(hurried)
     drafts = [_repaired(hurried, search, old_routes, [*unchanged, *changed])]
-    if changed and hurried.deadline.seconds_left() != 0:
+    if changed and hurried.deadline.measure_seconds_left() != 0:
         drafts.append(_repaired(hurried, search, old_routes, unchanged))
     rules = task.scenario.problem.booking_rules
     if not others and rules != rules.to_plan_with():  # the old plan may have had less headway
@@ -234,7 +234,7 @@ def _repaired(
     is_repaired = search.repair(
         sorted(left, key=lambda robot: alone[robot]),
         searches=SEARCHES * (len(left) + len(tracks) // 10),
-        time_limit=task.deadline.seconds_left(),
+        time_limit=task.deadline.measure_seconds_left(),
     )
     return search.list_tracks() if is_repaired else None
 
@@ -251,7 +251,7 @@ def _in_old_order(
     rules = task.scenario.problem.booking_rules.to_plan_with()
     tracks = _timetable(task.scenario, old_routes, left, rules)
     for _ in range(MOST_REFUSED):
-        if tracks is not None or task.deadline.seconds_left() == 0:
+        if tracks is not None or task.deadline.measure_seconds_left() == 0:
             break
         low, high = 0, len(left)
         while high - low > 1:

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.arguments import checks_arguments, one_for_each
+from rightofway.arguments import checks_arguments, require_one_for_each
 from rightofway.model import BookingRules, Problem, Route, Tick, Track, route_of
 from rightofway.native import BookedRows, ClosedPlaces, bind_closures, bind_rows, bind_rules
 from rightofway.precedence.segments import (
@@ -338,7 +338,7 @@ def build_graph(
     ValueError
         If closures leave the route of a robot no times.
     """
-    one_for_each(problem.itineraries, routes=routes)
+    require_one_for_each(problem.itineraries, routes=routes)
     return PrecedenceGraph(
         routes,
         rules=problem.booking_rules,
@@ -363,7 +363,7 @@ def build_graph_of_plan(problem: Problem, tracks: Sequence[Track]) -> Precedence
     -----
     With the booking rules of the plan, no robot is later in the timetable than in the plan.
     """
-    one_for_each(problem.itineraries, tracks=tracks)
+    require_one_for_each(problem.itineraries, tracks=tracks)
     routes = [
         route_of(problem.roadmap, itinerary, track)
         for itinerary, track in zip(problem.itineraries, tracks, strict=True)

@@ -20,7 +20,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from rightofway.model import Scenario, Track
-from rightofway.native import excluded_by
+from rightofway.native import list_excluded
 
 
 class Part(NamedTuple):
@@ -233,7 +233,7 @@ def _waits_of(
     resources = scenario.problem.resources
     latest = defaultdict[int, dict[int, int]](dict)  # part: other robot: visit
     for use in own:
-        for row in excluded_by(resources, use.row):
+        for row in list_excluded(resources, use.row):
             users = order.get(row, ())
             for k in range(bisect_left(users, (use.begin,)) - 1, -1, -1):
                 other = users[k]

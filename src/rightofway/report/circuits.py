@@ -131,7 +131,7 @@ def summarize_circuit(pieces: Sequence[Piece], scenario: Scenario, period: Tick)
     """Return which robots set the pace, and the period."""
     robots = list(dict.fromkeys(piece.robot for piece in pieces))
     names = [scenario.robots[robot].name for robot in robots]
-    time = scenario.quantities.duration(period)
+    time = scenario.quantities.format_duration(period)
     if len(names) == 1:
         return Phrase(
             "Bottleneck: {robot} alone, which waits for no robot, {time} a period",

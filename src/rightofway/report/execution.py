@@ -9,7 +9,7 @@ from rightofway.execution import PolicyGain, Quantiles, SimulationResult
 from rightofway.languages import ENGLISH
 from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import Phrase, chain_items, say_count
-from rightofway.quantities import Quantities, decimal
+from rightofway.quantities import Quantities, format_decimal
 from rightofway.report.lines import Facts, Part, Table, choose_further_format, lay_out, shorten_name
 
 MAX_ROBOTS = 20
@@ -84,7 +84,7 @@ def _by_clock(outcome: SimulationResult, quantities: Quantities) -> Phrase:
         "{share} of runs collide, {times}, first at {moment} (median)",
         share=f"{clock.runs / runs:.1%}",
         times=_per_run(clock.total, runs),
-        moment=quantities.moment(clock.first.median),
+        moment=quantities.format_moment(clock.first.median),
     )
 
 
@@ -93,7 +93,7 @@ def _gain(gain: PolicyGain, saved: float, quantities: Quantities) -> Phrase:
     if not (gain.earlier or gain.later):
         return Phrase("none")
     values = {
-        "time": quantities.duration(abs(saved)),
+        "time": quantities.format_duration(abs(saved)),
         "earlier": f"{gain.earlier / gain.runs:.0%}",
         "later": f"{gain.later / gain.runs:.0%}",
     }
@@ -111,7 +111,7 @@ def _gain(gain: PolicyGain, saved: float, quantities: Quantities) -> Phrase:
 
 
 def _mean(number: int, runs: int) -> str:
-    return decimal(Fraction(number, runs))
+    return format_decimal(Fraction(number, runs))
 
 
 def _per_run(number: int, runs: int) -> Phrase:
@@ -125,7 +125,7 @@ def _lateness(lateness: Quantiles, quantities: Quantities, *, is_delay: bool = F
     if mean is None or most is None:
         return Phrase("no robot ever completes")
     write = choose_further_format(quantities)
-    times = {"time": quantities.duration(abs(mean))}
+    times = {"time": quantities.format_duration(abs(mean))}
     if mean < 0:
         average = Phrase("earlier by {time} on average", **times)
     elif is_delay:
@@ -148,7 +148,7 @@ def _lateness(lateness: Quantiles, quantities: Quantities, *, is_delay: bool = F
 
 def _robots(outcome: SimulationResult, quantities: Quantities) -> Iterator[Part]:
     names = [shorten_name(robot.name) for robot in outcome.plan.scenario.robots]
-    robots, cell = outcome.lateness.robots, quantities.cell
+    robots, cell = outcome.lateness.robots, quantities.format_cell
     latest = sorted(range(len(robots)), key=lambda robot: -(robots[robot].quantiles.mean or 0))
     listed = sorted(latest[:MAX_ROBOTS])
     rows = []
@@ -164,7 +164,7 @@ def _robots(outcome: SimulationResult, quantities: Quantities) -> Iterator[Part]
         ]
         times = (cell(late.mean), cell(late.p95), cell(late.max), cell(robot.own))
         rows.append([names[number], *times, ", ".join(waiting[:3])])
-    yield quantities.heading(Phrase("how late each robot is"))
+    yield quantities.format_heading(Phrase("how late each robot is"))
     headings = (Phrase("mean"), "95%", Phrase("most"), Phrase("own"), Phrase("waiting for"))
     yield Table((Phrase("robot"), *headings), rows, has_remarks=True)
     if len(robots) > len(listed):
@@ -185,13 +185,13 @@ def _sources(outcome: SimulationResult, quantities: Quantities) -> Iterator[Part
                 robot=shorten_name(robots[source.robot].name),
                 place=place(source.vertex),
             ),
-            quantities.cell(source.own),
-            quantities.cell(source.of_others),
+            quantities.format_cell(source.own),
+            quantities.format_cell(source.of_others),
         ]
         for source in sources[:MAX_SOURCES]
     ]
     yield ""
-    yield quantities.heading(Phrase("where most lateness begins, mean per run"))
+    yield quantities.format_heading(Phrase("where most lateness begins, mean per run"))
     yield Table((Phrase("robot"), Phrase("itself"), Phrase("others")), rows)
     if len(sources) > len(rows):
         more = say_count(len(sources) - len(rows), "more place", "more places")

@@ -22,7 +22,7 @@ from rightofway.languages import ENGLISH
 from rightofway.model import Scenario, Tick
 from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import Phrase, chain_items, say_count
-from rightofway.quantities import Quantities, decimal
+from rightofway.quantities import Quantities, format_decimal
 from rightofway.report.circuits import describe_circuit
 from rightofway.report.laps_data import (
     HOUR,
@@ -57,7 +57,7 @@ def report_laps(run: CyclicResult, quantities: Quantities, language: str = ENGLI
 
 def _report(run: CyclicResult, quantities: Quantities) -> Iterator[Part]:
     together = [group for group in run.groups if len(group.robots) > 1]
-    rate = decimal(compute_hour(run.scenario) * run.throughput())
+    rate = format_decimal(compute_hour(run.scenario) * run.throughput())
     throughput = Phrase("{rate} laps per hour", rate=rate)
     if not run.scenario.units.time:
         throughput = Phrase("{rate} laps in {hour} time units", rate=rate, hour=str(HOUR))
@@ -106,11 +106,11 @@ def _group_lines(scenario: Scenario, quantities: Quantities, group: GroupResult)
         source = Phrase("Laps until then")
         if group.ends != "deadlock":
             measured = group.measured()
-            laps = decimal(Fraction(sum(measured.laps), len(measured.laps)), 1)
+            laps = format_decimal(Fraction(sum(measured.laps), len(measured.laps)), 1)
             source = Phrase(
                 "Measured, not proven: means of {laps} laps per robot from {moment} on",
                 laps=laps,
-                moment=quantities.moment(measured.warm_up),
+                moment=quantities.format_moment(measured.warm_up),
             )
         yield Phrase(
             "{number} robots: {why}. {source}:", number=number, why=group.why, source=source
@@ -121,8 +121,8 @@ def _group_lines(scenario: Scenario, quantities: Quantities, group: GroupResult)
     yield Phrase(
         "{number} robots: period {period}, from {moment} on",
         number=number,
-        period=quantities.duration(group.pattern.period),
-        moment=quantities.moment(group.pattern.transient),
+        period=quantities.format_duration(group.pattern.period),
+        moment=quantities.format_moment(group.pattern.transient),
     )
     yield _robot_table(scenario, quantities, group)
     yield from _further_robots(group)
@@ -148,8 +148,8 @@ def _robot_table(scenario: Scenario, quantities: Quantities, group: GroupResult)
         [
             name,
             str(laps),
-            never if mean is None else quantities.cell(mean),
-            quantities.cell(route.duration),
+            never if mean is None else quantities.format_cell(mean),
+            quantities.format_cell(route.duration),
             "" if share is None else f"{float(share):.1%}",
         ]
         for name, laps, mean, share, route in islice(
@@ -165,7 +165,7 @@ def _robot_table(scenario: Scenario, quantities: Quantities, group: GroupResult)
         )
     ]
     laps_heading = Phrase("laps/period") if group.pattern else Phrase("laps")
-    means, alone = map(quantities.heading, (Phrase("mean lap"), Phrase("alone")))
+    means, alone = map(quantities.format_heading, (Phrase("mean lap"), Phrase("alone")))
     return Table((Phrase("robot"), laps_heading, means, alone, Phrase("waits")), rows)
 
 
@@ -241,7 +241,7 @@ def _sites(waits: Sequence[LapWait]) -> Sites:
 def _moments(quantities: Quantities, ticks: Sequence[Tick]) -> str:
     """Return several times: ``5.35 s, 1 min 56.2 s and 1 more time``, ``time 4, 13``."""
     others = map(choose_further_format(quantities), ticks[1:MAX_TIMES])
-    listed = chain_items([quantities.moment(ticks[0]), *others])
+    listed = chain_items([quantities.format_moment(ticks[0]), *others])
     more = len(ticks) - MAX_TIMES
     if more <= 0:
         return listed

@@ -129,4 +129,4 @@ def choose_further_format(quantities: Quantities) -> Callable[[Value], str]:
     Where all times are in one unit, ``time 4`` goes on with ``13``, ``8 ticks`` with ``9``.
     """
     is_one_unit = quantities.in_ticks or not quantities.time_unit
-    return quantities.cell if is_one_unit else quantities.duration
+    return quantities.format_cell if is_one_unit else quantities.format_duration

@@ -22,7 +22,7 @@ from rightofway.metrics import (
 from rightofway.model import Loss, LostTime, Objective, Plan, Proof, Scenario
 from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import Phrase, chain_items, join_items, say_count
-from rightofway.quantities import Quantities, decimal
+from rightofway.quantities import Quantities, format_decimal
 from rightofway.report.lines import (
     Facts,
     Line,
@@ -73,7 +73,7 @@ def summarize_plan(plan: Plan, quantities: Quantities, language: str = ENGLISH) 
         (Phrase("lost time"), _lost(words, lost)),
     ]
     if quantities.in_ticks:
-        costs.append((Phrase("tick"), replace(quantities, in_ticks=False).duration(1)))
+        costs.append((Phrase("tick"), replace(quantities, in_ticks=False).format_duration(1)))
     return lay_out([Facts(costs), "", *_robots(words, lost), *_losses(words, lost)], language)
 
 
@@ -83,7 +83,9 @@ def describe_planning(plan: Plan, quantities: Quantities) -> str:
     parts = [run.name]
     if run.seconds is not None:
         parts = [
-            Phrase("{planner}, planned in {time} s", planner=run.name, time=decimal(run.seconds))
+            Phrase(
+                "{planner}, planned in {time} s", planner=run.name, time=format_decimal(run.seconds)
+            )
         ]
     proven = describe_proof(plan)
     if proven:
@@ -146,11 +148,11 @@ def _robots(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
     most = sorted(range(len(lost)), key=lambda robot: -lost[robot].lost)[:MAX_LINES]
     if len(lost) > MAX_LINES:
         most = [robot for robot in most if lost[robot].lost] or most
-    listed, cell = sorted(most), words.quantities.cell
+    listed, cell = sorted(most), words.quantities.format_cell
     heading = Phrase("times of each robot")
     if len(listed) < len(lost):
         heading = Phrase("times of the robots that lose most")
-    yield words.quantities.heading(heading)
+    yield words.quantities.format_heading(heading)
     rows = [
         [
             words.name_robot(robot),
@@ -300,7 +302,7 @@ def report_bounds(
     alone = compute_alone_completions(scenario)
 
     def at_least(ticks: int) -> Phrase:
-        return Phrase("at least {time}", time=quantities.duration(ticks))
+        return Phrase("at least {time}", time=quantities.format_duration(ticks))
 
     bounds: list[tuple[str, str]] = [
         (Phrase("flowtime"), at_least(sum(alone))),
@@ -314,10 +316,10 @@ def report_bounds(
             (Phrase("{objective}, proven", objective=OBJECTIVES[proof.objective]), proven)
         )
     rows = [
-        (robot.name, quantities.cell(ticks))
+        (robot.name, quantities.format_cell(ticks))
         for robot, ticks in zip(scenario.robots[:MAX_LINES], alone, strict=False)
     ]
-    heading = quantities.heading(Phrase("alone"))
+    heading = quantities.format_heading(Phrase("alone"))
     parts: list[Part] = [Facts(bounds), "", Table((Phrase("robot"), heading), rows)]
     if len(alone) > MAX_LINES:
         more = say_count(len(alone) - MAX_LINES, "more robot", "more robots")
@@ -330,7 +332,7 @@ def report_bounds(
             " meet in {place}.",
             one=scenario.robots[loss.robots[0]].name,
             other=scenario.robots[loss.robots[1]].name,
-            time=quantities.duration(loss.ticks),
+            time=quantities.format_duration(loss.ticks),
             place=PlaceNames(scenario)(loss.vertex),
         )
         for loss in losses[:MAX_LINES]

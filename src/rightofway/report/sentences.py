@@ -82,11 +82,11 @@ class Words:
 
     @cached_property
     def _time(self) -> Callable[[int], str]:
-        return cache(self.quantities.duration)
+        return cache(self.quantities.format_duration)
 
     @cached_property
     def _moment(self) -> Callable[[int], str]:
-        return cache(self.quantities.moment)
+        return cache(self.quantities.format_moment)
 
 
 def describe_proof(plan: Plan) -> str:
@@ -117,7 +117,7 @@ def describe_improvement(improvement: Improvement, quantities: Quantities) -> Ph
     """Return what a search gained over its first plan, and in how many attempts."""
     gain = Phrase("found no better plan")
     if improvement.saved > 0:
-        gain = Phrase("saved {time}", time=quantities.duration(improvement.saved))
+        gain = Phrase("saved {time}", time=quantities.format_duration(improvement.saved))
     attempts: Phrase = Phrase("attempts")
     if improvement.tries is not None:
         attempts = say_count(improvement.tries, "attempt", "attempts")
@@ -373,7 +373,7 @@ def explain_decision(words: Words, decision: Decision) -> str:
 
 def describe_closure(closure: Closure, scenario: Scenario) -> Phrase:
     """Return what is closed, and when."""
-    moment, place = scenario.quantities.moment, PlaceNames(scenario, numbered=True)
+    moment, place = scenario.quantities.format_moment, PlaceNames(scenario, numbered=True)
     vertices, (begin, end) = (
         list_closed_vertices(closure, scenario),
         read_closed_ticks(closure, scenario),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rightofway import _core
 from rightofway.model import Problem, Tick
-from rightofway.native import bound
+from rightofway.native import bind_native
 
 UNLIMITED = 2**62
 
@@ -28,7 +28,7 @@ class PriceAscent:
     """
 
     def __init__(self, problem: Problem) -> None:
-        self._core = _core.PriceAscent(bound(problem))
+        self._core = _core.PriceAscent(bind_native(problem))
 
     def run(self, *, steps: int | None = None, time_limit: float | None = None) -> None:
         """Take more steps, until a limit is reached or no step helps.

@@ -9,7 +9,7 @@ import numpy as np
 
 from rightofway import _core
 from rightofway.model import NEVER, Problem, Tick, Track
-from rightofway.native import bound, tracks_of
+from rightofway.native import bind_native, make_tracks
 
 FOUND, PROVEN = 0, 1
 
@@ -79,7 +79,7 @@ class ConflictBasedSearch:
         latest: int | None = None,
     ) -> None:
         self._core = _core.ConflictBasedSearch(
-            bound(problem), cardinal, bypass, clear, targets, pairs, pair_nodes,
+            bind_native(problem), cardinal, bypass, clear, targets, pairs, pair_nodes,
             joint_states, int(min(factor, MOST_FACTOR) * MILLION),
             NEVER if latest is None else latest,
         )  # fmt: skip
@@ -118,7 +118,7 @@ class ConflictBasedSearch:
         self.bound = None if least == NEVER else Tick(least)
         self.is_proven = end in {FOUND, PROVEN}
         if end == FOUND:
-            self.tracks = tuple(tracks_of(*self._core.tracks()))
+            self.tracks = tuple(make_tracks(*self._core.tracks()))
 
     def search_together(
         self, robots: Sequence[int], *, states: int, time_limit: float | None = None

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.model import Itinerary, Problem
 from rightofway.model.given import require_index
-from rightofway.native import bound, find_vertices_near
+from rightofway.native import bind_native, find_vertices_near
 from rightofway.search.distances import Distances, Path
 from rightofway.site import VertexId
 
@@ -72,7 +72,7 @@ class Congestion:
         self.problem = problem
         self.distances = distances
         self._oncoming = oncoming
-        self._kernel = _core.Congestion(bound(problem), shares, station)
+        self._kernel = _core.Congestion(bind_native(problem), shares, station)
 
     @classmethod
     def of_trips(cls, problem: Problem, distances: Distances) -> Self:

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.arguments import checks_arguments
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, quote
 from rightofway.model import Problem, Scenario, Tick, Track
 from rightofway.model.given import checked_scenario, require_index, require_number, require_seed
-from rightofway.native import bound, tracks_of
+from rightofway.native import bind_native, make_tracks
 
 
 @checks_arguments
@@ -35,7 +35,7 @@ def compute_least_completions(
     ndarray of int64, shape (R,), or None
         Ticks, -1 where no way leads to a place; None if the time limit came first.
     """
-    search = _core.FleetSearch(bound(checked_scenario(scenario).problem), seed=0, n_threads=1)
+    search = _core.FleetSearch(bind_native(checked_scenario(scenario).problem), seed=0, n_threads=1)
     return search.alone(time_limit)
 
 
@@ -64,7 +64,7 @@ class FleetSearch:
     ) -> None:
         n_threads = _cores() if threads is None else require_number("threads", threads, 0, 1024)
         self._core = _core.FleetSearch(
-            bound(problem), require_seed(seed), n_threads or _cores(), alone
+            bind_native(problem), require_seed(seed), n_threads or _cores(), alone
         )
         self._n_robots = len(problem.itineraries)
 
@@ -179,7 +179,7 @@ class FleetSearch:
 
     def list_tracks(self) -> tuple[Track, ...]:
         """Return the tracks."""
-        return tuple(tracks_of(*self._core.tracks()))
+        return tuple(make_tracks(*self._core.tracks()))
 
 
 def _arrays(
@@ -188,7 +188,7 @@ def _arrays(
     """Return where each robot's visits begin, their vertices, and when they begin."""
     for k, track in enumerate(tracks):
         if track is not None and not isinstance(track, Track):
-            raise InputError.at(("tracks", k), f"{shown(track)} is no track")
+            raise InputError.at(("tracks", k), f"{quote(track)} is no track")
     known = [track for track in tracks if track is not None]
     lengths = [0 if track is None else len(track) for track in tracks]
     return (

@@ -19,7 +19,7 @@ from rightofway.arguments import checks_arguments
 from rightofway.errors import Blockage, NoPlanExists
 from rightofway.model import Problem, Track
 from rightofway.model.given import require_index, require_seed
-from rightofway.native import bound, tracks_of
+from rightofway.native import bind_native, make_tracks
 from rightofway.phrases import Phrase
 
 FOUND, PROVEN_NONE = 0, 1
@@ -70,7 +70,7 @@ def plan_by_lacam(
     the same routes with the same order at every vertex, unless rotations are forbidden or robots
     have a size.
     """
-    native, robots = bound(problem), range(len(problem.itineraries))
+    native, robots = bind_native(problem), range(len(problem.itineraries))
     for robot in ends_anywhere:
         require_index("ends_anywhere", robot, len(robots))
     anywhere = [robot in ends_anywhere for robot in robots] if ends_anywhere else []
@@ -85,4 +85,4 @@ def plan_by_lacam(
     if end == PROVEN_NONE:
         reason = Phrase("no order of moves brings every robot through its trip")
         raise NoPlanExists([Blockage(reason, (), (), Phrase("give more room"))])
-    return tracks_of(first_visit, vertices, enter) if end == FOUND else None
+    return make_tracks(first_visit, vertices, enter) if end == FOUND else None

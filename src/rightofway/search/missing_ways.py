@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from rightofway.errors import MAX_REASONS, Blockage, listed
+from rightofway.errors import MAX_REASONS, Blockage, join_names
 from rightofway.model import Itinerary, Scenario, Tick
 from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import Phrase
@@ -41,7 +41,7 @@ def find_missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[B
         stages = dict.fromkeys(stage.vertex for stage in itinerary.stages)
         elsewhere = [vertex for vertex in stages if vertex not in home_part]
         if elsewhere:
-            others = listed(list(map(place, elsewhere)))
+            others = join_names(list(map(place, elsewhere)))
             reason = Phrase(
                 "{robot} has no way from {tail} to {head}: the map is in parts that no edge joins",
                 robot=name,

@@ -28,7 +28,7 @@ from rightofway.model import (
     visits_of_laps,
 )
 from rightofway.model.turning import Turning
-from rightofway.native import bind_lists, bind_roads, bind_rules, bind_turning, excluded_by
+from rightofway.native import bind_lists, bind_roads, bind_rules, bind_turning, list_excluded
 from rightofway.search.distances import Distances
 from rightofway.site import Roadmap, VertexId
 
@@ -302,7 +302,7 @@ class PeriodicBookings:
         if self._rows is None:
             return bool(needed[0] == home_of.vertices[0])
         row = int(self._rows.find_rows(other, home_of)[0][0])
-        return bool(np.isin(needed, excluded_by(self._rows.resources, row)).any())
+        return bool(np.isin(needed, list_excluded(self._rows.resources, row)).any())
 
     def _not_reached(self, robot: int, lap: Lap) -> NDArray[np.int32]:
         """Return the rows (for points: the vertex) that the last search could not book."""

@@ -18,7 +18,7 @@ from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp, InputError
 from rightofway.model import NEVER, Problem, Tick, Track, drives_along
 from rightofway.model.given import require_index
-from rightofway.native import bound, excluded_by
+from rightofway.native import bind_native, list_excluded
 from rightofway.search.distances import Distances
 
 STOPPED = 2
@@ -81,7 +81,7 @@ class Bookings:
 
     def book(self, row: int, booking: Booking) -> None:
         """Book one vertex, or mark what one row excludes."""
-        for mark in excluded_by(self.resources, row):
+        for mark in list_excluded(self.resources, row):
             self._put(mark, *booking)
             self._of[booking.robot].append((mark, booking.start))
 
@@ -161,7 +161,7 @@ def find_earliest_track(
     itinerary = problem.itineraries[require_index("robot", robot, len(problem.itineraries))]
     tables = [distances.to(stage.vertex, itinerary.edge_ticks) for stage in itinerary.stages]
     end, vertices, enter = _core.earliest_track(
-        bound(problem), robot, bookings.table, tables, time_limit
+        bind_native(problem), robot, bookings.table, tables, time_limit
     )
     if end == STOPPED:
         raise GaveUp("time ran out in the search for one robot (give a longer time limit)")

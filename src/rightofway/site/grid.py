@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, quote
 from rightofway.site.geometry import Frame, Point
 from rightofway.values import Number, length
 
@@ -93,14 +93,14 @@ def _frame_of_grid(
 def _check_lines(lines: Sequence[str]) -> None:
     is_list = isinstance(lines, Sequence) and not isinstance(lines, str)
     if not is_list or not all(isinstance(line, str) for line in lines):
-        raise InputError.at("", f"{shown(lines)} is no list of rows (give a list of text)")
+        raise InputError.at("", f"{quote(lines)} is no list of rows (give a list of text)")
     if not lines or not lines[0]:
         raise InputError.at("", "the grid is empty (give at least one row of one cell)")
     spaced = [line.rstrip() for line in lines]
     if all(set(line[1::2]) <= {" "} and " " not in line[::2] for line in spaced) and any(
         " " in line for line in spaced
     ):
-        message = f"{shown(lines[0])} has spaces between cells (write {shown(spaced[0][::2])})"
+        message = f"{quote(lines[0])} has spaces between cells (write {quote(spaced[0][::2])})"
         raise InputError.at("", message)
     width = len(lines[0])
     for row, line in enumerate(lines):
@@ -116,7 +116,7 @@ def _meant_by(lines: Sequence[str]) -> str:
         return "write . for free and @ for blocked, not 0 and 1"
     others = [character for character in characters if character not in "@#TOWX"]
     if len(others) == 1 and len(characters) > 1:
-        return f"free cells are . G S; {shown(others[0])} is blocked here: write . for it"
+        return f"free cells are . G S; {quote(others[0])} is blocked here: write . for it"
     return "free cells are . G S, all other characters are blocked"
 
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from rightofway.arguments import checks_arguments
 from rightofway.deadline import READING, limit_loop
-from rightofway.errors import InputError, listed, nearest, shown
+from rightofway.errors import InputError, find_nearest, join_names, quote
 from rightofway.site.drawing import Drawing, Picture
 from rightofway.site.edges import Edge, make_roadmap
 from rightofway.site.geometry import Point
@@ -128,13 +128,13 @@ class Level:
         if vehicle_type is None:
             if len({edge.types for edge in self.edges} - {None, frozenset(known)}) > 0:
                 message = "lanes differ between vehicle types (give one of"
-                message += f" {listed(known)}, or each robot a type)"
+                message += f" {join_names(known)}, or each robot a type)"
                 raise InputError.at("vehicle_type", message)
             return self.edges
         if known and vehicle_type not in known:
-            near = nearest(vehicle_type, known)
-            hint = f"did you mean {near!r}?" if near else f"give one of {listed(known)}"
-            message = f"no vehicle type is named {shown(vehicle_type)} ({hint})"
+            near = find_nearest(vehicle_type, known)
+            hint = f"did you mean {near!r}?" if near else f"give one of {join_names(known)}"
+            message = f"no vehicle type is named {quote(vehicle_type)} ({hint})"
             raise InputError.at("vehicle_type", message)
         return tuple(
             edge for edge in self.edges if edge.types is None or vehicle_type in edge.types
@@ -173,11 +173,11 @@ class Layout:
             return self.levels[0]
         if name is None:
             message = f"the layout has {len(known)} levels, and a plan stays on one"
-            raise InputError.at("level", f"{message} (give one of {listed(known)})")
+            raise InputError.at("level", f"{message} (give one of {join_names(known)})")
         if name not in known:
-            near = nearest(name, known)
-            hint = f"did you mean {near!r}?" if near else f"give one of {listed(known)}"
-            raise InputError.at("level", f"no level is named {shown(name)} ({hint})")
+            near = find_nearest(name, known)
+            hint = f"did you mean {near!r}?" if near else f"give one of {join_names(known)}"
+            raise InputError.at("level", f"no level is named {quote(name)} ({hint})")
         return self.levels[known.index(name)]
 
 

@@ -11,8 +11,8 @@ from typing import TypeGuard
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import InputError, InputFault, is_printable, shown
-from rightofway.quantities import Units, decimal
+from rightofway.errors import InputError, InputFault, is_printable, quote
+from rightofway.quantities import Units, format_decimal
 from rightofway.site.geometry import Point, VertexId, measure_squared_distance
 from rightofway.site.roadmap import Grid, Roadmap, UnknownVertex
 from rightofway.values import coordinate, exact
@@ -60,7 +60,7 @@ def as_place(value: object, roadmap: Roadmap | None = None) -> Place:
         return int(row), int(column)
     if isinstance(value, Mapping):
         return _spot(value)
-    raise InputError.at("", f"{shown(value)} is no place ({_meant(value, roadmap)})")
+    raise InputError.at("", f"{quote(value)} is no place ({_meant(value, roadmap)})")
 
 
 def is_cell(value: object) -> TypeGuard[tuple[int, int]]:
@@ -74,7 +74,7 @@ def _is_whole(value: object) -> bool:
 
 def _spot(value: Mapping[object, object]) -> Spot:
     faults = [
-        InputFault("", f"{shown(key)} is no coordinate (give {{x: 1.2, y: 0.8}})")
+        InputFault("", f"{quote(key)} is no coordinate (give {{x: 1.2, y: 0.8}})")
         for key in value
         if key not in {"x", "y"}
     ]
@@ -178,10 +178,10 @@ def _numbered(place: str, grid: Grid) -> tuple[int, int]:
         meant = f"N{place.lstrip('nN')}"
         is_meant = meant[1:].isascii() and meant[1:].isdecimal()
         hint = f"did you mean {meant}?" if is_meant else "give N<k>, [row, column] or {x, y}"
-        raise InputError.at("", f"{shown(place)} is no place on a grid ({hint})")
+        raise InputError.at("", f"{quote(place)} is no place on a grid ({hint})")
     if len(number) > LONGEST_NUMBER or int(number) >= grid.rows * grid.columns:
         last = grid.rows * grid.columns - 1
-        raise InputError.at("", f"{shown(place)} is outside the map (cells are N0 to N{last})")
+        raise InputError.at("", f"{quote(place)} is outside the map (cells are N0 to N{last})")
     return divmod(int(number), grid.columns)
 
 
@@ -207,7 +207,7 @@ def _limits(place: Place, roadmap: Roadmap, grid: Grid) -> str:
         for column in (0, grid.columns)
     ]
     (left, *_, right), (low, *_, high) = (sorted(axis) for axis in zip(*corners, strict=True))
-    ends = [decimal(end, 3) for end in (left, right, low, high)]
+    ends = [format_decimal(end, 3) for end in (left, right, low, high)]
     return f"x is {ends[0]} to {ends[1]}, y {ends[2]} to {ends[3]}"
 
 
@@ -253,7 +253,7 @@ def _with_distance(vertex: int, spot: Spot, roadmap: Roadmap, units: Units) -> s
     name = roadmap.name(vertex) if roadmap.grid else repr(roadmap.name(vertex))
     if _smallest_side(roadmap) > 4 * SHORT:  # a point near the middle of a cell lies in it, too
         point = round(point[0] / SHORT) * SHORT, round(point[1] / SHORT) * SHORT
-    return f"{name} at {Spot(*point)}, {units.written_length(away)} away"
+    return f"{name} at {Spot(*point)}, {units.format_length(away)} away"
 
 
 def _smallest_side(roadmap: Roadmap) -> Fraction:
@@ -264,7 +264,7 @@ def _smallest_side(roadmap: Roadmap) -> Fraction:
 
 
 def _named_as(place: Place) -> str:
-    return f"[{shown(place[0])}, {shown(place[1])}]" if isinstance(place, tuple) else str(place)
+    return f"[{quote(place[0])}, {quote(place[1])}]" if isinstance(place, tuple) else str(place)
 
 
 def _free_cell(row: int, column: int, grid: Grid) -> str:
@@ -276,5 +276,5 @@ def _free_cell(row: int, column: int, grid: Grid) -> str:
 
 def _written(coordinate: Fraction) -> str:
     """Return a coordinate exactly."""
-    text = decimal(coordinate, DECIMALS)
+    text = format_decimal(coordinate, DECIMALS)
     return text if Fraction(text) == coordinate else str(coordinate)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
-from rightofway.errors import InputError, InputFault, nearest, shown
+from rightofway.errors import InputError, InputFault, find_nearest, quote
 from rightofway.site.clustering import Obstacle
 from rightofway.site.drawing import Drawing
 from rightofway.site.geometry import Frame, Point, VertexId
@@ -27,9 +27,9 @@ class UnknownVertex(InputError, KeyError):
     @classmethod
     def named(cls, name: object, known: Collection[str]) -> UnknownVertex:
         """Return the error for a name, with the nearest known one."""
-        near = nearest(name, known) if isinstance(name, str) else None
+        near = find_nearest(name, known) if isinstance(name, str) else None
         remedy = f"did you mean {near!r}?" if near else "give one of the map's vertices"
-        return cls([InputFault("name", f"no vertex is named {shown(name)} ({remedy})")])
+        return cls([InputFault("name", f"no vertex is named {quote(name)} ({remedy})")])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -221,7 +221,7 @@ class Roadmap:
     def get_edge_class(self, edge: int) -> EdgeClass:
         """Return what an edge has in common with others of its class."""
         if type(edge) not in WHOLE or not 0 <= edge < self.n_edges:
-            raise InputError.at("edge", f"{shown(edge)} is none of {self.n_edges} edges")
+            raise InputError.at("edge", f"{quote(edge)} is none of {self.n_edges} edges")
         return self.edge_classes[int(self.class_of_edge[edge])]
 
     @property
@@ -315,7 +315,7 @@ class Roadmap:
         """Refuse a number without a vertex; called for each visit, so it has to be quick."""
         if type(vertex) not in WHOLE or not 0 <= vertex < self.n_vertices:
             last = self.n_vertices - 1
-            message = f"{shown(vertex)} is no vertex (give a number from 0 to {last})"
+            message = f"{quote(vertex)} is no vertex (give a number from 0 to {last})"
             raise UnknownVertex([InputFault(place, message)])
 
     def get_point(self, vertex: int) -> Point:
@@ -364,7 +364,7 @@ class Roadmap:
         for place, ends in (("tails", tails), ("heads", heads)):
             is_list = ends.ndim == 1 and ends.dtype.kind in "iu"
             if not is_list or len(ends) != len(tails):
-                message = f"{shown(ends)} are no vertices (give as many tails as heads)"
+                message = f"{quote(ends)} are no vertices (give as many tails as heads)"
                 raise InputError.at(place, message)
             # Negative numbers wrap round to large ones. The least and the largest stand for all.
             if len(ends) and ends.astype(np.uint64).max() >= self.n_vertices:

@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from rightofway.deadline import limit_loop
-from rightofway.errors import InputError, shown
-from rightofway.quantities import decimal
+from rightofway.errors import InputError, quote
+from rightofway.quantities import format_decimal
 from rightofway.site.crossings import MOST_PIECES, choose_spacing, find_crossed
 from rightofway.site.edges import Edge
 from rightofway.site.geometry import (
@@ -224,10 +224,10 @@ def _refuse_winding(
         gap = drawn / ceil(length / spacing)
         raise InputError.at(
             "",
-            f"the lane from {shown(edge.tail)} to {shown(edge.head)} is {decimal(length)} long, but"
-            f" {drawn:.4g} in the drawing: a spacing of {decimal(spacing)} sets places {gap:.2g}"
-            " apart (correct its length or its ends, draw its way as a curve, or give a larger"
-            " spacing)",
+            f"the lane from {quote(edge.tail)} to {quote(edge.head)} is {format_decimal(length)}"
+            f" long, but {drawn:.4g} in the drawing: a spacing of {format_decimal(spacing)} sets"
+            f" places {gap:.2g} apart (correct its length or its ends, draw its way as a curve, or"
+            " give a larger spacing)",
         )
 
 

@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
 
-from rightofway.errors import InputError, InputFault, nearest, shown
+from rightofway.errors import InputError, InputFault, find_nearest, quote
 from rightofway.site.geometry import VertexId
 
 
@@ -62,7 +62,7 @@ def number_zones(
     faults = []
     names: set[str] = set()
     for index, zone in enumerate(named):
-        faults += [fault.within(("zones", index)) for fault in _faults(zone, names, ids, lanes)]
+        faults += [fault.nest(("zones", index)) for fault in _faults(zone, names, ids, lanes)]
         names.add(zone.name)
     if faults:
         raise InputError(faults)
@@ -86,15 +86,15 @@ def _faults(
     lanes: Collection[tuple[str, str]],
 ) -> Iterator[InputFault]:
     if zone.name in names:
-        yield InputFault("name", f"{shown(zone.name)} is the name of another zone (give its own)")
+        yield InputFault("name", f"{quote(zone.name)} is the name of another zone (give its own)")
     if not zone.vertices and not zone.edges:
         yield InputFault("", "has neither vertices nor edges (give some, or take it out)")
     for index, name in enumerate(zone.vertices):
         if name not in ids:
-            near = nearest(name, ids)
+            near = find_nearest(name, ids)
             hint = f"did you mean {near!r}?" if near else f"name one of the {len(ids)} vertices"
-            yield InputFault(("vertices", index), f"no vertex is named {shown(name)} ({hint})")
+            yield InputFault(("vertices", index), f"no vertex is named {quote(name)} ({hint})")
     for index, (tail, head) in enumerate(zone.edges):
         if (tail, head) not in lanes:
-            message = f"no edge leads from {shown(tail)} to {shown(head)} (name an edge)"
+            message = f"no edge leads from {quote(tail)} to {quote(head)} (name an edge)"
             yield InputFault(("edges", index), message)

@@ -39,7 +39,7 @@ def as_error(error: BaseException) -> dict[str, Any]:
     match error:
         case InputError():
             listed = [as_fault_data(fault) for fault in error.faults]
-            message = "\n".join(str(fault.in_file("")) for fault in error.faults)
+            message = "\n".join(str(fault.name_file("")) for fault in error.faults)
             return {"kind": "input", "message": message, "faults": listed}
         case NoPlanExists():
             return {"kind": "no_plan", "message": f"no plan exists: {error}", **error.as_dict()}

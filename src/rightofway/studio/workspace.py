@@ -135,7 +135,7 @@ class Workspace:
             try:
                 write_whole(path, content)
             except InputError as error:
-                raise InputError(fault.in_file(name) for fault in error.faults) from None
+                raise InputError(fault.name_file(name) for fault in error.faults) from None
         return compute_revision(content)
 
     def compute_revision(self, name: str) -> str | None:

@@ -55,9 +55,9 @@ def _row(scenario: Scenario, robot: Robot) -> str:
     stops = []
     for stop in robot.stops:
         ticks = stop.work / quantities.tick
-        work = f" (works {quantities.duration(ticks)})" if stop.work else ""
+        work = f" (works {quantities.format_duration(ticks)})" if stop.work else ""
         stops.append(f"{place(stop.at)}{work}")
-    cells = (robot.name, place(robot.home), ", ".join(stops), quantities.speed(robot.speed))
+    cells = (robot.name, place(robot.home), ", ".join(stops), quantities.format_speed(robot.speed))
     return "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>"
 
 

@@ -7,7 +7,7 @@ from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
-from rightofway.arguments import checks_arguments, value_of
+from rightofway.arguments import checks_arguments, get_value
 from rightofway.errors import InputError
 from rightofway.io.foreign import lacam, lns2, planviz, schedule
 from rightofway.io.foreign.trajectories import ForeignPlan, plan_of_trajectories
@@ -130,4 +130,4 @@ def foreign_text(plan: Plan, name: str) -> str:
     InputError
         If the name is unknown, or the roadmap is no grid.
     """
-    return value_of(FOREIGN_FORMATS, name, "name").write(plan)
+    return get_value(FOREIGN_FORMATS, name, "name").write(plan)

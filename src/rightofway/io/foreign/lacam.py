@@ -19,7 +19,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from rightofway.errors import InputError, Location, shown
+from rightofway.errors import InputError, Location, quote
 from rightofway.io.faults import Faults
 from rightofway.io.foreign.trajectories import (
     Cell,
@@ -64,7 +64,7 @@ def read(text: str) -> ForeignPlan:
         elif sign and not steps:
             header[key] = value
         elif bare:
-            message = f"{shown(line.strip())} is no step (write 0:(x,y),(x,y), …)"
+            message = f"{quote(line.strip())} is no step (write 0:(x,y),(x,y), …)"
             faults.note(Location(line=number), message)
     _check_counts(steps, lines, faults)
     faults.stop()
@@ -85,7 +85,7 @@ def read(text: str) -> ForeignPlan:
 def _cells(text: str) -> list[Cell]:
     rest = _CELL.sub("", text)
     if rest:
-        raise InputError.at("", f"{shown(rest)} is no cell (write cells as (x,y), with commas)")
+        raise InputError.at("", f"{quote(rest)} is no cell (write cells as (x,y), with commas)")
     return [(int(y), int(x)) for x, y in _CELL.findall(text)]
 
 

@@ -16,7 +16,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from rightofway.errors import InputError, Location, shown
+from rightofway.errors import InputError, Location, quote
 from rightofway.io.faults import Faults
 from rightofway.io.foreign.trajectories import (
     ForeignPlan,
@@ -53,7 +53,7 @@ def read(text: str) -> ForeignPlan:
         match = _AGENT.fullmatch(bare)
         if not match:
             if bare:
-                message = f"{shown(line.strip())} is no path (write Agent 0: (row,column)->…)"
+                message = f"{quote(line.strip())} is no path (write Agent 0: (row,column)->…)"
                 faults.note(Location(line=number), message)
             continue
         agent = int(match[1])
@@ -76,7 +76,7 @@ def read(text: str) -> ForeignPlan:
 def _visits(text: str) -> Visits:
     rest = _CELL.sub("", text)
     if rest:
-        raise InputError.at("", f"{shown(rest)} is no cell (write (row,column)->(row,column)->…)")
+        raise InputError.at("", f"{quote(rest)} is no cell (write (row,column)->(row,column)->…)")
     if not text:
         raise InputError.at("", "the path is empty (give at least the first cell)")
     groups = _CELL.findall(text)

@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, quote
 from rightofway.io.faults import Faults
 from rightofway.io.foreign.trajectories import (
     MAX_STEP,
@@ -191,7 +191,7 @@ def _hits(visits: Sequence[Visits], errands: Errands) -> int:
 
 def _has_headings(model: Source | None) -> bool:
     if model is not None and model.value not in ("MAPF", "MAPF_T"):
-        raise model.fault(f"{shown(model.value)} is not known (give MAPF or MAPF_T)")
+        raise model.fault(f"{quote(model.value)} is not known (give MAPF or MAPF_T)")
     return model is None or bool(model.value == "MAPF_T")
 
 
@@ -203,10 +203,10 @@ def _start(start: Source, changes: Mapping[str, Cell]) -> tuple[Cell, int]:
     """Return the first cell of an agent, and the number of its heading."""
     parts = start.items()
     if len(parts) not in {2, 3}:
-        raise start.fault(f"{shown(start.value)} is no start (give [row, column, heading])")
+        raise start.fault(f"{quote(start.value)} is no start (give [row, column, heading])")
     heading = parts[2] if changes is HEADINGS and len(parts) > 2 else start.child(2, "E")  # noqa: PLR2004
     if not isinstance(heading.value, str) or heading.value not in HEADINGS:
-        raise heading.fault(f"{shown(heading.value)} is no heading (give E, N, W or S)")
+        raise heading.fault(f"{quote(heading.value)} is no heading (give E, N, W or S)")
     return _cell(*parts[:2]), list(HEADINGS).index(heading.value)
 
 
@@ -217,7 +217,7 @@ def _cell(row: Source, column: Source) -> Cell:
 def _runs(path: Any, changes: Mapping[str, Cell]) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
     """Return the actions of a path, and for how many steps each is taken."""
     if not isinstance(path, str):
-        raise InputError.at("", f'{shown(path)} is no path (give actions like "F,R,W")')
+        raise InputError.at("", f'{quote(path)} is no path (give actions like "F,R,W")')
     bare = "".join(path.split())
     if bare.startswith("["):
         actions, lengths = _counted(bare)
@@ -228,7 +228,7 @@ def _runs(path: Any, changes: Mapping[str, Cell]) -> tuple[NDArray[np.uint8], ND
     unknown = set(actions).difference(known)
     if unknown:
         index = next(index for index, action in enumerate(actions) if action in unknown)
-        message = f"{shown(actions[index])} is no action (give one of {', '.join(known)})"
+        message = f"{quote(actions[index])} is no action (give one of {', '.join(known)})"
         raise InputError.at(("step", int(sum(lengths[:index]))), message)
     if sum(lengths) > MAX_STEPS:
         raise InputError.at("", f"{sum(lengths)} steps are too many (give at most {MAX_STEPS})")
@@ -239,7 +239,7 @@ def _counted(bare: str) -> tuple[list[str], list[int]]:
     """Return the runs of all parts of a path of the round of 2026."""
     rest = _PART.sub("", bare)
     if rest:
-        message = f"{shown(rest)} is no part (write [(step,row,column,heading,counter):(F 10,W 5)])"
+        message = f"{quote(rest)} is no part (write [(step,row,column,heading,counter):(F 10,W 5)])"
         raise InputError.at("", message)
     actions, lengths, step = list[str](), list[int](), 0
     for first, runs in _PART.findall(bare):
@@ -249,7 +249,7 @@ def _counted(bare: str) -> tuple[list[str], list[int]]:
         for run in filter(None, runs.split(",")):
             match = _RUN.fullmatch(run)
             if not match:
-                message = f"{shown(run)} is no run of actions (write F 10)"
+                message = f"{quote(run)} is no run of actions (write F 10)"
                 raise InputError.at(("step", step), message)
             actions.append(match[1])
             lengths.append(int(match[2]))
@@ -285,7 +285,7 @@ def _cells_of(task: Source) -> list[Cell]:
         numbers = parts[2].items() if isinstance(parts[2].value, list) else parts[1:]
         if len(numbers) % 2 == 0:
             return [_cell(*pair) for pair in zip(numbers[::2], numbers[1::2], strict=True)]
-    raise task.fault(f"{shown(task.value)} is no task (give [id, step, [row, column, …]])")
+    raise task.fault(f"{quote(task.value)} is no task (give [id, step, [row, column, …]])")
 
 
 def _finished(source: Source, agent: int) -> Iterator[tuple[int, int, tuple[int, int]]]:
@@ -297,7 +297,7 @@ def _finished(source: Source, agent: int) -> Iterator[tuple[int, int, tuple[int,
     event = source.value
     if isinstance(event, list) and event and type(event[0]) is int:
         if len(event) != 4 or not all(type(number) is int for number in event):  # noqa: PLR2004
-            message = f"{shown(event)} is no event (give [step, agent, task, errands finished])"
+            message = f"{quote(event)} is no event (give [step, agent, task, errands finished])"
             raise source.fault(message)
         step, agent, task, count = event
         if count > 0:
@@ -306,7 +306,7 @@ def _finished(source: Source, agent: int) -> Iterator[tuple[int, int, tuple[int,
     for row in event if isinstance(event, list) else [event]:
         is_event = isinstance(row, list) and len(row) == 3  # noqa: PLR2004
         if not (is_event and type(row[0]) is type(row[1]) is int):
-            raise source.fault(f'{shown(row)} is no event (give [task, step, "finished"])')
+            raise source.fault(f'{quote(row)} is no event (give [task, step, "finished"])')
         if row[2] == "finished":
             yield row[1], agent, (row[0], 0)
 

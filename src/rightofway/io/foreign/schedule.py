@@ -16,7 +16,7 @@ import re
 
 import numpy as np
 
-from rightofway.errors import is_printable, shown
+from rightofway.errors import is_printable, quote
 from rightofway.io.faults import Faults
 from rightofway.io.foreign.trajectories import (
     MAX_STEP,
@@ -61,7 +61,7 @@ def read(text: str) -> ForeignPlan:
 
 def _visits(name: str, states: Source) -> Visits:
     if not is_printable(name):
-        raise states.fault(f"{shown(name)} is no name (give characters that can be printed)")
+        raise states.fault(f"{quote(name)} is no name (give characters that can be printed)")
     faults, cells, steps = Faults(), list[Cell](), list[int]()
     latest = -1
     for state in states.items():

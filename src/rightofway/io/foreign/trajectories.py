@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import FEW, InputError, InputFault, Location, Steps, Where, shown
+from rightofway.errors import FEW, InputError, InputFault, Location, Steps, Where, quote
 from rightofway.io.faults import Faults
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.movingai import ScenRow, load_map, load_scen
@@ -132,7 +132,7 @@ def _map_beside(path: Path, named: str | None) -> Path:
     for beside in (path.parent / name, path.parent / ".." / "maps" / name):
         if is_regular(beside):
             return beside
-    raise InputError.at("", f"its map {shown(name)} is not beside it (give it with --map FILE)")
+    raise InputError.at("", f"its map {quote(name)} is not beside it (give it with --map FILE)")
 
 
 def _scenario(foreign: ForeignPlan, lines: Sequence[str], rows: Sequence[ScenRow]) -> Scenario:

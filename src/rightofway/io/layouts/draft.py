@@ -9,7 +9,7 @@ from fractions import Fraction
 from itertools import groupby, pairwise
 
 from rightofway.deadline import READING, limit_loop
-from rightofway.errors import InputError, is_printable, nearest, shown
+from rightofway.errors import InputError, find_nearest, is_printable, quote
 from rightofway.io.faults import Faults
 from rightofway.io.source import LONGEST_NAME, Source
 from rightofway.site.drawing import Picture
@@ -81,7 +81,7 @@ class LevelDraft:
     def add(self, vertex: LayoutVertex, source: Source) -> None:
         """Take a vertex; InputError if its name is taken, or there are too many."""
         if vertex.name in self.vertices:
-            message = f"a vertex is named {shown(vertex.name)} already (rename one)"
+            message = f"a vertex is named {quote(vertex.name)} already (rename one)"
             raise source.fault(message)
         if any(MICRO % number.denominator for number in vertex.at):
             x, y = (Fraction(round(number * MICRO), MICRO) for number in vertex.at)
@@ -144,7 +144,7 @@ class LayoutDraft:
     def level(self, name: str = "") -> LevelDraft:
         """Begin a level; InputError for a name that cannot be shown."""
         if name and not (is_printable(name) and len(name) <= LONGEST_NAME):
-            raise InputError.at("levels", f"{shown(name)} is no name (give printable text)")
+            raise InputError.at("levels", f"{quote(name)} is no name (give printable text)")
         self.levels.append(LevelDraft(name))
         return self.levels[-1]
 
@@ -187,9 +187,9 @@ class LayoutDraft:
         for lane, square in limit_loop(zip(level.lanes, squares, strict=True), READING):
             missing = [end for end in (lane.tail, lane.head) if end not in vertices]
             if any(end not in elsewhere for end in missing):
-                near = nearest(missing[0], vertices)
+                near = find_nearest(missing[0], vertices)
                 hint = f"did you mean {near!r}?" if near else "name one that the file has"
-                message = f"no vertex is named {shown(missing[0])} ({hint})"
+                message = f"no vertex is named {quote(missing[0])} ({hint})"
                 self.faults.note(lane.source.location, message)
             elif missing:
                 links += 1
@@ -224,7 +224,7 @@ class LayoutDraft:
         for name, count in wrong.items():
             lane_is = "1 lane is" if count == 1 else f"{count} lanes are"
             self.repair(
-                f"the attribute {shown(name)} is no length: by it, {lane_is} shorter than the"
+                f"the attribute {quote(name)} is no length: by it, {lane_is} shorter than the"
                 " straight line; all lanes get the straight length"
             )
         return set(wrong)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from rightofway.arguments import checks_arguments
-from rightofway.errors import InputError, Location, in_file, listed
+from rightofway.errors import InputError, Location, join_names, name_file
 from rightofway.io.layouts import csv_pair, graphml, lif, nav2, open_rmf, opentcs, ros_map
 from rightofway.io.layouts.xml_tree import Element, parse_xml
 from rightofway.io.locations import lines_of
@@ -126,7 +126,7 @@ def read_layout(path: Path | str) -> Layout | Occupancy | CellMap:
         If the format is not known, and with every fault, its place and remedy.
     """
     path = Path(path)
-    with in_file(str(path)):
+    with name_file(str(path)):
         _refuse_picture(path)
         text = read_text(path)
         opened = _open(text)
@@ -190,7 +190,7 @@ def refuse_layout(path: Path, text: str | None = None) -> None:
     try:
         description = describe_layout(read_layout(path))
     except InputError as error:
-        first = error.faults[0].in_file("")
+        first = error.faults[0].name_file("")
         description = f"a layout with a fault: {first}; mend it first"
     name = path.name
     remedy = f"write a scenario with map: {{layout: {name}}}"
@@ -223,7 +223,7 @@ def describe_layout(layout: Layout | Occupancy | CellMap) -> str:
         if count
     ]
     article = "an" if layout.kind[0].lower() in "aeio" else "a"
-    return f"{article} {layout.kind} with {listed(parts)}"
+    return f"{article} {layout.kind} with {join_names(parts)}"
 
 
 def _open(text: str) -> tuple[LayoutFormat, Any] | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, quote
 from rightofway.io.layouts.attributes import PAIRS, add_lanes, add_vertex
 from rightofway.io.layouts.draft import LayoutDraft, LevelDraft
 from rightofway.io.source import Source
@@ -40,14 +40,14 @@ def layout_of_graph(graph: Any) -> Layout:
     Fraction(5, 1)
     """
     if not all(hasattr(graph, name) for name in ("nodes", "edges", "is_directed")):
-        raise InputError.at("graph", f"{shown(graph)} is no graph (give a networkx graph)")
+        raise InputError.at("graph", f"{quote(graph)} is no graph (give a networkx graph)")
     draft = LayoutDraft("networkx graph")
     level, both_ways = draft.level(), not graph.is_directed()
     for node, data in graph.nodes(data=True):
-        name = f"node {shown(str(node))}"
+        name = f"node {quote(str(node))}"
         draft.faults.attempt("", _add_node, level, node, Source(dict(data), (name,)))
     for tail, head, data in graph.edges(data=True):
-        name = f"edge {shown(str(tail))} to {shown(str(head))}"
+        name = f"edge {quote(str(tail))} to {quote(str(head))}"
         own, ends = Source(dict(data), (name,)), (str(tail), str(head))
         draft.faults.attempt("", add_lanes, level, own, *ends, both_ways)
     return draft.layout()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from rightofway.errors import shown
+from rightofway.errors import quote
 from rightofway.io.layouts.attributes import PAIRS, add_lanes, add_vertex
 from rightofway.io.layouts.draft import LayoutDraft, LevelDraft
 from rightofway.io.layouts.xml_tree import Element
@@ -60,7 +60,7 @@ def _add_node(level: LevelDraft, node: Element, keys: dict[str, str], draft: Lay
         at = drawn.need("x").number() + half[0], -drawn.need("y").number() - half[1]
     else:
         known = ", ".join(("x and y", *PAIRS))
-        raise node.fault(f"the node {shown(name)} has no coordinates (give one of {known})")
+        raise node.fault(f"the node {quote(name)} has no coordinates (give one of {known})")
     add_vertex(level, own, name, at)
 
 
@@ -68,7 +68,7 @@ def _pair(pair: Source) -> Point:
     """Return the point of a text like ``70,182`` or ``(70, 182)``."""
     numbers = re.split(r"[,;\s]+", pair.value.strip("()[] \t\n"))
     if len(numbers) not in {2, 3}:
-        raise pair.fault(f"{shown(pair.value)} is no point (give x,y)")
+        raise pair.fault(f"{quote(pair.value)} is no point (give x,y)")
     return pair.child(0, numbers[0]).number(), pair.child(1, numbers[1]).number()
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, quote
 from rightofway.io.layouts.draft import DraftLane, LayoutDraft, LevelDraft
 from rightofway.io.source import Source
 from rightofway.site.geometry import Point
@@ -51,7 +51,7 @@ def _add(level: LevelDraft, feature: Source, draft: LayoutDraft) -> None:
         _add_edge(level, feature, draft)
     else:
         known = ", ".join(("Point", *LINES))
-        raise kind.fault(f"{shown(kind.value)} is no node and no edge (give one of {known})")
+        raise kind.fault(f"{quote(kind.value)} is no node and no edge (give one of {known})")
 
 
 def _add_edge(level: LevelDraft, feature: Source, draft: LayoutDraft) -> None:
@@ -93,5 +93,5 @@ def _shape(geometry: Source, draft: LayoutDraft) -> tuple[Point, ...]:
 def _point(part: Source) -> Point:
     numbers = part.items()
     if len(numbers) not in {2, 3}:
-        raise part.fault(f"{shown(part.value)} is no point (give [x, y])")
+        raise part.fault(f"{quote(part.value)} is no point (give [x, y])")
     return numbers[0].number(), numbers[1].number()

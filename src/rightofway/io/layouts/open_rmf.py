@@ -13,7 +13,7 @@ from math import atan2, hypot
 from pathlib import Path
 from typing import Any
 
-from rightofway.errors import InputError, listed, shown
+from rightofway.errors import InputError, join_names, quote
 from rightofway.io.layouts.draft import DraftLane, LayoutDraft, LevelDraft
 from rightofway.io.source import Source
 from rightofway.site.drawing import Picture
@@ -72,10 +72,10 @@ def _note_lifts(root: Source, draft: LayoutDraft) -> None:
     lifts = root.get("lifts")
     if lifts is None or not lifts.mapping():
         return
-    names = [shown(name).strip("'") for name, _ in lifts.entries()]
-    several = f"the lifts {listed(names)} are" if len(names) > 1 else f"the lift {names[0]} is"
+    names = [quote(name).strip("'") for name, _ in lifts.entries()]
+    several = f"the lifts {join_names(names)} are" if len(names) > 1 else f"the lift {names[0]} is"
     levels = [level.name for level in draft.levels if level.vertices]
-    remedy = f": plan each of {listed(levels)} by itself, with level" if len(levels) > 1 else ""
+    remedy = f": plan each of {join_names(levels)} by itself, with level" if len(levels) > 1 else ""
     draft.repair(f"{several} not used, a plan stays on one level{remedy}")
 
 
@@ -93,7 +93,7 @@ def _picture(
     except (OSError, ValueError):
         is_there = False
     if not is_there:
-        draft.repair(f"the picture {shown(name)} is not beside the file, and is not drawn")
+        draft.repair(f"the picture {quote(name)} is not beside the file, and is not drawn")
         return None
     far = Fraction(1000)  # pixels, so that rounding to a nanometre does not matter
     (x, y), (to_x, to_y) = transform((Fraction(0), Fraction(0))), transform((far, Fraction(0)))
@@ -104,7 +104,7 @@ def _picture(
     except (OverflowError, ValueError):
         pixel, yaw = Fraction(0), Fraction(0)
     if pixel <= 0:
-        draft.repair(f"the picture {shown(name)} has no size, and is not drawn")
+        draft.repair(f"the picture {quote(name)} has no size, and is not drawn")
         return None
     return Picture(file=folder / name, pixel=pixel, corner=(x, y), yaw=yaw)
 
@@ -204,7 +204,7 @@ def _vertex(item: Source, names: list[str | None]) -> str | None:
     index = item.value
     if isinstance(index, bool) or not isinstance(index, int) or not 0 <= index < len(names):
         last = len(names) - 1
-        raise item.fault(f"{shown(index)} is no vertex (give a number from 0 to {last})")
+        raise item.fault(f"{quote(index)} is no vertex (give a number from 0 to {last})")
     return names[index]
 
 
@@ -215,7 +215,7 @@ def _transforms(root: Source, draft: LayoutDraft) -> dict[str, Transform]:
     if system in IN_METRES:
         return {name: lambda point: point for name in levels}
     if system not in IN_PIXELS:
-        message = f"coordinates are {shown(system)} (give the building's navigation graph instead)"
+        message = f"coordinates are {quote(system)} (give the building's navigation graph instead)"
         raise InputError.at("coordinate_system", message)
     named = root.value.get("reference_level_name")
     reference = named if isinstance(named, str) and named in levels else next(iter(levels), "")
@@ -262,7 +262,7 @@ def _scale(level: Source) -> Fraction | None:
         for item in items[:2]:
             index = item.value
             if not isinstance(index, int) or not 0 <= index < len(vertices):
-                raise item.fault(f"{shown(index)} is no vertex (mend the measurement)")
+                raise item.fault(f"{quote(index)} is no vertex (mend the measurement)")
             x, y, *_ = [*vertices[index].items(), Source(0), Source(0)]
             ends.append((float(x.number()), float(y.number())))
         metres = Source(_own(measurement, 2).get("distance"), measurement.path).number()

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 
-from rightofway.errors import shown
+from rightofway.errors import quote
 from rightofway.io.layouts.draft import DraftLane, LayoutDraft, LevelDraft
 from rightofway.io.layouts.xml_tree import Element
 from rightofway.site.layout import Layout, LayoutVertex, Station
@@ -64,7 +64,7 @@ def read(root: Element) -> Layout:
 def _check_version(root: Element) -> None:
     version = root.value.get("version")
     if version is None or (version not in VERSIONS and not version.startswith(("6.", "7."))):
-        message = f"a plant model of version {shown(version)} (open and save it with openTCS 6)"
+        message = f"a plant model of version {quote(version)} (open and save it with openTCS 6)"
         raise root.fault(message)
 
 

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.errors import InputError, shown, under
+from rightofway.errors import InputError, locate_faults, quote
 from rightofway.io.source import Source
 from rightofway.io.text import refuse_special
 from rightofway.site.drawing import Picture
@@ -72,13 +72,13 @@ def read(document: Any, path: Path) -> Occupancy:
     root, notes = Source(document), list[str]()
     resolution, mode = root.need("resolution"), root.get("mode")
     if resolution.number() <= 0:
-        raise resolution.fault(f"{shown(resolution.value)} is not positive (give metres)")
+        raise resolution.fault(f"{quote(resolution.value)} is not positive (give metres)")
     if mode is not None and mode.value not in MODES:
-        raise mode.fault(f"{shown(mode.value)} is unknown (give one of {', '.join(MODES)})")
+        raise mode.fault(f"{quote(mode.value)} is unknown (give one of {', '.join(MODES)})")
     origin = root.need("origin")
     numbers = [coordinate.number() for coordinate in origin.items()]
     if len(numbers) not in {2, 3}:
-        raise origin.fault(f"{shown(origin.value)} does not fit (give [x, y, yaw])")
+        raise origin.fault(f"{quote(origin.value)} does not fit (give [x, y, yaw])")
     negate = root.get("negate")
     if negate is None:
         notes.append("negate is missing and counts as 0")
@@ -142,7 +142,7 @@ def _picture(image: Source, path: Path) -> tuple[NDArray[Any], int, NDArray[np.b
     from PIL import Image
 
     file = path.parent / image.text()
-    with under(image.location):
+    with locate_faults(image.location):
         refuse_special(file)
     try:
         with warnings.catch_warnings():
@@ -162,7 +162,7 @@ def _picture(image: Source, path: Path) -> tuple[NDArray[Any], int, NDArray[np.b
         raise image.fault(f"the picture has more than {MAX_PIXELS} pixels (give a part of it)") \
             from None  # fmt: skip
     except BROKEN as error:
-        reason = shown(str(error).replace(str(file), file.name))
+        reason = quote(str(error).replace(str(file), file.name))
         raise image.fault(f"the picture cannot be read: {reason} (write it again)") from None
 
 

@@ -11,8 +11,8 @@ from fractions import Fraction
 from math import dist
 from typing import Any
 
-from rightofway.arguments import checks_arguments, value_of
-from rightofway.errors import InputError, listed
+from rightofway.arguments import checks_arguments, get_value
+from rightofway.errors import InputError, join_names
 from rightofway.io.text import json_line
 from rightofway.site.geometry import Point, measure_squared_distance
 from rightofway.site.layout import Layout, LayoutEdge, LayoutVertex, Level
@@ -64,7 +64,7 @@ def layout_text(layout: Layout, name: str) -> tuple[str, tuple[str, ...]]:
     InputError
         If the name is unknown, or the layout has several levels and the format knows one.
     """
-    writer = value_of(LAYOUT_WRITERS, name, "name")
+    writer = get_value(LAYOUT_WRITERS, name, "name")
     if len(layout.levels) > 1 and "levels" not in writer.says:
         message = f"{len(layout.levels)} levels, and {name} knows one (write lif or open-rmf)"
         raise InputError.at("", message)
@@ -90,7 +90,7 @@ def losses_of(layout: Layout, says: frozenset[str]) -> Iterator[str]:
     }
     lost = [f"{loss} ({count})" for loss, count in counts.items() if count and loss not in says]
     if lost:
-        yield f"left out, the format has no place for them: {listed(lost)}"
+        yield f"left out, the format has no place for them: {join_names(lost)}"
 
 
 def _is_number(name: str) -> bool:

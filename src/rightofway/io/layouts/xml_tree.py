@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from xml.parsers import expat
 
 from rightofway.deadline import READING, STEPS_BETWEEN_LOOKS, check_work
-from rightofway.errors import InputError, Location, shown
+from rightofway.errors import InputError, Location, quote
 from rightofway.io.source import Source
 from rightofway.io.text import LIMIT, choose_limit
 
@@ -90,7 +90,7 @@ def parse_xml(text: str) -> Element:
             texts[len(opened)].append(data)
 
     def entity(name: str, *_: object) -> None:
-        message = f"the entity {shown(name)} is not allowed (write out what is meant)"
+        message = f"the entity {quote(name)} is not allowed (write out what is meant)"
         raise InputError.at(Location(line=parser.CurrentLineNumber), message)
 
     parser.StartElementHandler, parser.EndElementHandler = start, end

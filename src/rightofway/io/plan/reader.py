@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from rightofway.arguments import checks_arguments
-from rightofway.errors import InputError, Where, in_file, nearest, shown, under
+from rightofway.errors import InputError, Where, find_nearest, locate_faults, name_file, quote
 from rightofway.io.faults import Faults, validate
 from rightofway.io.formats import PLAN_FORMAT, check_format
 from rightofway.io.scenario.loaded_map import LoadedMap
@@ -65,7 +65,7 @@ def plan_of(document: Any, source: str = "", pictures: Path | None = None) -> Pl
     """
     from rightofway.io.plan.shape import PlanFrame
 
-    with in_file(source):
+    with name_file(source):
         document = check_format(document, PLAN_FORMAT)
         faults = Faults()
         frame = faults.attempt("", validate, PlanFrame, document)
@@ -77,7 +77,7 @@ def plan_of(document: Any, source: str = "", pictures: Path | None = None) -> Pl
         tick = loaded and loaded.scenario.problem.clock.tick
         if frame and tick and frame.tick != tick:
             remedy = "plan the scenario again; these times mean something else"
-            faults.note("tick", f"{shown(frame.tick)}, but the scenario's is {tick} ({remedy})")
+            faults.note("tick", f"{quote(frame.tick)}, but the scenario's is {tick} ({remedy})")
         faults.stop(document)
     assert loaded is not None, "or there was a fault"
     assert tracks is not None, "or there was a fault"
@@ -112,15 +112,15 @@ class _Names:
     def robot(self, place: Where, name: str) -> int:
         """Return the index of a robot; InputError if there is none."""
         if name not in self.robots:
-            near = nearest(name, self.robots)
+            near = find_nearest(name, self.robots)
             hint = f"did you mean {near!r}?" if near else "name one of the scenario's robots"
-            raise InputError.at(place, f"no robot is named {shown(name)} ({hint})")
+            raise InputError.at(place, f"no robot is named {quote(name)} ({hint})")
         return self.robots[name]
 
     def vertex(self, place: Where, name: str) -> VertexId:
         """Return the vertex of a name; InputError if there is none."""
         if name not in self.vertices:
-            with under(place):
+            with locate_faults(place):
                 self.vertices[name] = self.on.find(name)
         return self.vertices[name]
 
@@ -130,7 +130,7 @@ def _each(
 ) -> list[T]:
     """Return the items of a list; without names, only look for faults of shape."""
     if not isinstance(data, list):
-        raise InputError.at("", f"{shown(data)} is not a list (give one {item})")
+        raise InputError.at("", f"{quote(data)} is not a list (give one {item})")
     faults, parts = Faults(), list[T | None]()
     for index, part in enumerate(data):
         document = faults.attempt(index, validate, shape, part)
@@ -149,7 +149,7 @@ def _tracks(data: Any, names: _Names | None) -> tuple[Track, ...]:
     def read(document: TrackDocument, names: _Names) -> None:
         robot = names.robot("name", document.name)
         if robot in tracks:
-            message = f"{shown(document.name)} has a track already (take one out)"
+            message = f"{quote(document.name)} has a track already (take one out)"
             raise InputError.at("name", message)
         vertices = [
             names.vertices[name]
@@ -162,7 +162,7 @@ def _tracks(data: Any, names: _Names | None) -> tuple[Track, ...]:
     _each(data, TrackDocument, read, names, "track for each robot")
     missing = [name for name, robot in names.robots.items() if robot not in tracks] if names else []
     if missing:
-        raise InputError.at("", f"{shown(missing[0])} has no track (give one for each robot)")
+        raise InputError.at("", f"{quote(missing[0])} has no track (give one for each robot)")
     return tuple(tracks[robot] for robot in sorted(tracks))
 
 
@@ -209,7 +209,7 @@ def _decision(document: DecisionDocument, names: _Names) -> Decision:
     robot, other = (names.robot("robots", name) for name in document.robots)
     waits = names.robot("waits", document.waits)
     if waits not in {robot, other}:
-        message = f"{shown(document.waits)} is none of the two robots (name one of them)"
+        message = f"{quote(document.waits)} is none of the two robots (name one of them)"
         raise InputError.at("waits", message)
     sums = document.completion_sums
     return Decision(
@@ -247,7 +247,7 @@ def _steady_state(document: SteadyDocument, names: _Names) -> SteadyState:
         place = ("critical", index, "robot")
         robot = names.robot(place, visit.robot)
         if robot not in robots:
-            message = f"{shown(visit.robot)} is not of this group (name one of its robots)"
+            message = f"{quote(visit.robot)} is not of this group (name one of its robots)"
             raise InputError.at(place, message)
         critical.append((robot, visit.visit))
     return SteadyState(

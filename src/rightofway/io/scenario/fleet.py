@@ -16,7 +16,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rightofway.assign import HOMELESS
-from rightofway.errors import InputError, InputFault, Location, Steps, in_file, shown, under
+from rightofway.errors import (
+    InputError,
+    InputFault,
+    Location,
+    Steps,
+    locate_faults,
+    name_file,
+    quote,
+)
 from rightofway.io.faults import Faults, keys_of, validate
 from rightofway.io.movingai import ScenRow, load_scen
 from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap
@@ -40,9 +48,9 @@ def robots_in_table(data: dict[str, Any], base: Path | None) -> CellDocument:
     """Return the robots of a CSV file that the document names."""
     from rightofway.io.scenario.shape import RobotDocument, RobotTableDocument
 
-    with under("robots"):
+    with locate_faults("robots"):
         name = validate(RobotTableDocument, data).table
-        with under("table"):
+        with locate_faults("table"):
             return robots_of_csv(
                 file_beside(base, name), keys_of(RobotDocument), ("robots", "table")
             )
@@ -168,10 +176,10 @@ def read_robots(data: Any, base: Path | None) -> ListedFleet | FleetRows:
         )
     if not isinstance(data, dict):
         remedy = "give a list of robots, {scen: a file} or {table: a file}"
-        message = f"{shown(data)} is no fleet ({remedy})"
+        message = f"{quote(data)} is no fleet ({remedy})"
         raise InputError.at("", message)
     document = validate(FleetDocument, data)
-    with under("scen"):
+    with locate_faults("scen"):
         file = file_beside(base, document.scen)
         rows = load_scen(file)
     if document.count is not None and document.count > len(rows):
@@ -256,7 +264,7 @@ def _place_rows(robots: FleetRows, on: LoadedMap, faults: Faults) -> list[Placed
 
 def _starts_and_goals(robots: FleetRows, on: LoadedMap) -> list[tuple[VertexId, VertexId]]:
     faults, ends, taken = Faults(), list[tuple[VertexId, VertexId]](), dict[VertexId, int]()
-    with in_file(str(robots.file)):
+    with name_file(str(robots.file)):
         for row in robots.rows:
             _check_map(row, on)  # stops at the first: the others are for the same map
         for row in robots.rows:

@@ -7,7 +7,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rightofway.errors import InputError, under
+from rightofway.errors import InputError, locate_faults
 from rightofway.io.layouts import read_layout
 from rightofway.io.scenario.loaded_map import (
     FleetTraits,
@@ -40,7 +40,7 @@ def map_of_layout(
 
     Layouts are in metres and seconds; a scenario that names no units has these.
     """
-    with under("layout"):
+    with locate_faults("layout"):
         layout = read_layout(file)
     if isinstance(layout, CellMap):
         return _map_of_cells(document, layout, file)
@@ -94,7 +94,7 @@ def _map_of_pixels(
     lines = occupancy.cut_cells(
         size * metres, radius=radius * metres, unknown_is_free=document.unknown == "free"
     )
-    with under("layout"):
+    with locate_faults("layout"):
         roadmap = make_grid_roadmap(
             lines,
             cell_size=size,
@@ -104,10 +104,10 @@ def _map_of_pixels(
         )
     if occupancy.picture is not None:
         roadmap = replace(roadmap, drawing=Drawing(picture=occupancy.picture.scale(1 / metres)))
-    cells = f"map cut into {len(lines[0])} x {len(lines)} cells of {units.written_length(size)}"
+    cells = f"map cut into {len(lines[0])} x {len(lines)} cells of {units.format_length(size)}"
     blocked = "what the picture shows there"
     if 2 * radius > size:
-        blocked += f", or beside it for a radius of {units.written_length(radius)}"
+        blocked += f", or beside it for a radius of {units.format_length(radius)}"
     return LoadedMap(
         roadmap=roadmap,
         lines=lines,
@@ -161,7 +161,7 @@ def _map_of_cells(document: MapDocument, cells_of_map: CellMap, file: Path) -> L
         raise InputError.at("cell_size", message)
     _refuse(document, "a map in cells", "level", "vehicle_type", "spacing", "unknown")
     size = document.cell_size if isinstance(document.cell_size, Fraction) else Fraction(1)
-    with under("layout"):
+    with locate_faults("layout"):
         roadmap = make_grid_roadmap(cells_of_map.lines, cell_size=size)
     return LoadedMap(roadmap=roadmap, lines=cells_of_map.lines, file=file)
 

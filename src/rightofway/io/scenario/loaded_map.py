@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
 
-from rightofway.quantities import Units, decimal
+from rightofway.quantities import Units, format_decimal
 from rightofway.site import Floor, Grid, Roadmap, VertexId
 from rightofway.site.places import as_place, find_vertex_at
 from rightofway.site.spacing import SplitLanes
@@ -98,9 +98,9 @@ def note_on_squares(noun: str, roadmap: Roadmap, cells: int, units: Units) -> st
     least, most = (
         Fraction(repr(float(ends))) for ends in (roadmap.sides.min(), roadmap.sides.max())
     )
-    span = f"of {units.written_length(least)}"
+    span = f"of {units.format_length(least)}"
     if most > least:
-        span = f"of {decimal(least)} to {units.written_length(most)}"
+        span = f"of {format_decimal(least)} to {units.format_length(most)}"
     return f"{noun} cut into {len(roadmap.sides)} squares {span}, from {cells} free cells"
 
 
@@ -111,7 +111,7 @@ def note_on_crossed(split: SplitLanes, units: Units) -> Iterator[str]:
         lanes = "1 lane is" if split.crossed == 1 else f"{split.crossed} lanes are"
         whole = "it" if split.crossed == 1 else "them"
         yield (
-            f"{lanes} booked in pieces of at most {units.written_length(split.spacing)}, because"
+            f"{lanes} booked in pieces of at most {units.format_length(split.spacing)}, because"
             f" others cross far from the ends (spacing: whole keeps {whole} whole)"
         )
 
@@ -121,7 +121,8 @@ def note_on_curves(curves: int, chord_error: Fraction, units: Units) -> Iterator
     if curves:
         verb = f"{curves} curves are" if curves > 1 else "1 curve is"
         error, twice = (
-            f"{decimal(factor * chord_error, 6)} {units.length or ''}".rstrip() for factor in (1, 2)
+            f"{format_decimal(factor * chord_error, 6)} {units.length or ''}".rstrip()
+            for factor in (1, 2)
         )
         near = f", which leave the curve by at most {error}: the clearance grows by {twice}"
         yield (

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rightofway.deadline import READING, limit_loop
-from rightofway.errors import InputError, nearest, shown, under
+from rightofway.errors import InputError, find_nearest, locate_faults, quote
 from rightofway.io.faults import Faults
 from rightofway.io.movingai import load_map
 from rightofway.io.scenario.curves import LaneCurve, lane_curve, points_along
@@ -22,7 +22,7 @@ from rightofway.io.scenario.loaded_map import (
     note_on_squares,
 )
 from rightofway.io.text import refuse_special
-from rightofway.quantities import Units, decimal
+from rightofway.quantities import Units, format_decimal
 from rightofway.site import (
     Edge,
     Floor,
@@ -67,11 +67,11 @@ def map_of(
     that the scenario names.
     """
     if document.layout is not None:
-        with under("layout"):
+        with locate_faults("layout"):
             file = file_beside(base, document.layout)
         return map_of_layout(document, file, units, fleet)
     if document.roadmap is not None:
-        with under("roadmap"):
+        with locate_faults("roadmap"):
             return _map_of_roadmap(document.roadmap, document, units, fleet)
     if document.floor is not None:
         if document.cell_size == "adaptive":
@@ -84,12 +84,12 @@ def map_of(
         "yaw": document.yaw or Fraction(0),
     }
     if document.file is not None:
-        with under("file"):
+        with locate_faults("file"):
             file = file_beside(base, document.file)
             lines = load_map(file)
             roadmap = make_grid_roadmap(lines, cell_size=cell_size, **frame)
     else:
-        with under("grid"):
+        with locate_faults("grid"):
             file, lines = None, tuple(document.grid)
             roadmap = make_grid_roadmap(lines, cell_size=cell_size, **frame)
     roadmap = replace(roadmap, obstacles=_named_obstacles(document.obstacles))
@@ -115,7 +115,7 @@ def file_beside(base: Path | None, name: str) -> Path:
     InputError for a document in no file, and for devices, pipes and directories.
     """
     if base is None:
-        message = f"{shown(name)} is relative to no file (write the contents into the document)"
+        message = f"{quote(name)} is relative to no file (write the contents into the document)"
         raise InputError.at("", message)
     refuse_special(base / name)
     return base / name
@@ -129,7 +129,7 @@ def _map_of_floor(
     What is left at the other borders is not used. The names of obstacles stay with the grid where
     the scenario names its units; plan files of floors without units are as they have always been.
     """
-    with under("floor"):
+    with locate_faults("floor"):
         floor = _floor(document.floor, document)
     cell_size = document.cell_size
     if not isinstance(cell_size, Fraction):
@@ -142,7 +142,7 @@ def _map_of_floor(
         lines = lines[::-1]
     elif origin:
         origin = (origin[0], origin[1] - floor.height + len(lines) * cell_size)
-    with under("floor"):
+    with locate_faults("floor"):
         roadmap = make_grid_roadmap(
             lines,
             cell_size=cell_size,
@@ -168,7 +168,7 @@ def _map_of_squares(
         if not speeds:
             return None
         smallest = compute_node_length(speeds)
-    with under("floor"):
+    with locate_faults("floor"):
         floor = _floor(document.floor, document)
     free = free_cells(floor, smallest, max_cells=MAX_SMALLEST, key="smallest")
     origin = document.origin or (Fraction(0), Fraction(0) if document.y_up else floor.height)
@@ -274,7 +274,7 @@ def _map_of_roadmap(
     frame = Frame(x=left, y=low, y_up=on.y_up, yaw=on.yaw or Fraction(0))
     sides = None if document.sides is None else [float(side) for side in document.sides]
     rounded = sum((lengths[index] or 0) ** 2 != square for index, square in squares.items())
-    note = f"{rounded} of {len(document.edges)} lengths rounded up to {decimal(step, 6)}"
+    note = f"{rounded} of {len(document.edges)} lengths rounded up to {format_decimal(step, 6)}"
     roadmap = make_roadmap(
         drawn,
         split.edges,
@@ -339,9 +339,9 @@ def _places(document: RoadmapDocument, roadmap: Roadmap) -> Drawing:
         try:
             return roadmap.get_vertex(name)
         except KeyError:
-            near = nearest(name, document.vertices)
+            near = find_nearest(name, document.vertices)
             hint = f"did you mean {near!r}?" if near else "add it to vertices"
-            raise InputError.at("", f"no vertex is named {shown(name)} ({hint})") from None
+            raise InputError.at("", f"no vertex is named {quote(name)} ({hint})") from None
 
     def known(key: str, names: Sequence[str]) -> tuple[VertexId, ...]:
         vertices = [faults.attempt((key, at), vertex, name) for at, name in enumerate(names)]
@@ -367,7 +367,7 @@ def _length(
     faults = Faults()
     for place, name in (("from", edge.tail), ("to", edge.head)):
         if name not in positions:
-            near = nearest(name, positions)
+            near = find_nearest(name, positions)
             hint = f"did you mean {near!r}?" if near else "add it to vertices"
             faults.note(place, f"no vertex is named {name!r} ({hint})")
     if edge.tail == edge.head:
@@ -375,6 +375,6 @@ def _length(
     faults.stop()
     if edge.curve is None:
         return edge.length or measure_straight_length(square or Fraction(0), step), None
-    with under("curve"):
+    with locate_faults("curve"):
         curve = lane_curve(positions[edge.tail], edge.curve, positions[edge.head])
     return edge.length or curve.length, curve

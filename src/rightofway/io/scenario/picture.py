@@ -7,7 +7,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rightofway.errors import InputError, shown, under
+from rightofway.errors import InputError, locate_faults, quote
 from rightofway.io.scenario.loaded_map import LoadedMap
 from rightofway.io.text import refuse_special
 from rightofway.site.drawing import Picture
@@ -28,9 +28,9 @@ def with_picture(
     """Return a map with the picture that it is drawn over; a note where the file is missing."""
     if document is None:
         return loaded
-    with under("picture"):
+    with locate_faults("picture"):
         picture, is_there = picture_of(document, base)
-    note = f"there is no picture {shown(document.file)}; the map is shown without it"
+    note = f"there is no picture {quote(document.file)}; the map is shown without it"
     return replace(
         loaded,
         roadmap=replace(loaded.roadmap, drawing=replace(loaded.roadmap.drawing, picture=picture)),
@@ -62,7 +62,7 @@ def _is_there(file: Path, name: str) -> bool:
     """Return whether a picture is there; its first bytes say how large it is."""
     from PIL import Image
 
-    with under("file"):
+    with locate_faults("file"):
         refuse_special(file)
     try:
         with Image.open(file, formats=KINDS) as image:
@@ -73,9 +73,9 @@ def _is_there(file: Path, name: str) -> bool:
         columns = rows = MOST_PIXELS  # more than Pillow would read
     except (OSError, ValueError, SyntaxError) as error:
         reason = f" ({error.strerror})" if isinstance(error, OSError) and error.strerror else ""
-        message = f"{shown(name)} is no picture that can be read{reason} (give a PNG or JPEG file)"
+        message = f"{quote(name)} is no picture that can be read{reason} (give a PNG or JPEG file)"
         raise InputError.at("file", message) from None
     if columns * rows > MOST_PIXELS:
-        message = f"{shown(name)} has more than {MOST_PIXELS} pixels (save it smaller)"
+        message = f"{quote(name)} has more than {MOST_PIXELS} pixels (save it smaller)"
         raise InputError.at("file", message)
     return True

@@ -14,7 +14,7 @@ from typing import Any
 
 from rightofway.arguments import checks_arguments
 from rightofway.assign import deal_homes
-from rightofway.errors import InputError, Steps, Where, in_file, nearest, shown
+from rightofway.errors import InputError, Steps, Where, find_nearest, name_file, quote
 from rightofway.io.faults import Faults, validate
 from rightofway.io.formats import SCENARIO_FORMAT, check_format
 from rightofway.io.scenario.crossings import crossing_note
@@ -79,7 +79,7 @@ def scenario_of(document: dict[str, Any], base: Path | None = None, source: str 
     InputError
         With every independent fault, its place, value and remedy.
     """
-    with in_file(source):
+    with name_file(source):
         return read_scenario(document, base).scenario
 
 
@@ -145,7 +145,7 @@ def _rules_of(data: Any) -> Rules:
         return CLASSIC
     if isinstance(data, str):
         remedy = "give classic, or a mapping like {headway: 1}"
-        raise InputError.at("", f"{shown(data)} is no name of rules ({remedy})")
+        raise InputError.at("", f"{quote(data)} is no name of rules ({remedy})")
     return Rules(**validate(RulesDocument, data).own(Rules))
 
 
@@ -161,7 +161,7 @@ def _closures(data: Any, on: LoadedMap | None) -> list[Closure]:
 
     if not isinstance(data, list):
         remedy = "give a list of {at or edge, from, until, radius}"
-        raise InputError.at("", f"{shown(data)} is no list of closures ({remedy})")
+        raise InputError.at("", f"{quote(data)} is no list of closures ({remedy})")
     faults, closures = Faults(), list[Closure]()
     for index, closure_data in enumerate(data):
         document = faults.attempt(index, validate, ClosureDocument, closure_data, on)
@@ -173,7 +173,7 @@ def _closures(data: Any, on: LoadedMap | None) -> list[Closure]:
             **document.given("from_", "until", "radius"),
         )
         for fault in find_closure_faults(closure, on.roadmap):
-            faults.add([fault.within(index)])
+            faults.add([fault.nest(index)])
         closures.append(closure)
     faults.stop()
     return closures
@@ -230,7 +230,7 @@ def _check_ticks(scenario: Scenario) -> None:
         ),
     )
     if longest > MAX_TICKS:
-        ticks = f"{shown(longest)} ticks of {shown(problem.clock.tick)}"
+        ticks = f"{quote(longest)} ticks of {quote(problem.clock.tick)}"
         message = f"a duration of {ticks} is too long (bring speeds and times closer together)"
         raise InputError.at("robots", message)
 
@@ -239,7 +239,7 @@ def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[str]:
     grid = loaded.roadmap.grid
     if loaded.floor and grid:
         cells = f"{grid.columns} x {grid.rows} = {grid.columns * grid.rows}"
-        yield f"floor cut into {cells} cells of {scenario.quantities.length(grid.cell_size)}"
+        yield f"floor cut into {cells} cells of {scenario.quantities.format_length(grid.cell_size)}"
     spaces = 0 if loaded.floor else sum(line.count(" ") for line in loaded.lines)
     if spaces:
         count = "1 space counts" if spaces == 1 else f"{spaces} spaces count"
@@ -253,7 +253,7 @@ def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[str]:
     if not scenario.problem.clock.exact:
         yield (
             f"each drive, turn and work time is rounded up to a multiple of"
-            f" {scenario.quantities.duration(1)} (the shortest of them, divided by"
+            f" {scenario.quantities.format_duration(1)} (the shortest of them, divided by"
             f" {MAX_TICKS_OF_SHORTEST}); simpler speeds and lengths stay exact,"
             " for example 1/3 instead of 0.3333"
         )
@@ -266,6 +266,6 @@ def _type_notes(scenario: Scenario) -> Iterator[str]:
     """
     known = scenario.roadmap.types
     for name in dict.fromkeys(robot.type for robot in scenario.robots):
-        near = None if name is None or name in known else nearest(name, sorted(known))
+        near = None if name is None or name in known else find_nearest(name, sorted(known))
         if near:
-            yield f"nothing is barred for robots of type {shown(name)} (did you mean {near!r}?)"
+            yield f"nothing is barred for robots of type {quote(name)} (did you mean {near!r}?)"

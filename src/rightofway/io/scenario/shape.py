@@ -9,7 +9,7 @@ from pydantic import ConfigDict, Field, GetJsonSchemaHandler, field_validator, m
 from pydantic_core import CoreSchema
 
 from rightofway.deadline import READING, check_work
-from rightofway.errors import shown
+from rightofway.errors import quote
 from rightofway.io.fields import (
     POSITION,
     Angle,
@@ -96,7 +96,7 @@ class EdgeDocument(Document):
         if not isinstance(data, list | tuple):
             return data
         if len(data) not in {2, 3}:
-            raise ValueError(f"{shown(data)} does not fit (give [A, B] or [A, B, length])")
+            raise ValueError(f"{quote(data)} does not fit (give [A, B] or [A, B, length])")
         return dict(zip(("from", "to", "length"), data, strict=False))
 
     @classmethod

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from rightofway.errors import InputError, Steps, Where, in_file, nearest, shown
+from rightofway.errors import InputError, Steps, Where, find_nearest, name_file, quote
 from rightofway.io.faults import Faults, keys_of
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.scenario.reader import Loaded, read_scenario
@@ -51,7 +51,7 @@ def load_workbook_scenario(path: Path | str) -> Loaded:
         With every independent fault, its sheet and cell, its value and the remedy.
     """
     path = Path(path)
-    with in_file(str(path)):
+    with name_file(str(path)):
         faults, notes = Faults(), list[str]()
         document = _document(read_sheets(path, SHEETS, faults), faults, notes)
         with document.locate():
@@ -137,7 +137,7 @@ def _grid(
             elif isinstance(value, str) and len(value) == 1:
                 line += value
             else:
-                message = f"{shown(value)} is no cell of a map (write . or @, or fill the cell)"
+                message = f"{quote(value)} is no cell of a map (write . or @, or fill the cell)"
                 faults.note(sheet.cell(row, column), message)
         lines.append(line)
     faults.stop()
@@ -182,9 +182,9 @@ def _add_rules(
         if key in {"rule", "rules", "key"} or name is None:
             continue
         if key not in known:
-            near = nearest(key, known)
+            near = find_nearest(key, known)
             hint = f"did you mean {near}?" if near else f"known: {', '.join(known)}"
-            faults.note(sheet.cell(row, 1), f"{shown(name)} is no rule ({hint})")
+            faults.note(sheet.cell(row, 1), f"{quote(name)} is no rule ({hint})")
             continue
         if key in seen:
             faults.note(sheet.cell(row, 1), f"the rule {key} is given twice (take one out)")
@@ -237,7 +237,7 @@ def _roadmap(vertices: Sheet, edges: Sheet) -> CellDocument:
         if missing:
             faults.note(row, f"has no {' and no '.join(missing)} (give name, x and y)")
         if name in first:
-            message = f"{shown(name)} is in {{other}} already (take one out)"
+            message = f"{quote(name)} is in {{other}} already (take one out)"
             faults.note(row, message, table.cells[first[name],])
         first.setdefault(name, index)
         position = [row_data.get("x", 0), row_data.get("y", 0)]
@@ -245,7 +245,7 @@ def _roadmap(vertices: Sheet, edges: Sheet) -> CellDocument:
         positions[name] = {"at": position, **more} if more else position
         for key, names in spots.items():
             if not isinstance(row_data.get(key, False), bool):
-                message = f"{shown(row_data[key])} is neither true nor false (write one of them)"
+                message = f"{quote(row_data[key])} is neither true nor false (write one of them)"
                 faults.note(table.cells[index, key], message)
             elif row_data.get(key):
                 names.append(name)

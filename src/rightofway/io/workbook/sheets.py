@@ -18,7 +18,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from rightofway.errors import InputError, Location, nearest, shown
+from rightofway.errors import InputError, Location, find_nearest, quote
 from rightofway.extras import load_library
 from rightofway.io.faults import Faults
 from rightofway.io.text import content_of
@@ -161,13 +161,13 @@ def _open_workbook(data: bytes, *, cached: bool) -> Iterator[Any]:
 def _broken(error: Exception) -> InputError:
     reason = " ".join(str(error).split()) or type(error).__name__
     message = (
-        f"the workbook is broken: {shown(reason)} (open it in a spreadsheet, and save it again)"
+        f"the workbook is broken: {quote(reason)} (open it in a spreadsheet, and save it again)"
     )
     return InputError.at("", message)
 
 
 def _no_sheet(names: list[str], wanted: Collection[str]) -> InputError:
-    near = [(name, nearest(name.strip().lower(), wanted)) for name in names]
+    near = [(name, find_nearest(name.strip().lower(), wanted)) for name in names]
     meant = next((f"did you mean {near!r} by {name!r}?" for name, near in near if near), "")
     remedy = meant or "rightofway new FILE.xlsx writes a workbook to begin with"
     listed = ", ".join(map(repr, names[:5])) or "none"
@@ -245,7 +245,7 @@ def _keep_computed(
                     computed.discard(position)
     for position in formulas.keys() - computed:
         message = (
-            f"the formula {shown(formulas[position])} has no value yet"
+            f"the formula {quote(formulas[position])} has no value yet"
             " (open the workbook in a spreadsheet and save it, or write the value)"
         )
         faults.note(sheet.cell(*position), message)

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from rightofway.check import check
-from rightofway.errors import InputError, InvalidPlan, nearest
+from rightofway.errors import InputError, InvalidPlan, find_nearest
 from rightofway.io import plan_text
 from rightofway.metrics import compute_lost_time
 from rightofway.model import Loss, Plan, Tick
@@ -120,7 +120,7 @@ def flip(
 def _index(plan: Plan, place: str, name: str) -> int:
     names = [robot.name for robot in plan.scenario.robots]
     if name not in names:
-        near = nearest(name, names)
+        near = find_nearest(name, names)
         hint = f"did you mean {near!r}?" if near else "name one of the scenario's robots"
         raise InputError.at(place, f"no robot is named {name!r} ({hint})")
     return names.index(name)

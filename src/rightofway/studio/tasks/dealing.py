@@ -9,7 +9,7 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
-from rightofway.errors import InputError, under
+from rightofway.errors import InputError, locate_faults
 from rightofway.io.faults import validate
 from rightofway.io.fields import positive
 from rightofway.io.scenario.loaded_map import FleetTraits
@@ -41,7 +41,7 @@ def deal_robots(
     Between stations, targets are stations and homes are parking and charging places, as long as
     there are some; then homes are no stations.
     """
-    with under("speeds"):
+    with locate_faults("speeds"):
         rates = [_speed(speed) for speed in speeds]
     roadmap = _roadmap(document, folder, rates)
     part = find_strong_parts(list_ways(roadmap))[0]
@@ -83,9 +83,9 @@ def _speed(given: Any) -> Fraction:
 
 
 def _roadmap(document: dict[str, Any], folder: str, speeds: list[Fraction]) -> Roadmap:
-    with under("units"):
+    with locate_faults("units"):
         units = validate(UnitsDocument, document.get("units") or {}).given("length", "time")
-    with under("map"):
+    with locate_faults("map"):
         shape = validate(MapDocument, document.get("map"))
         roadmap = map_of(shape, Path(folder), Units(**units), FleetTraits(speeds=speeds))
     assert roadmap is not None, "speeds are given"

@@ -101,7 +101,7 @@ def load_document(document: Any, folder: str) -> Loaded:
 def _named(faults: Sequence[InputFault], document: Any) -> list[InputFault]:
     """Return faults with the names of list items; lines mean nothing here."""
     located = locate(faults, json.dumps(document))
-    return [fault.at(replace(fault.location, line=None)) for fault in located]
+    return [fault.place_at(replace(fault.location, line=None)) for fault in located]
 
 
 def validate_document(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) -> Result:
@@ -166,7 +166,7 @@ def compute_figures(plan: Plan) -> dict[str, Any]:
 
     ``scenario`` is the digest of the scenario that it is of, ``faults`` how many the judge finds.
     """
-    metrics, duration = measure(plan), plan.scenario.quantities.duration
+    metrics, duration = measure(plan), plan.scenario.quantities.format_duration
     costs = {
         "flowtime": metrics.flowtime,
         "makespan": metrics.makespan,

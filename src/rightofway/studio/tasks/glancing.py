@@ -11,7 +11,7 @@ from rightofway.io.scenario.reader import read_scenario
 from rightofway.io.sites import Choice, Sites, read_sites, sites_of
 from rightofway.metrics.site import compute_extent
 from rightofway.model import Plan
-from rightofway.quantities import decimal
+from rightofway.quantities import format_decimal
 from rightofway.report.examples import find_examples_folder
 from rightofway.studio.messages import Blobs, Emit
 from rightofway.studio.tasks.documents import Result, as_plain, read_document
@@ -33,7 +33,7 @@ def glance_at(
         "kind": kind,
         "description": glance.description,
         "robots": len(site.robots) if kind != "layout" else None,
-        "extent": [decimal(length) for length in compute_extent(site.roadmap)],
+        "extent": [format_decimal(length) for length in compute_extent(site.roadmap)],
         "unit": site.units.length,
     }
     return (about, make_preview(site, theme=DARK if dark else LIGHT))

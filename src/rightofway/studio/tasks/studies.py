@@ -194,7 +194,7 @@ def compute_spread(outcome: SimulationResult) -> dict[str, Any] | None:
     if not len(whole):
         return None
     counts, edges = np.histogram(whole.sum(axis=1), bins=CLASSES)
-    duration = outcome.plan.scenario.quantities.duration
+    duration = outcome.plan.scenario.quantities.format_duration
     return {
         "counts": counts.tolist(),
         "planned": outcome.plan.flowtime,

@@ -11,7 +11,7 @@ from math import cos, sin
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
-from rightofway.errors import InputError, shown
+from rightofway.errors import InputError, quote
 from rightofway.site import Roadmap
 from rightofway.site.drawing import Picture
 from rightofway.values import at, coordinate, list_of, one_of, optional
@@ -60,7 +60,7 @@ class Background:
 
     def __post_init__(self) -> None:
         if not isinstance(self.picture, str | os.PathLike):
-            fault = f"{shown(self.picture)} is no file (give text or a Path)"
+            fault = f"{quote(self.picture)} is no file (give text or a Path)"
             raise InputError.at(("background", "picture"), fault)
         at(("background", "scale"), optional(coordinate), self.scale)
         for place, number in (("yaw", self.yaw), ("opacity", self.opacity)):
@@ -68,7 +68,7 @@ class Background:
         for place, point in (("origin", self.origin), ("corner", self.corner)):
             read = at(("background", place), optional(list_of(coordinate)), point)
             if read is not None and len(read) != 2:  # noqa: PLR2004 (x and y)
-                fault = f"{shown(point)} is no point (give (x, y))"
+                fault = f"{quote(point)} is no point (give (x, y))"
                 raise InputError.at(("background", place), fault)
         if self.scale is not None and not self.scale > 0:
             fault = f"{self.scale} is not positive (give a length)"

@@ -18,7 +18,7 @@ from rightofway.arguments import checks_arguments
 from rightofway.check import Report
 from rightofway.check.faults import FAULT_NAMES
 from rightofway.cyclic import list_pieces_of_plan
-from rightofway.errors import InputError, NoPlanExists, shown
+from rightofway.errors import InputError, NoPlanExists, quote
 from rightofway.metrics import Metrics, compare, compute_lost_time, join_waits, measure
 from rightofway.model import (
     Decision,
@@ -208,7 +208,7 @@ def _refuse_other_kinds(
     at("background", optional(picture), background)
     for index, other in enumerate(at("others", list_of(lambda pair: pair), others)):
         if not isinstance(other, list | tuple) or len(other) != 2:  # noqa: PLR2004 (plan, title)
-            message = f"{shown(other)} is no plan with a title (give (plan, title))"
+            message = f"{quote(other)} is no plan with a title (give (plan, title))"
             raise InputError.at(("others", index), message)
         checked_plan(other[0], ("others", index, 0))
         at(("others", index, 1), text, other[1])

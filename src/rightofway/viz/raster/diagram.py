@@ -92,7 +92,7 @@ class Diagram:
         """Draw moments along the bottom, with hairlines up through the diagram."""
         theme, end = self.scene.theme, self.scene.end
         quantities = self.scene.plan.scenario.quantities
-        write = quantities.duration if quantities.units.time else quantities.cell
+        write = quantities.format_duration if quantities.units.time else quantities.format_cell
         step = _label_step(quantities, LABEL_GAP / (self.right - self.left) * end)
         for tick in range(0, end + 1, step):
             x = self._x(tick)

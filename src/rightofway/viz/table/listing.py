@@ -65,7 +65,9 @@ class Listing:
     def list_headings(self) -> list[str]:
         """Return the headings, times with their unit."""
         return [
-            self.quantities.heading(column.heading) if column.kind == "time" else column.heading
+            self.quantities.format_heading(column.heading)
+            if column.kind == "time"
+            else column.heading
             for column in self.columns
         ]
 
@@ -117,7 +119,7 @@ class Listing:
 
     def _written(self, value: Value, kind: str) -> str:
         if kind == "time" and isinstance(value, int):
-            return self.quantities.cell(value)
+            return self.quantities.format_cell(value)
         text = "" if value is None else str(value)
         return text if len(text) <= MAX_CELL else f"{text[: MAX_CELL - 1]}…"
 

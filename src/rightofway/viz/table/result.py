@@ -128,15 +128,15 @@ def _figures(plan: Plan) -> Iterator[tuple[str, str]]:
     quantities, count = plan.scenario.quantities, len(plan.tracks)
     yield "planner", f"{plan.run.name}: {plan.run.status}"
     yield "robots", str(count)
-    yield "all done after", quantities.duration(plan.makespan)
-    yield "sum of completion times", quantities.duration(plan.flowtime)
+    yield "all done after", quantities.format_duration(plan.makespan)
+    yield "sum of completion times", quantities.format_duration(plan.flowtime)
     try:
         metrics = measure(plan)
     except NoPlanExists:
         return
-    bound = quantities.duration(metrics.lower_bound)
+    bound = quantities.format_duration(metrics.lower_bound)
     yield "no plan takes less than", f"{bound}; this one takes {metrics.gap:.1%} more"
-    yield "waiting in all", quantities.duration(metrics.waiting)
+    yield "waiting in all", quantities.format_duration(metrics.waiting)
 
 
 def _robots(plan: Plan) -> Listing:
@@ -173,7 +173,7 @@ def _write_diagram(sheet: Any, data: Any, plan: Plan) -> None:
     chart.style, chart.scatterStyle = 13, "lineMarker"
     chart.width, chart.height = CHART_SIZE
     chart.title = None
-    chart.x_axis.title = scenario.quantities.heading("time")
+    chart.x_axis.title = scenario.quantities.format_heading("time")
     chart.x_axis.delete = False
     chart.x_axis.scaling.min = 0
     chart.x_axis.majorGridlines = None

@@ -17,7 +17,7 @@ from rightofway.errors import InputError, InputFault
 from rightofway.metrics import find_collisions, find_near_misses, find_swaps, free_running
 from rightofway.metrics.waits import waits_in
 from rightofway.model import NEVER, Plan, Scenario, Stays, Tick, Track, completions_of, stays_of
-from rightofway.quantities import DIGITS, Quantities, decimal
+from rightofway.quantities import DIGITS, Quantities, format_decimal
 from rightofway.site import Roadmap
 
 MAX_CELLS = 2_000_000
@@ -178,7 +178,7 @@ class TimeSpaceTable:
     @property
     def heading(self) -> str:
         """What stands before the times of the columns: ``time [s]``."""
-        return "tick" if self.quantities.in_ticks else self.quantities.heading("time")
+        return "tick" if self.quantities.in_ticks else self.quantities.format_heading("time")
 
     def describe_time(self, tick: int) -> str:
         """Return the time of a column, with as many decimals as tell two columns apart."""
@@ -188,7 +188,7 @@ class TimeSpaceTable:
             return str(tick)
         while (length * 10**digits).denominator > 1 and length * 10**digits < 10:  # noqa: PLR2004
             digits += 1
-        return decimal(tick * self.quantities.tick, digits)
+        return format_decimal(tick * self.quantities.tick, digits)
 
     def refuse_more_than(self, columns: int) -> None:
         """Raise an InputError for more ticks than ``columns``, or more than `MAX_CELLS` cells."""

@@ -116,7 +116,7 @@ def write_legend(sheet: Any, table: TimeSpaceTable) -> None:
     kinds = {"", *(row.kind for row in table.rows)}
     for name, meaning, font, mark in (entry for entry in LEGEND if entry[0] in kinds):
         sheet.append([make_cell(sheet, name, font=font, mark=mark), meaning])
-    lasts = replace(table.quantities, in_ticks=False).duration(table.step)
+    lasts = replace(table.quantities, in_ticks=False).format_duration(table.step)
     sheet.append([table.heading, f"the first row; a column lasts {lasts}"])
 
 

@@ -124,9 +124,9 @@ def _legend(table: TimeSpaceTable, width: int) -> Iterator[str]:
     notes = [f"{SIGNS[mark]} {meaning}" for mark, meaning in MEANINGS.items() if mark in marks]
     quantities = replace(table.quantities, in_ticks=False)
     if table.quantities.in_ticks and quantities.tick != 1:
-        notes.append(f"a tick lasts {quantities.duration(1)}")
+        notes.append(f"a tick lasts {quantities.format_duration(1)}")
     elif not table.changes and table.step * quantities.tick != 1:
-        notes.append(f"a column lasts {quantities.duration(table.step)}")
+        notes.append(f"a column lasts {quantities.format_duration(table.step)}")
     if table.changes:
         notes.append("columns without a change are left out")
     number = next((run.cell.place for row in table.rows for run in row.runs), None)
