@@ -35,9 +35,9 @@ def test_a_decision_leads_to_its_moment_and_tells_its_reason(show: Opener) -> No
     card = viewer.text("#card")
     assert "R1 and R2 would both have been in N1. R1 waits 1 time unit in N0" in card
     assert "the completion times add up to the same. Then R1 waits by rule." in card
-    assert [row.split() for row in card.splitlines()[-2:]] == [
-        ["Conflicts", "left", "0", "0"],
-        ["Sum", "of", "completion", "times", "19", "19"],
+    assert [row.split("\t") for row in card.splitlines()[-2:]] == [
+        ["Conflicts left", "0", "0"],
+        ["Sum of completion times", "19 time units", "19 time units"],
     ]
 
 

@@ -12,8 +12,12 @@ from typing import Any
 import pytest
 
 from rightofway.errors import InputError
+from rightofway.model import Tick
+from rightofway.model.place_names import PlaceNames
+from rightofway.phrases import names_in
 from rightofway.quantities import Units
 from rightofway.viz import make_frame, make_page, make_payload, make_png, write_page
+from rightofway.viz.page.schema import Payload
 from rightofway.viz.page.scripts import order_scripts
 from tests.builders.payloads import payload_in, template_in
 from tests.builders.plans import (
@@ -50,6 +54,46 @@ class Elements(HTMLParser):
 
 def test_the_page_carries_the_payload() -> None:
     assert payload_in(make_page(door())) == json.loads(json.dumps(make_payload(door())))
+
+
+def text_in(payload: Payload, index: int) -> str:
+    """Return a text of a payload in English."""
+    entry = payload["phrases"][index]
+    if isinstance(entry, str):
+        return entry
+    template = str(payload["phrases"][entry[0]])
+    values = (text_in(payload, value) for value in entry[1:])
+    return template.format(**dict(zip(names_in(template), values, strict=True)))
+
+
+def test_the_page_has_the_figures_of_a_decision_as_the_report_has_them() -> None:
+    plan = door()
+    decision = replace(
+        plan.run.decisions[0],
+        conflicts_left=(None, 3),
+        completion_sums=(Tick(18), None),
+    )
+    plan = replace(plan, run=replace(plan.run, decisions=(decision,)))
+    payload = make_payload(plan)
+    (data,) = payload["decisions"]
+    rows = [[text_in(payload, part) for part in row] for row in data["figures"]]
+    assert rows == [
+        ["Conflicts left", "impossible", "3"],
+        ["Sum of completion times", "18 time units", "no way"],
+    ]
+    assert payload["translations"]["de"]["Conflicts left"] == "Übrige Konflikte"
+
+
+def test_the_page_calls_cells_after_robots_as_reports_do() -> None:
+    """Only where lengths have a unit: else a cell goes by its number."""
+    assert "places" not in make_payload(door())
+    plan = door()
+    scenario = replace(plan.scenario, units=Units(length="m", time="s"))
+    payload, names = make_payload(replace(plan, scenario=scenario)), PlaceNames(scenario)
+    places = {vertex: text_in(payload, text) for vertex, text in payload["places"]}
+    assert places == names.of_robots
+    assert places[int(scenario.robots[0].home)] == "the home of R1"
+    assert payload["translations"]["de"]["the home of {robot}"] == "Startplatz {robot}"
 
 
 def test_a_small_plan_makes_a_small_page() -> None:

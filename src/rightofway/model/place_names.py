@@ -53,8 +53,8 @@ class PlaceNames:
         """Return what a sentence calls a vertex: ``the home of R1``, else where it is."""
         if not self.is_measured or vertex in self._stations:
             return self.where(vertex)
-        if vertex in self._of_robots:
-            return self._with_number(self._of_robots[vertex], vertex)
+        if vertex in self.of_robots:
+            return self._with_number(self.of_robots[vertex], vertex)
         return self.where(vertex)
 
     def _with_number(self, name: str, vertex: int) -> str:
@@ -70,8 +70,8 @@ class PlaceNames:
         return names
 
     @cached_property
-    def _of_robots(self) -> dict[int, str]:
-        """Homes, and the only stops of robots where no other robot stops."""
+    def of_robots(self) -> dict[int, str]:
+        """What cells are called after robots: homes, and only stops where no other robot stops."""
         robots = self.scenario.robots
         stops = [{int(stop.at) for stop in robot.stops} - {int(robot.home)} for robot in robots]
         count = Counter(at for vertices in stops for at in vertices)

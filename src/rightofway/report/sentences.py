@@ -341,28 +341,34 @@ def _sums_in_words(decision: Decision, waits: str) -> Phrase:
     return Phrase(", so the smaller sum of completion times decides.")
 
 
+def list_figures(words: Words, decision: Decision) -> list[tuple[Phrase, str, str]]:
+    """Return the figures that were compared: what each is, then for each robot if it waits."""
+    rows = list[tuple[Phrase, str, str]]()
+    if any(count is not None for count in decision.conflicts_left):
+        impossible = Phrase("impossible")
+        first, other = (impossible if n is None else str(n) for n in decision.conflicts_left)
+        rows.append((Phrase("Conflicts left"), first, other))
+    if decision.completion_sums:
+        no_way = Phrase("no way")
+        first, other = (no_way if n is None else words.say_time(n) for n in decision.completion_sums)
+        rows.append((Phrase("Sum of completion times"), first, other))
+    return rows
+
+
 def describe_figures(words: Words, decision: Decision) -> list[Phrase]:
     """Return what both choices lead to, in a sentence for each figure that was compared."""
     first_name, other = map(words.name_robot, decision.robots)
-    names, sentences = {"one": first_name, "other": other}, list[Phrase]()
-    if any(count is not None for count in decision.conflicts_left):
-        impossible = Phrase("impossible")
-        counts = [impossible if n is None else str(n) for n in decision.conflicts_left]
-        names["if_one"], names["if_other"] = counts
-        sentences.append(
-            Phrase("Conflicts left: {if_one} if {one} waits, {if_other} if {other} waits.", **names)
+    return [
+        Phrase(
+            "{figure}: {if_one} if {one} waits, {if_other} if {other} waits.",
+            figure=figure,
+            if_one=if_one,
+            if_other=if_other,
+            one=first_name,
+            other=other,
         )
-    if decision.completion_sums:
-        no_way = Phrase("no way")
-        sums = [no_way if n is None else words.say_time(n) for n in decision.completion_sums]
-        names["if_one"], names["if_other"] = sums
-        sentences.append(
-            Phrase(
-                "Sum of completion times: {if_one} if {one} waits, {if_other} if {other} waits.",
-                **names,
-            )
-        )
-    return sentences
+        for figure, if_one, if_other in list_figures(words, decision)
+    ]
 
 
 def explain_decision(words: Words, decision: Decision) -> str:

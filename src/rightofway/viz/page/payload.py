@@ -34,6 +34,7 @@ from rightofway.model import (
 )
 from rightofway.model.closures import Closure
 from rightofway.model.given import checked_plan
+from rightofway.model.place_names import PlaceNames
 from rightofway.model.steady_state import refuse_unknown_robots
 from rightofway.phrases import Phrase, PhraseBook, to_parts
 from rightofway.report.circuits import describe_circuit, summarize_circuit
@@ -47,6 +48,7 @@ from rightofway.report.sentences import (
     describe_proof,
     describe_reason,
     list_closed_vertices,
+    list_figures,
     read_closed_ticks,
     summarize_decision,
 )
@@ -143,6 +145,9 @@ def make_payload(
             "lowerBound": metrics.lower_bound,
         },
     }
+    names = PlaceNames(scenario)
+    if names.is_measured:
+        payload["places"] = [(vertex, book.add(name)) for vertex, name in names.of_robots.items()]
     if steady:
         payload["steady"] = _steady(plan, steady, book)
         payload["laps"] = [robot.laps or scenario.rules.laps for robot in scenario.robots]
@@ -323,8 +328,10 @@ def _decision(decision: Decision, words: Words, book: PhraseBook) -> DecisionDat
         "waitsAt": decision.waits_at,
         "ticks": decision.ticks,
         "level": decision.level,
-        "conflictsLeft": decision.conflicts_left,
-        "completionSums": decision.completion_sums,
+        "figures": [
+            (book.add(figure), book.add(if_one), book.add(if_other))
+            for figure, if_one, if_other in list_figures(words, decision)
+        ],
     }
 
 

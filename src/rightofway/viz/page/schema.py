@@ -216,7 +216,10 @@ class PlannerData(TypedDict):
 
 
 class DecisionData(TypedDict):
-    """Which of two robots got the right of way, and why; see `Decision`. Texts are by index."""
+    """Which of two robots got the right of way, and why; see `Decision`. Texts are by index.
+
+    ``figures`` has what was compared, then its values if the first and if the other robot waits.
+    """
 
     head: int
     detail: int
@@ -230,8 +233,7 @@ class DecisionData(TypedDict):
     waitsAt: int
     ticks: int
     level: Literal["node", "robot", "settled", "priority", "only"]
-    conflictsLeft: tuple[int | None, int | None]
-    completionSums: tuple[int | None, int | None] | None
+    figures: list[tuple[int, int, int]]
 
 
 class RerouteData(TypedDict):
@@ -369,7 +371,10 @@ class ComparisonData(TypedDict):
 
 
 class PlanData(TypedDict):
-    """A plan without its map; ``line`` has vertices with their distances along a line."""
+    """A plan without its map; ``line`` has vertices with their distances along a line.
+
+    ``places`` has the cells that are called after robots, with the text of each, by index.
+    """
 
     title: str
     phrases: list[PhraseEntry]
@@ -392,6 +397,7 @@ class PlanData(TypedDict):
     clearance: NotRequired[float]
     floor: NotRequired[FloorData]
     noPlan: NotRequired[Literal[True]]
+    places: NotRequired[list[tuple[int, int]]]
 
 
 class OtherPlan(PlanData):

@@ -331,19 +331,15 @@ export class Card {
   #choices(decision, pair) {
     /**
      * @param {"th" | "td"} tag
-     * @param {string | number} text
+     * @param {string} text
      * @param {number} side
      */
     const cell = (tag, text, side) =>
-      element(
-        tag,
-        { className: decision.waits === decision.robots[side] ? "taken" : "" },
-        String(text),
-      );
+      element(tag, { className: decision.waits === decision.robots[side] ? "taken" : "" }, text);
     /**
      * @param {"th" | "td"} tag
      * @param {string} label
-     * @param {(string | number)[]} both
+     * @param {string[]} both
      */
     const row = (tag, label, both) =>
       element(
@@ -357,9 +353,14 @@ export class Card {
       texts.ifItWaits,
       pair.map((robot) => robot.name),
     );
-    const rows = this.words
-      .figures(decision)
-      .map(([label, ...both]) => row("td", String(label), both));
+    const { phrases } = this.plan;
+    const rows = decision.figures.map(([label, ...both]) =>
+      row(
+        "td",
+        phrases.said(label),
+        both.map((text) => phrases.said(text)),
+      ),
+    );
     return rows.length ? [element("table", { className: "choices" }, head, ...rows)] : [];
   }
 }

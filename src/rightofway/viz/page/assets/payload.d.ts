@@ -77,7 +77,7 @@ export interface ComparisonData {
   robots: ComparedRobot[];
 }
 
-/** Which of two robots got the right of way, and why; see `Decision`. Texts are by index. */
+/** Which of two robots got the right of way, and why; see `Decision`. Texts are by index. ``figures`` has what was compared, then its values if the first and if the other robot waits. */
 export interface DecisionData {
   head: number;
   detail: number;
@@ -91,8 +91,7 @@ export interface DecisionData {
   waitsAt: number;
   ticks: number;
   level: "node" | "robot" | "settled" | "priority" | "only";
-  conflictsLeft: [number | null, number | null];
-  completionSums: [number | null, number | null] | null;
+  figures: [number, number, number][];
 }
 
 /** What a robot did on the floor; ``vertices`` is there where they are not as planned. */
@@ -277,6 +276,7 @@ export interface OtherPlan {
   clearance?: number;
   floor?: FloorData;
   noPlan?: true;
+  places?: [number, number][];
   map?: MapData;
 }
 
@@ -303,6 +303,7 @@ export interface Payload {
   clearance?: number;
   floor?: FloorData;
   noPlan?: true;
+  places?: [number, number][];
   translations: Record<string, Record<string, string>>;
   map: MapData;
   driven?: FeedData;

@@ -14,6 +14,7 @@ export class Plan extends Site {
   constructor(raw) {
     super(raw);
     this.phrases = new Phrases(raw.phrases);
+    this.places = new Map(raw.places);
     this.end = Math.max(raw.end, raw.floor?.end ?? 0);
     this.headway = raw.headway;
     this.booksAhead = raw.booksAhead;

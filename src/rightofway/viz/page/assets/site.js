@@ -1,3 +1,4 @@
+import { Phrases } from "./library.js";
 import { Quantities } from "./quantities.js";
 import { Roadmap } from "./roadmap.js";
 import { Robot } from "./robot.js";
@@ -17,6 +18,9 @@ export class Site {
     this.quantities = new Quantities(raw.units, raw.tick);
     this.title = raw.title ?? "";
     this.roadmap = new Roadmap(raw.map, raw.units.length);
+    this.phrases = new Phrases([]);
+    /** @type {Map<number, number>} */
+    this.places = new Map(); // cells that are called after robots: the index of the text of each
     this.planned = raw.robots.map((robot, index) => new Robot(robot, index));
     /** @type {Robot[]} */
     this.robots = this.planned;

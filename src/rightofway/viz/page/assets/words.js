@@ -1,7 +1,6 @@
 import { texts } from "./language.js";
 import { BROKEN } from "./phases.js";
 
-/** @import { DecisionData } from "./payload.d.ts" */
 /** @import { Site } from "./site.js" */
 /** @import { Robot } from "./robot.js" */
 
@@ -94,26 +93,10 @@ export class Words {
   vertex(vertex) {
     const { roadmap } = this.plan;
     if (!roadmap.isMeasured || roadmap.stations.has(vertex)) return this.where(vertex);
-    this.#known ??= this.#knownPlaces();
-    const known = this.#known.get(vertex);
-    return known ? this.#numbered(known, vertex) : this.where(vertex);
-  }
-
-  /** @type {Map<number, string> | null} */
-  #known = null;
-
-  #knownPlaces() {
-    const { planned, stops } = this.plan;
-    /** @type {Map<number, string>} */
-    const known = new Map();
-    /** @type {Map<Robot, number>} */
-    const counts = new Map();
-    for (const robots of stops.values())
-      for (const robot of robots) counts.set(robot, (counts.get(robot) ?? 0) + 1);
-    for (const [vertex, [robot, other]] of stops)
-      if (!other && counts.get(robot) === 1) known.set(vertex, texts.theStop(robot.name));
-    for (const { home, name } of planned) known.set(home, texts.theHome(name));
-    return known;
+    const text = this.plan.places.get(vertex);
+    return text === undefined
+      ? this.where(vertex)
+      : this.#numbered(this.plan.phrases.said(text), vertex);
   }
 
   /**
@@ -182,25 +165,5 @@ export class Words {
     if (ticks === null) return elsewhere;
     if (!ticks) return onTime;
     return ticks > 0 ? late(this.time(ticks)) : early(this.time(-ticks));
-  }
-
-  /**
-   * What both choices lead to: a label, and a figure for each robot if it is the one that waits.
-   *
-   * @param {DecisionData} decision
-   */
-  figures(decision) {
-    const rows = [];
-    if (decision.conflictsLeft.some((count) => count !== null)) {
-      const counts = decision.conflictsLeft.map((count) => count ?? texts.impossible);
-      rows.push([texts.conflictsLeft, ...counts]);
-    }
-    if (decision.completionSums) {
-      const sums = decision.completionSums.map((sum) =>
-        sum === null ? texts.noWay : this.time(sum),
-      );
-      rows.push([texts.completionSums, ...sums]);
-    }
-    return rows;
   }
 }

@@ -213,10 +213,6 @@ export const GERMAN = {
   losesTime: "Verliert Zeit",
   theFault: (kind) => `der Fehler (${kind})`,
   ifItWaits: "Wenn er wartet",
-  conflictsLeft: "Übrige Konflikte",
-  impossible: "unmöglich",
-  completionSums: "Summe der Fertigzeiten",
-  noWay: "kein Weg",
 
   stuckBehind: (name, isBroken) =>
     `nie: steckt hinter ${name} fest${isBroken ? ", der ausfällt" : ""}`,
@@ -344,8 +340,6 @@ export const GERMAN = {
   heldFor: (time) => `insgesamt ${time} belegt`,
   homeOf: (names) => `Startplatz von ${names}`,
   stopOf: (names) => `Ziel von ${names}`,
-  theHome: (name) => `Startplatz ${name}`,
-  theStop: (name) => `Ziel ${name}`,
   station: "Station",
   stationNamed: (name) => `Station ${name}`,
   parking: "Parkplatz",

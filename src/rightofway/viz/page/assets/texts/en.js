@@ -254,10 +254,6 @@ export const ENGLISH = {
   /** @param {string} kind */
   theFault: (kind) => `the fault (${kind})`,
   ifItWaits: "If it waits",
-  conflictsLeft: "Conflicts left",
-  impossible: "impossible",
-  completionSums: "Sum of completion times",
-  noWay: "no way",
 
   /** How a robot is late. */
   /** @param {string} name @param {boolean} isBroken */
@@ -429,10 +425,6 @@ export const ENGLISH = {
   homeOf: (names) => `home of ${names}`,
   /** @param {string} names */
   stopOf: (names) => `stop of ${names}`,
-  /** @param {string} name */
-  theHome: (name) => `the home of ${name}`,
-  /** @param {string} name */
-  theStop: (name) => `the stop of ${name}`,
   station: "station",
   /** @param {string} name */
   stationNamed: (name) => `station ${name}`,
