@@ -12,6 +12,7 @@ from fractions import Fraction
 
 from rightofway.errors import InputError, join_names
 from rightofway.model import Robot, Rules, Tick
+from rightofway.phrases import Phrase
 from rightofway.site import Roadmap, VertexId, measure_squared_distance
 
 __all__ = ["HOMELESS", "deal_homes"]
@@ -28,7 +29,7 @@ FAR = 2**31 - 1
 
 def deal_homes(
     robots: Sequence[Robot], roadmap: Roadmap, rules: Rules
-) -> tuple[list[Robot], tuple[str, ...]]:
+) -> tuple[list[Robot], tuple[Phrase, ...]]:
     """Return the robots, each with a home, and a note on the homes given to `HOMELESS` ones.
 
     In the order of the robots, each gets the free place that has the shortest way to its first
@@ -136,12 +137,18 @@ def _too_few(homeless: Sequence[Robot], robot: Robot, places: int, homes: int, s
 
 def _note(
     homeless: Sequence[Robot], dealt: Sequence[Robot], roadmap: Roadmap, places: int
-) -> Iterator[str]:
+) -> Iterator[Phrase]:
     names = {robot.name for robot in homeless}
     if len(names) > NAMED:
-        yield f"homes dealt out: {len(names)} of {places} parking and charging places"
+        yield Phrase(
+            "homes dealt out: {number} of {places} parking and charging places",
+            number=str(len(names)),
+            places=str(places),
+        )
     elif names:
         pairs = [
-            f"{robot.name} at {roadmap.name(robot.home)}" for robot in dealt if robot.name in names
+            Phrase("{robot} at {place}", robot=robot.name, place=roadmap.name(robot.home))
+            for robot in dealt
+            if robot.name in names
         ]
-        yield f"homes dealt out: {join_names(pairs)}"
+        yield Phrase("homes dealt out: {homes}", homes=join_names(pairs))

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import pytest
 
 from rightofway import load, solve
+from rightofway.io import load_with_notes
+from rightofway.io.layouts.draft import LayoutDraft
+from rightofway.io.layouts.formats import describe_layout
 from rightofway.languages import ENGLISH, find_languages, translate
 from rightofway.phrases import Phrase, say_count
 from rightofway.report.lines import COLUMNS, Facts, Table, lay_out
 from rightofway.report.plan import report_decisions, summarize_plan
+from rightofway.site.layout import LayoutVertex
 from tests.cli.conftest import EXAMPLES
 
 
@@ -36,6 +42,23 @@ def test_columns_are_as_wide_as_the_words_of_the_language() -> None:
     assert lay_out([facts], "de") == "Zeitsumme    2 Zeitschritte\nGesamtdauer  1"
     table = Table((Phrase("robot"), Phrase("alone")), [("R1", "10"), ("R2", Phrase("never"))])
     assert lay_out([table], "de") == "Roboter  allein\nR1           10\nR2          nie"
+
+
+def test_notes_of_a_reader_are_said_in_german() -> None:
+    (note,) = load_with_notes(EXAMPLES / "floor.yaml").notes
+    assert note == "floor cut into 24 x 16 = 384 cells of 0.5 m"
+    assert translate(note, "de") == "Boden in 24 x 16 = 384 Zellen von 0.5 m geteilt"
+    draft = LayoutDraft("LIF layout")
+    level = draft.level()
+    for name, x in (("A", 0), ("B", 2)):
+        level.vertices[name] = LayoutVertex(name=name, at=(Fraction(x), Fraction(0)))
+    for _ in range(2):
+        draft.repair(Phrase("a number is written as text"))
+    layout = draft.layout()
+    assert layout.notes == ("2 times: a number is written as text",)
+    assert translate(layout.notes[0], "de") == "2-mal: eine Zahl ist als Text geschrieben"
+    assert describe_layout(layout) == "a LIF layout with 2 vertices"
+    assert translate(describe_layout(layout), "de") == "LIF layout (2 Knoten)"
 
 
 def test_text_that_is_no_phrase_is_said_as_it_is() -> None:

@@ -101,7 +101,7 @@ def test_the_reader_reports_what_is_split(tmp_path: Path) -> None:
     (note,) = load_with_notes(path).notes
     assert note == (
         "2 lanes are booked in pieces of at most 2.4 m, because others cross far from the ends"
-        " (spacing: whole keeps them whole)"
+        " (spacing: whole keeps lanes whole)"
     )
 
 

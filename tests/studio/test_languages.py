@@ -67,6 +67,11 @@ def test_a_plan_its_robots_and_its_waits_are_german(german: StudioPage) -> None:
     assert not english_on(german), "\n".join(english_on(german))
 
 
+def test_what_the_reader_notes_is_german(german: StudioPage) -> None:
+    notes = german.page.locator("details.notes")
+    notes.get_by_text("Boden in 24 x 16 = 384 Zellen von 0.5 m geteilt").wait_for()
+
+
 def test_another_language_is_spoken_at_once(german: StudioPage) -> None:
     plan(german)
     german.page.get_by_label("Sprache").select_option("en")

@@ -14,7 +14,7 @@ import pytest
 from rightofway.errors import InputError
 from rightofway.model import Tick
 from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import names_in
+from rightofway.phrases import list_names
 from rightofway.quantities import Units
 from rightofway.viz import make_frame, make_page, make_payload, make_png, write_page
 from rightofway.viz.page.schema import Payload
@@ -63,7 +63,7 @@ def text_in(payload: Payload, index: int) -> str:
         return entry
     template = str(payload["phrases"][entry[0]])
     values = (text_in(payload, value) for value in entry[1:])
-    return template.format(**dict(zip(names_in(template), values, strict=True)))
+    return template.format(**dict(zip(list_names(template), values, strict=True)))
 
 
 def test_the_page_has_the_figures_of_a_decision_as_the_report_has_them() -> None:

@@ -19,6 +19,7 @@ from rightofway.io.scenario.reader import read_scenario
 from rightofway.io.text import read_text
 from rightofway.metrics import Site
 from rightofway.model import Scenario
+from rightofway.phrases import Phrase, say_count
 from rightofway.quantities import Units
 from rightofway.site.layout import Layout, Level, build_roadmap_of_level
 
@@ -40,7 +41,7 @@ class Sites:
     """
 
     description: str
-    notes: tuple[str, ...]
+    notes: tuple[Phrase, ...]
     sites: tuple[tuple[str, Site], ...]
 
 
@@ -107,16 +108,23 @@ def _of_layout(path: Path, layout: Layout, choice: Choice) -> Sites:
     sites, notes = list[tuple[str, Site]](), list(layout.notes)
     for level in levels:
         if not level.vertices:
-            notes.append(f"level {level.name} is empty")
+            notes.append(Phrase("level {level} is empty", level=level.name))
             continue
         name = choice.vehicle_type or _usual_type(level)
         level_map = build_roadmap_of_level(level, vehicle_type=name)
         roadmap, lacks = level_map.roadmap, level_map.notes
         if name and choice.vehicle_type is None:
-            others = len(level.vehicle_types) - 1
-            types = "1 other type" if others == 1 else f"{others} other types"
-            lacks = (f"lanes of vehicle type {name} inspected, which has most ({types})", *lacks)
-        notes += [f"level {level.name}: {lack}" if len(levels) > 1 else lack for lack in lacks]
+            usual = Phrase(
+                "lanes of vehicle type {type} inspected, which has most ({others})",
+                type=name,
+                others=say_count(len(level.vehicle_types) - 1, "other type", "other types"),
+            )
+            lacks = (usual, *lacks)
+        if len(levels) > 1:
+            lacks = tuple(
+                Phrase("level {level}: {lack}", level=level.name, lack=lack) for lack in lacks
+            )
+        notes += lacks
         drawn = roadmap.drawing
         assert drawn, "the roadmap of a level has its places"
         site = Site(
@@ -181,7 +189,7 @@ def _with_fleet(drawn: Any, base: Path, robots: Path) -> Sites:
     return sites_of(loaded.scenario, loaded.notes)
 
 
-def sites_of(scenario: Scenario, notes: tuple[str, ...]) -> Sites:
+def sites_of(scenario: Scenario, notes: tuple[Phrase, ...]) -> Sites:
     """Return a scenario as the one site that it is about."""
     site = Site(
         roadmap=scenario.roadmap,
@@ -191,10 +199,13 @@ def sites_of(scenario: Scenario, notes: tuple[str, ...]) -> Sites:
     )
     grid = scenario.roadmap.grid
     ground = (
-        f"{grid.columns} x {grid.rows} cells"
+        Phrase("{columns} x {rows} cells", columns=str(grid.columns), rows=str(grid.rows))
         if grid
-        else f"a roadmap of {scenario.roadmap.n_vertices} vertices"
+        else Phrase("a roadmap of {vertices} vertices", vertices=str(scenario.roadmap.n_vertices))
     )
-    count = len(scenario.robots)
-    description = f"a scenario of {count} robot{'s' * (count != 1)} on {ground}"
+    description = Phrase(
+        "a scenario of {robots} on {ground}",
+        robots=say_count(len(scenario.robots), "robot", "robots"),
+        ground=ground,
+    )
     return Sites(description=description, notes=notes, sites=(("", site),))

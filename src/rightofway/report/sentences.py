@@ -350,7 +350,9 @@ def list_figures(words: Words, decision: Decision) -> list[tuple[Phrase, str, st
         rows.append((Phrase("Conflicts left"), first, other))
     if decision.completion_sums:
         no_way = Phrase("no way")
-        first, other = (no_way if n is None else words.say_time(n) for n in decision.completion_sums)
+        first, other = (
+            no_way if n is None else words.say_time(n) for n in decision.completion_sums
+        )
         rows.append((Phrase("Sum of completion times"), first, other))
     return rows
 

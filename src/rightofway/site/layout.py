@@ -13,6 +13,7 @@ from typing import NamedTuple
 from rightofway.arguments import checks_arguments
 from rightofway.deadline import READING, limit_loop
 from rightofway.errors import InputError, find_nearest, join_names, quote
+from rightofway.phrases import Phrase, say_count
 from rightofway.site.drawing import Drawing, Picture
 from rightofway.site.edges import Edge, make_roadmap
 from rightofway.site.geometry import Point
@@ -157,7 +158,7 @@ class Layout:
 
     kind: str
     levels: tuple[Level, ...]
-    notes: tuple[str, ...] = ()
+    notes: tuple[Phrase, ...] = ()
 
     @checks_arguments
     def get_level(self, name: str | None = None) -> Level:
@@ -201,7 +202,7 @@ class LevelRoadmap(NamedTuple):
     roadmap: Roadmap
     curves: int
     chord_error: Fraction
-    notes: tuple[str, ...]
+    notes: tuple[Phrase, ...]
     split: SplitLanes
 
 
@@ -333,15 +334,23 @@ def _lacks(
     lanes: Sequence[LayoutEdge],
     pairs: Collection[tuple[str, str]],
     closed: Collection[str],
-) -> Iterator[str]:
+) -> Iterator[Phrase]:
     if closed:
-        count = f"{len(closed)} vertices" if len(closed) > 1 else "1 vertex"
-        yield f"{count} left out: only lanes of other vehicle types lead there"
+        yield Phrase(
+            "{vertices} left out: only lanes of other vehicle types lead there",
+            vertices=say_count(len(closed), "vertex", "vertices"),
+        )
     parallel = len(lanes) - len(set(pairs))
     if parallel:
-        yield f"{_counted(parallel, 'parallel lane')} left out: the slowest of each counts"
+        yield Phrase(
+            "{lanes} left out: the slowest of each counts",
+            lanes=say_count(parallel, "parallel lane", "parallel lanes"),
+        )
     if level.links:
-        yield f"{_counted(level.links, 'lane')} to other levels left out: plans stay on one level"
+        yield Phrase(
+            "{lanes} to other levels left out: plans stay on one level",
+            lanes=say_count(level.links, "lane", "lanes"),
+        )
 
 
 def _ends(lanes: Sequence[LayoutEdge]) -> set[str]:
@@ -359,7 +368,3 @@ def _zones(
         if names or edges:
             zones.append(NamedZone(name=zone.name, vertices=names, edges=edges))
     return zones
-
-
-def _counted(number: int, noun: str) -> str:
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

@@ -12,6 +12,7 @@ from rightofway.deadline import READING, limit_loop
 from rightofway.errors import InputError, find_nearest, is_printable, quote
 from rightofway.io.faults import Faults
 from rightofway.io.source import LONGEST_NAME, Source
+from rightofway.phrases import Phrase, say_count
 from rightofway.site.drawing import Picture
 from rightofway.site.geometry import (
     Point,
@@ -139,7 +140,7 @@ class LayoutDraft:
         self.kind = kind
         self.faults = Faults()
         self.levels: list[LevelDraft] = []
-        self.repairs: Counter[str] = Counter()
+        self.repairs: Counter[Phrase] = Counter()
 
     def level(self, name: str = "") -> LevelDraft:
         """Begin a level; InputError for a name that cannot be shown."""
@@ -148,8 +149,8 @@ class LayoutDraft:
         self.levels.append(LevelDraft(name))
         return self.levels[-1]
 
-    def repair(self, mending: str) -> None:
-        """Note that something was mended or left out; equal notes are counted."""
+    def repair(self, mending: Phrase) -> None:
+        """Note that something was mended or left out; equal notes are say_count."""
         self.repairs[mending] += 1
 
     def layout(self) -> Layout:
@@ -168,8 +169,12 @@ class LayoutDraft:
         self.faults.stop()
         if not levels:
             raise InputError.at("", f"the {self.kind} has no vertex (give at least one)")
-        notes = (repair if count == 1 else f"{count} times: {repair}"
-                 for repair, count in self.repairs.items())  # fmt: skip
+        notes = (
+            repair
+            if count == 1
+            else Phrase("{count} times: {repair}", count=str(count), repair=repair)
+            for repair, count in self.repairs.items()
+        )
         return Layout(kind=self.kind, levels=tuple(levels), notes=tuple(notes))
 
     def _finish(self, level: LevelDraft, elsewhere: set[str]) -> Level:
@@ -194,7 +199,7 @@ class LayoutDraft:
             elif missing:
                 links += 1
             elif lane.tail == lane.head:
-                self.repair("a lane from a vertex to itself is left out")
+                self.repair(Phrase("a lane from a vertex to itself is left out"))
             elif lane.max_speed is not None and lane.max_speed <= 0:
                 message = f"speed limit {lane.max_speed} is not positive (give m/s)"
                 self.faults.note(lane.source.location, message)
@@ -222,10 +227,13 @@ class LayoutDraft:
             if lane.attribute and lane.length is not None and _is_short(lane.length, square)
         )
         for name, count in wrong.items():
-            lane_is = "1 lane is" if count == 1 else f"{count} lanes are"
             self.repair(
-                f"the attribute {quote(name)} is no length: by it, {lane_is} shorter than the"
-                " straight line; all lanes get the straight length"
+                Phrase(
+                    "the attribute {attribute} is no length: by it, {lanes} shorter than the"
+                    " straight line; all lanes get the straight length",
+                    attribute=quote(name),
+                    lanes=say_count(count, "lane is", "lanes are"),
+                )
             )
         return set(wrong)
 
@@ -233,11 +241,13 @@ class LayoutDraft:
         self, lane: DraftLane, length: Fraction | None, square: int, straight: Fraction
     ) -> LayoutEdge:
         if square == 0:
-            self.repair("a lane between two vertices at one position counts as 1 mm long")
+            self.repair(Phrase("a lane between two vertices at one position counts as 1 mm long"))
             length = max(length or SHORTEST, SHORTEST)
         elif length is not None and length < straight:
             if _is_short(length, square):
-                self.repair("a lane shorter than the straight line gets the straight length")
+                self.repair(
+                    Phrase("a lane shorter than the straight line gets the straight length")
+                )
             length = None
         return LayoutEdge(
             tail=lane.tail,
@@ -258,7 +268,9 @@ class LayoutDraft:
             for gap in zip(ends, (lane.curve[0], lane.curve[-1]), strict=True)
         )
         if max(gaps) > NEAR**2:
-            self.repair("a trajectory that does not lead from start to end counts as straight")
+            self.repair(
+                Phrase("a trajectory that does not lead from start to end counts as straight")
+            )
             return edge
         points = [at for at, _ in groupby((ends[0], *lane.curve[1:-1], ends[1]))]
         squares = [measure_squared_distance(*pair) for pair in pairwise(points)]
@@ -279,9 +291,9 @@ class LayoutDraft:
         for station in level.stations:
             vertices = tuple(name for name in station.vertices if name in level.vertices)
             if not vertices:
-                self.repair("a station without a vertex on its level is left out")
+                self.repair(Phrase("a station without a vertex on its level is left out"))
             elif station.name in stations:
-                self.repair("a second station of one name is left out")
+                self.repair(Phrase("a second station of one name is left out"))
             else:
                 stations[station.name] = replace(station, vertices=vertices)
         return list(stations.values())
@@ -292,7 +304,9 @@ class LayoutDraft:
         for zone in level.zones:
             vertices = tuple(name for name in zone.vertices if name in level.vertices)
             if zone.name in zones or not (vertices or zone.edges):
-                self.repair("a zone without vertices and lanes, or with a name twice, is left out")
+                self.repair(
+                    Phrase("a zone without vertices and lanes, or with a name twice, is left out")
+                )
             else:
                 zones[zone.name] = replace(zone, vertices=vertices)
         return list(zones.values())

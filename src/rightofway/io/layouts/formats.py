@@ -17,6 +17,7 @@ from rightofway.io.layouts.xml_tree import Element, parse_xml
 from rightofway.io.locations import lines_of
 from rightofway.io.movingai import load_map
 from rightofway.io.text import is_regular, parse_json, parse_yaml, read_text, refuse_long
+from rightofway.phrases import Phrase, say_count
 from rightofway.site.layout import Layout
 from rightofway.site.occupancy import CellMap, Occupancy
 
@@ -28,8 +29,6 @@ NO_LAYOUTS = (".map", ".scen", ".toml", ".xlsx", ".xlsm")
 
 OURS = re.compile(r"""^[ \t{]*["']?format["']?[ \t]*:""", re.MULTILINE)
 """The key that all documents of ours have."""
-
-PLURALS = {"vertex": "vertices"}
 
 PICTURES = (b"P5", b"P2", b"P6", b"\x89PNG", b"BM", b"\xff\xd8", b"GIF8")
 """How pictures begin."""
@@ -208,22 +207,27 @@ def describe_layout(layout: Layout | Occupancy | CellMap) -> str:
     """
     if isinstance(layout, Occupancy):
         rows, columns = layout.pixels.shape
-        return f"a ROS map of {columns} x {rows} pixels"
+        return Phrase(
+            "a ROS map of {columns} x {rows} pixels", columns=str(columns), rows=str(rows)
+        )
     if isinstance(layout, CellMap):
-        return f"a MovingAI map of {len(layout.lines[0])} x {len(layout.lines)} cells"
-    counts = {
-        "level": len(layout.levels) if len(layout.levels) > 1 else 0,
-        "vertex": sum(len(level.vertices) for level in layout.levels),
-        "lane": sum(len(level.edges) for level in layout.levels),
-        "station": sum(len(level.stations) for level in layout.levels),
-    }
-    parts = [
-        f"{count} {noun if count == 1 else PLURALS.get(noun, noun + 's')}"
-        for noun, count in counts.items()
-        if count
+        columns, rows = len(layout.lines[0]), len(layout.lines)
+        return Phrase(
+            "a MovingAI map of {columns} x {rows} cells", columns=str(columns), rows=str(rows)
+        )
+    levels = layout.levels
+    counts = [
+        say_count(sum(len(level.vertices) for level in levels), "vertex", "vertices"),
+        say_count(sum(len(level.edges) for level in levels), "lane", "lanes"),
+        say_count(sum(len(level.stations) for level in levels), "station", "stations"),
     ]
-    article = "an" if layout.kind[0].lower() in "aeio" else "a"
-    return f"{article} {layout.kind} with {join_names(parts)}"
+    parts = [count for count in counts if count.values["number"] != "0"]
+    if len(levels) > 1:
+        parts.insert(0, say_count(len(levels), "level", "levels"))
+    with_parts = join_names(parts)
+    if layout.kind[0].lower() in "aeio":
+        return Phrase("an {kind} with {parts}", kind=layout.kind, parts=with_parts)
+    return Phrase("a {kind} with {parts}", kind=layout.kind, parts=with_parts)
 
 
 def _open(text: str) -> tuple[LayoutFormat, Any] | None:

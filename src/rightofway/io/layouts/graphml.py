@@ -9,6 +9,7 @@ from rightofway.io.layouts.attributes import PAIRS, add_lanes, add_vertex
 from rightofway.io.layouts.draft import LayoutDraft, LevelDraft
 from rightofway.io.layouts.xml_tree import Element
 from rightofway.io.source import Source
+from rightofway.phrases import Phrase
 from rightofway.site.geometry import Point
 from rightofway.site.layout import Layout
 
@@ -55,7 +56,7 @@ def _add_node(level: LevelDraft, node: Element, keys: dict[str, str], draft: Lay
     elif pair is not None:
         at = _pair(pair)
     elif drawn is not None:
-        draft.repair("a node lies where it is drawn, y negated")
+        draft.repair(Phrase("a node lies where it is drawn, y negated"))
         half = [(drawn.get(key) or Source(0)).number() / 2 for key in ("width", "height")]
         at = drawn.need("x").number() + half[0], -drawn.need("y").number() - half[1]
     else:

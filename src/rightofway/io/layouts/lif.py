@@ -21,6 +21,7 @@ from rightofway.errors import InputError
 from rightofway.io.layouts.draft import MICRO, DraftLane, LayoutDraft, LevelDraft
 from rightofway.io.layouts.nurbs import CHORD_ERROR, Nurbs
 from rightofway.io.source import Source
+from rightofway.phrases import Phrase
 from rightofway.site.geometry import Point
 from rightofway.site.layout import Layout, LayoutVertex, Station
 
@@ -57,7 +58,7 @@ def read(document: Any) -> Layout:
     """
     draft, root = LayoutDraft("LIF layout"), Source(document)
     for _ in _numbers_as_text(document):
-        draft.repair("a number is written as text")
+        draft.repair(Phrase("a number is written as text"))
     origins = [root] if root.get("origins") is None else root.need("origins").items()
     layouts = [layout for origin in origins for layout in origin.need("layouts").items()]
     for part, name in zip(layouts, _level_names(layouts), strict=True):
@@ -84,7 +85,7 @@ def _level_names(layouts: list[Source]) -> list[str]:
 def _items(part: Source, key: str, draft: LayoutDraft) -> list[Source]:
     value = part.get(key)
     if value is None:
-        draft.repair(f"the list of {key} is missing and counts as empty")
+        draft.repair(Phrase("the list of {key} is missing and counts as empty", key=key))
         return []
     return value.items()
 
@@ -122,7 +123,7 @@ def _add_edge(level: LevelDraft, edge: Source, draft: LayoutDraft) -> None:
     tail, head = edge.need("startNodeId").text(), edge.need("endNodeId").text()
     own = edge.items_under(*EDGE_PROPERTIES)
     if not own:
-        draft.repair("an edge without a vehicle type is free for all")
+        draft.repair(Phrase("an edge without a vehicle type is free for all"))
         level.connect(DraftLane(source=edge, tail=tail, head=head))
     ways: dict[tuple[Fraction | None, Curve], set[str]] = {}
     for properties in own:
@@ -161,7 +162,7 @@ def _curve(own: Source, draft: LayoutDraft) -> Curve:
         nurbs = _nurbs(trajectory)
         pieces = nurbs.pieces()
     except (InputError, ValueError):
-        draft.repair("a trajectory that cannot be read: its edge counts as straight")
+        draft.repair(Phrase("a trajectory that cannot be read: its edge counts as straight"))
         return (), Fraction(0)
     points = tuple(
         (Fraction(round(x * MICRO), MICRO), Fraction(round(y * MICRO), MICRO))

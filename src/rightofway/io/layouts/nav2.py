@@ -10,6 +10,7 @@ from typing import Any
 from rightofway.errors import InputError, quote
 from rightofway.io.layouts.draft import DraftLane, LayoutDraft, LevelDraft
 from rightofway.io.source import Source
+from rightofway.phrases import Phrase
 from rightofway.site.geometry import Point
 from rightofway.site.layout import Layout, LayoutVertex
 
@@ -60,10 +61,14 @@ def _add_edge(level: LevelDraft, feature: Source, draft: LayoutDraft) -> None:
     limit = None if metadata is None else metadata.get("speed_limit")
     max_speed = None if limit is None else limit.number()
     if max_speed is not None and max_speed > FASTEST:
-        draft.repair("a speed_limit is a percentage of a robot's speed, which cannot be kept")
+        draft.repair(
+            Phrase("a speed_limit is a percentage of a robot's speed, which cannot be kept")
+        )
         max_speed = None
     elif max_speed is not None:
-        draft.repair("a speed_limit counts as m/s; Nav2 may be set to read it as a percentage")
+        draft.repair(
+            Phrase("a speed_limit counts as m/s; Nav2 may be set to read it as a percentage")
+        )
     level.connect(
         DraftLane(
             source=feature,
@@ -86,7 +91,7 @@ def _shape(geometry: Source, draft: LayoutDraft) -> tuple[Point, ...]:
             points = [point for line in points for point in line.items()]
         return tuple(_point(point) for point in points)[1:-1]
     except InputError:
-        draft.repair("the drawing of an edge cannot be read: it is drawn straight")
+        draft.repair(Phrase("the drawing of an edge cannot be read: it is drawn straight"))
         return ()
 
 

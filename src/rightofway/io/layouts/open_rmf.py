@@ -16,6 +16,7 @@ from typing import Any
 from rightofway.errors import InputError, join_names, quote
 from rightofway.io.layouts.draft import DraftLane, LayoutDraft, LevelDraft
 from rightofway.io.source import Source
+from rightofway.phrases import Phrase
 from rightofway.site.drawing import Picture
 from rightofway.site.geometry import Point
 from rightofway.site.layout import Layout, LayoutVertex
@@ -73,10 +74,18 @@ def _note_lifts(root: Source, draft: LayoutDraft) -> None:
     if lifts is None or not lifts.mapping():
         return
     names = [quote(name).strip("'") for name, _ in lifts.entries()]
-    several = f"the lifts {join_names(names)} are" if len(names) > 1 else f"the lift {names[0]} is"
+    lifts_are = Phrase("the lift {lift} is", lift=names[0])
+    if len(names) > 1:
+        lifts_are = Phrase("the lifts {lifts} are", lifts=join_names(names))
     levels = [level.name for level in draft.levels if level.vertices]
-    remedy = f": plan each of {join_names(levels)} by itself, with level" if len(levels) > 1 else ""
-    draft.repair(f"{several} not used, a plan stays on one level{remedy}")
+    note = Phrase("{lifts} not used, a plan stays on one level", lifts=lifts_are)
+    if len(levels) > 1:
+        note = Phrase(
+            "{note}: plan each of {levels} by itself, with level",
+            note=note,
+            levels=join_names(levels),
+        )
+    draft.repair(note)
 
 
 def _picture(
@@ -93,7 +102,9 @@ def _picture(
     except (OSError, ValueError):
         is_there = False
     if not is_there:
-        draft.repair(f"the picture {quote(name)} is not beside the file, and is not drawn")
+        draft.repair(
+            Phrase("the picture {file} is not beside the file, and is not drawn", file=quote(name))
+        )
         return None
     far = Fraction(1000)  # pixels, so that rounding to a nanometre does not matter
     (x, y), (to_x, to_y) = transform((Fraction(0), Fraction(0))), transform((far, Fraction(0)))
@@ -104,7 +115,7 @@ def _picture(
     except (OverflowError, ValueError):
         pixel, yaw = Fraction(0), Fraction(0)
     if pixel <= 0:
-        draft.repair(f"the picture {quote(name)} has no size, and is not drawn")
+        draft.repair(Phrase("the picture {file} has no size, and is not drawn", file=quote(name)))
         return None
     return Picture(file=folder / name, pixel=pixel, corner=(x, y), yaw=yaw)
 
@@ -233,7 +244,9 @@ def _transforms(root: Source, draft: LayoutDraft) -> dict[str, Transform]:
             draft.faults.note(level.location, message)
             continue
         if name != reference:
-            draft.repair("a level without two fiducials of the reference level keeps its frame")
+            draft.repair(
+                Phrase("a level without two fiducials of the reference level keeps its frame")
+            )
         transforms[name] = _transform_by((1 + 0j, 0j), scale)
     draft.faults.stop()
     return transforms

@@ -12,6 +12,7 @@ from fractions import Fraction
 from rightofway.errors import quote
 from rightofway.io.layouts.draft import DraftLane, LayoutDraft, LevelDraft
 from rightofway.io.layouts.xml_tree import Element
+from rightofway.phrases import Phrase
 from rightofway.site.layout import Layout, LayoutVertex, Station
 from rightofway.site.zones import NamedZone
 
@@ -86,7 +87,7 @@ def _add_path(
     tail, head = path.need("sourcePoint").text(), path.need("destinationPoint").text()
     lanes = paths.setdefault(path.need("name").text(), [])
     if path.value.get("locked") == "true":
-        draft.repair("a locked path is left out")
+        draft.repair(Phrase("a locked path is left out"))
         return
     length = path.need("length").number() * MILLIMETRE if path.value.get("length") else None
     speeds = (path.need(key).number() for key in ("maxVelocity", "maxReverseVelocity"))
@@ -108,7 +109,7 @@ def _add_location(level: LevelDraft, location: Element, draft: LayoutDraft) -> l
     """Add a location as a station, and return its points."""
     points = [link.need("point").text() for link in location.all("link")]
     if location.value.get("locked") == "true":
-        draft.repair("a locked location is left out")
+        draft.repair(Phrase("a locked location is left out"))
         return []
     level.stations.append(Station(name=location.need("name").text(), vertices=tuple(points)))
     return points
@@ -119,7 +120,7 @@ def _add_block(
 ) -> None:
     members = [member.need("name").text() for member in block.all("member")]
     if block.value.get("type") == "SAME_DIRECTION_ONLY":
-        draft.repair("a block of SAME_DIRECTION_ONLY counts as one for a single robot")
+        draft.repair(Phrase("a block of SAME_DIRECTION_ONLY counts as one for a single robot"))
     level.zones.append(
         NamedZone(
             name=block.need("name").text(),

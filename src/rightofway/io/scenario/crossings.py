@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.model import Scenario
+from rightofway.phrases import Phrase, say_count
 from rightofway.site import Roadmap
 
 SLACK = 1e-9
@@ -20,7 +21,7 @@ MAX_LANES = 5_000
 """Larger roadmaps are not searched."""
 
 
-def crossing_note(scenario: Scenario) -> Iterator[str]:
+def crossing_note(scenario: Scenario) -> Iterator[Phrase]:
     """Yield a note on lanes that cross without a vertex, if no robot has a size."""
     roadmap = scenario.roadmap
     if roadmap.grid is not None or any(robot.radius for robot in scenario.robots):
@@ -31,14 +32,20 @@ def crossing_note(scenario: Scenario) -> Iterator[str]:
     crossings = list(_crossings(roadmap.positions[lanes], lanes))
     if crossings:
         lane, other = (
-            " to ".join(map(roadmap.name, lanes[lane_number].tolist()))
-            for lane_number in crossings[0]
+            Phrase("{tail} to {head}", tail=roadmap.name(tail), head=roadmap.name(head))
+            for tail, head in lanes[list(crossings[0])].tolist()
         )
         pairs = len(crossings) - 1
-        more = f" ({pairs} more pair{'s' * (pairs != 1)})" if pairs else ""
-        yield (
-            f"the lanes {lane} and {other} cross where no vertex is{more}:"
-            " robots without a radius may meet there (give robots a radius, or put a vertex there)"
+        fact = Phrase(
+            "the lanes {lane} and {other} cross where no vertex is", lane=lane, other=other
+        )
+        if pairs:
+            more = say_count(pairs, "more pair", "more pairs")
+            fact = Phrase("{fact} ({more})", fact=fact, more=more)
+        yield Phrase(
+            "{fact}: robots without a radius may meet there (give robots a radius, or put a vertex"
+            " there)",
+            fact=fact,
         )
 
 

@@ -16,6 +16,7 @@ from rightofway.io.scenario.loaded_map import (
     note_on_curves,
     note_on_squares,
 )
+from rightofway.phrases import Phrase
 from rightofway.quantities import Units
 from rightofway.site import make_grid_roadmap
 from rightofway.site.drawing import Drawing
@@ -104,7 +105,12 @@ def _map_of_pixels(
         )
     if occupancy.picture is not None:
         roadmap = replace(roadmap, drawing=Drawing(picture=occupancy.picture.scale(1 / metres)))
-    cells = f"map cut into {len(lines[0])} x {len(lines)} cells of {units.format_length(size)}"
+    cells = Phrase(
+        "map cut into {columns} x {rows} cells of {size}",
+        columns=str(len(lines[0])),
+        rows=str(len(lines)),
+        size=units.format_length(size),
+    )
     blocked = "what the picture shows there"
     if 2 * radius > size:
         blocked += f", or beside it for a radius of {units.format_length(radius)}"
@@ -151,7 +157,7 @@ def _map_of_squares(
     )
     if occupancy.picture is not None:
         roadmap = replace(roadmap, drawing=Drawing(picture=occupancy.picture.scale(1 / metres)))
-    note = note_on_squares("map", roadmap, int(free.sum()), units)
+    note = note_on_squares(Phrase("map"), roadmap, int(free.sum()), units)
     return LoadedMap(roadmap=roadmap, units=units, notes=(*occupancy.notes, note))
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
 
+from rightofway.phrases import Phrase, say_count
 from rightofway.quantities import Units, format_decimal
 from rightofway.site import Floor, Grid, Roadmap, VertexId
 from rightofway.site.places import as_place, find_vertex_at
@@ -50,13 +51,13 @@ class LoadedMap:
     lines: tuple[str, ...] = ()  # of a grid, as they were written
     floor: Floor | None = None  # that the grid was cut from
     file: Path | None = None  # that the grid was read from
-    rounding: str | None = None  # how many lengths are rounded up, and to which step
+    rounding: tuple[int, int, Fraction] | None = None  # lengths rounded up, of how many, to a step
     units: Units = field(default_factory=Units)
     stations: Mapping[str, str] = field(default_factory=dict)  # and the vertex of each
     chord_error: Fraction = Fraction(0)  # of curves that are cut into straight pieces
     blocked: str = ""  # what all blocked cells are; else what the grid's characters say
     keeps_clear: bool = False  # blocked cells have grown by what the largest radius is wider
-    notes: tuple[str, ...] = ()  # of a layout's reader
+    notes: tuple[Phrase, ...] = ()  # of a layout's reader
 
     def find(self, written: object) -> VertexId:
         """Return the vertex at a place as written; an InputError says what is there instead."""
@@ -92,39 +93,63 @@ def _obstacle(row: int, column: int, floor: Floor, grid: Grid) -> str:
     raise AssertionError("an obstacle blocked the cell")
 
 
-def note_on_squares(noun: str, roadmap: Roadmap, cells: int, units: Units) -> str:
+def note_on_squares(noun: str, roadmap: Roadmap, cells: int, units: Units) -> Phrase:
     """Return a sentence on the squares that the smallest cells of a map have been joined to."""
     assert roadmap.sides is not None, "the cells are squares"
     least, most = (
         Fraction(repr(float(ends))) for ends in (roadmap.sides.min(), roadmap.sides.max())
     )
-    span = f"of {units.format_length(least)}"
+    span = units.format_length(most)
     if most > least:
-        span = f"of {format_decimal(least)} to {units.format_length(most)}"
-    return f"{noun} cut into {len(roadmap.sides)} squares {span}, from {cells} free cells"
+        span = Phrase("{first} to {last}", first=format_decimal(least), last=span)
+    return Phrase(
+        "{noun} cut into {squares} squares of {span}, from {cells} free cells",
+        noun=noun,
+        squares=str(len(roadmap.sides)),
+        span=span,
+        cells=str(cells),
+    )
 
 
-def note_on_crossed(split: SplitLanes, units: Units) -> Iterator[str]:
+def note_on_rounding(rounded: int, lengths: int, step: Fraction, units: Units) -> Phrase:
+    """Return a sentence on lengths that are rounded up."""
+    return Phrase(
+        "{rounded} of {lengths} lengths rounded up to {step}",
+        rounded=str(rounded),
+        lengths=str(lengths),
+        step=" ".join(filter(None, (format_decimal(step, 6), units.length))),
+    )
+
+
+def note_on_crossed(split: SplitLanes, units: Units) -> Iterator[Phrase]:
     """Yield a sentence on the lanes that are split because others cross them, if there are any."""
     if split.crossed:
         assert split.spacing is not None, "they are split into pieces"
-        lanes = "1 lane is" if split.crossed == 1 else f"{split.crossed} lanes are"
-        whole = "it" if split.crossed == 1 else "them"
-        yield (
-            f"{lanes} booked in pieces of at most {units.format_length(split.spacing)}, because"
-            f" others cross far from the ends (spacing: whole keeps {whole} whole)"
+        yield Phrase(
+            "{lanes} booked in pieces of at most {length}, because others cross far from the ends"
+            " (spacing: whole keeps lanes whole)",
+            lanes=say_count(split.crossed, "lane is", "lanes are"),
+            length=units.format_length(split.spacing),
         )
 
 
-def note_on_curves(curves: int, chord_error: Fraction, units: Units) -> Iterator[str]:
+def note_on_curves(curves: int, chord_error: Fraction, units: Units) -> Iterator[Phrase]:
     """Yield a sentence on the curves that are cut into straight pieces, if there are any."""
     if curves:
-        verb = f"{curves} curves are" if curves > 1 else "1 curve is"
+        note = Phrase(
+            "{curves} cut into straight pieces for robots with a size",
+            curves=say_count(curves, "curve is", "curves are"),
+        )
+        if not chord_error:
+            yield note
+            return
         error, twice = (
             f"{format_decimal(factor * chord_error, 6)} {units.length or ''}".rstrip()
             for factor in (1, 2)
         )
-        near = f", which leave the curve by at most {error}: the clearance grows by {twice}"
-        yield (
-            f"{verb} cut into straight pieces for robots with a size{near if chord_error else ''}"
+        yield Phrase(
+            "{note}, which leave the curve by at most {error}: the clearance grows by {twice}",
+            note=note,
+            error=error,
+            twice=twice,
         )

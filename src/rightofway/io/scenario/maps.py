@@ -22,7 +22,8 @@ from rightofway.io.scenario.loaded_map import (
     note_on_squares,
 )
 from rightofway.io.text import refuse_special
-from rightofway.quantities import Units, format_decimal
+from rightofway.phrases import Phrase
+from rightofway.quantities import Units
 from rightofway.site import (
     Edge,
     Floor,
@@ -184,7 +185,7 @@ def _map_of_squares(
         max_squares=document.floor.max_cells or MAX_CELLS,
     )
     return LoadedMap(
-        roadmap=roadmap, notes=(note_on_squares("floor", roadmap, int(free.sum()), units),)
+        roadmap=roadmap, notes=(note_on_squares(Phrase("floor"), roadmap, int(free.sum()), units),)
     )
 
 
@@ -274,7 +275,6 @@ def _map_of_roadmap(
     frame = Frame(x=left, y=low, y_up=on.y_up, yaw=on.yaw or Fraction(0))
     sides = None if document.sides is None else [float(side) for side in document.sides]
     rounded = sum((lengths[index] or 0) ** 2 != square for index, square in squares.items())
-    note = f"{rounded} of {len(document.edges)} lengths rounded up to {format_decimal(step, 6)}"
     roadmap = make_roadmap(
         drawn,
         split.edges,
@@ -293,7 +293,7 @@ def _map_of_roadmap(
     return LoadedMap(
         roadmap=replace(roadmap, drawing=drawing),
         stations=document.stations,
-        rounding=note if rounded else None,
+        rounding=(rounded, len(document.edges), step) if rounded else None,
         chord_error=error,
         notes=(
             *(note_on_curves(len({*map(frozenset, curves)}), error, units) if is_cut else ()),

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from rightofway.errors import InputError, locate_faults, quote
 from rightofway.io.scenario.loaded_map import LoadedMap
 from rightofway.io.text import refuse_special
+from rightofway.phrases import Phrase
 from rightofway.site.drawing import Picture
 
 if TYPE_CHECKING:
@@ -30,7 +31,9 @@ def with_picture(
         return loaded
     with locate_faults("picture"):
         picture, is_there = picture_of(document, base)
-    note = f"there is no picture {quote(document.file)}; the map is shown without it"
+    note = Phrase(
+        "there is no picture {file}; the map is shown without it", file=quote(document.file)
+    )
     return replace(
         loaded,
         roadmap=replace(loaded.roadmap, drawing=replace(loaded.roadmap.drawing, picture=picture)),

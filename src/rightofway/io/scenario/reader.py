@@ -25,12 +25,13 @@ from rightofway.io.scenario.fleet import (
     read_robots,
     robots_in_table,
 )
-from rightofway.io.scenario.loaded_map import LoadedMap
+from rightofway.io.scenario.loaded_map import LoadedMap, note_on_rounding
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.picture import with_picture
 from rightofway.model import Rules, Scenario
 from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
+from rightofway.phrases import Phrase, say_count
 from rightofway.quantities import Units
 from rightofway.site import Roadmap
 
@@ -57,7 +58,7 @@ class Loaded:
     """
 
     scenario: Scenario
-    notes: tuple[str, ...] = ()
+    notes: tuple[Phrase, ...] = ()
 
 
 @checks_arguments
@@ -126,7 +127,7 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
         faults.note(("rules", "walls"), f"'strict' is for grids and floors ({remedy})")
     placed = place_robots(robots, loaded, faults, deals=deals)
     closures = faults.part(document, "closures", _closures, loaded) or []
-    scenario, notes = None, list[str]()
+    scenario, notes = None, list[Phrase]()
     if loaded and placed and deals:
         placed = faults.attempt("", _deal_homes, placed, loaded.roadmap, rules, notes) or ()
     if loaded and placed:
@@ -180,7 +181,7 @@ def _closures(data: Any, on: LoadedMap | None) -> list[Closure]:
 
 
 def _deal_homes(
-    placed: Sequence[PlacedRobot], roadmap: Roadmap, rules: Rules, notes: list[str]
+    placed: Sequence[PlacedRobot], roadmap: Roadmap, rules: Rules, notes: list[Phrase]
 ) -> Sequence[PlacedRobot]:
     """Return the robots, each with a home; add a note on the homes that were dealt out."""
     robots, more = deal_homes([robot.robot for robot in placed], roadmap, rules)
@@ -235,31 +236,36 @@ def _check_ticks(scenario: Scenario) -> None:
         raise InputError.at("robots", message)
 
 
-def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[str]:
+def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[Phrase]:
     grid = loaded.roadmap.grid
     if loaded.floor and grid:
-        cells = f"{grid.columns} x {grid.rows} = {grid.columns * grid.rows}"
-        yield f"floor cut into {cells} cells of {scenario.quantities.format_length(grid.cell_size)}"
+        yield Phrase(
+            "floor cut into {columns} x {rows} = {cells} cells of {size}",
+            columns=str(grid.columns),
+            rows=str(grid.rows),
+            cells=str(grid.columns * grid.rows),
+            size=scenario.quantities.format_length(grid.cell_size),
+        )
     spaces = 0 if loaded.floor else sum(line.count(" ") for line in loaded.lines)
     if spaces:
-        count = "1 space counts" if spaces == 1 else f"{spaces} spaces count"
-        yield f"{count} as blocked in the grid (write . for a free cell)"
+        count = say_count(spaces, "space counts", "spaces count")
+        yield Phrase("{spaces} as blocked in the grid (write . for a free cell)", spaces=count)
     yield from loaded.notes
     if loaded.rounding:
-        unit = scenario.units.length
-        yield f"{loaded.rounding} {unit}" if unit else loaded.rounding
+        yield note_on_rounding(*loaded.rounding, scenario.units)
     yield from _type_notes(scenario)
     yield from crossing_note(scenario)
     if not scenario.problem.clock.exact:
-        yield (
-            f"each drive, turn and work time is rounded up to a multiple of"
-            f" {scenario.quantities.format_duration(1)} (the shortest of them, divided by"
-            f" {MAX_TICKS_OF_SHORTEST}); simpler speeds and lengths stay exact,"
-            " for example 1/3 instead of 0.3333"
+        yield Phrase(
+            "each drive, turn and work time is rounded up to a multiple of {tick} (the shortest of"
+            " them, divided by {parts}); simpler speeds and lengths stay exact, for example 1/3"
+            " instead of 0.3333",
+            tick=scenario.quantities.format_duration(1),
+            parts=str(MAX_TICKS_OF_SHORTEST),
         )
 
 
-def _type_notes(scenario: Scenario) -> Iterator[str]:
+def _type_notes(scenario: Scenario) -> Iterator[Phrase]:
     """Yield a note on each type of robots that nothing is barred for, where one was nearly meant.
 
     Types that edges and vertices are barred for are known; any other type is allowed.
@@ -268,4 +274,8 @@ def _type_notes(scenario: Scenario) -> Iterator[str]:
     for name in dict.fromkeys(robot.type for robot in scenario.robots):
         near = None if name is None or name in known else find_nearest(name, sorted(known))
         if near:
-            yield f"nothing is barred for robots of type {quote(name)} (did you mean {near!r}?)"
+            yield Phrase(
+                "nothing is barred for robots of type {type} (did you mean {other}?)",
+                type=quote(name),
+                other=repr(near),
+            )

@@ -21,6 +21,7 @@ from rightofway.io.tables import (
     value_of,
 )
 from rightofway.io.workbook.sheets import Sheet, read_sheets, reference
+from rightofway.phrases import Phrase, say_count
 
 SHEETS = ("map", "robots", "rules", "vertices", "edges", "closures")
 """Sheets that are read, by lower-case name."""
@@ -52,14 +53,14 @@ def load_workbook_scenario(path: Path | str) -> Loaded:
     """
     path = Path(path)
     with name_file(str(path)):
-        faults, notes = Faults(), list[str]()
+        faults, notes = Faults(), list[Phrase]()
         document = _document(read_sheets(path, SHEETS, faults), faults, notes)
         with document.locate():
             loaded = read_scenario(document.part, path.parent)
         return Loaded(scenario=loaded.scenario, notes=(*notes, *loaded.notes))
 
 
-def _document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[str]) -> CellDocument:
+def _document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[Phrase]) -> CellDocument:
     """Return the scenario document of the sheets, and where each place of it stands."""
     from rightofway.io.scenario.shape import ClosureDocument, RobotDocument
 
@@ -107,7 +108,7 @@ def _document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[str]) -> 
 
 
 def _grid(
-    sheet: Sheet, notes: list[str]
+    sheet: Sheet, notes: list[Phrase]
 ) -> tuple[list[str], tuple[int, int], dict[Steps, Where]] | None:
     """Return the rows of a map, its first row and column, and the cells of its rows."""
     used = sheet.values.keys() | sheet.dark.keys()
@@ -142,10 +143,11 @@ def _grid(
         lines.append(line)
     faults.stop()
     if empty:
-        count_as = (
-            "empty cell of the map counts" if len(empty) == 1 else "empty cells of the map count"
+        cells_count = say_count(
+            len(empty), "empty cell of the map counts", "empty cells of the map count"
         )
-        notes.append(f"{len(empty)} {count_as} as free, the first is {sheet.cell(*empty[0]).cell}")
+        first = str(sheet.cell(*empty[0]).cell)
+        notes.append(Phrase("{cells} as free, the first is {cell}", cells=cells_count, cell=first))
     cells: dict[Steps, Where] = {("map",): sheet.location, ("map", "grid"): sheet.location}
     cells |= {("map", "grid", k): sheet.cell(top + k, left) for k in range(len(lines))}
     return lines, (top, left), cells

@@ -75,7 +75,9 @@ function show(studio, { vertices: names }) {
  */
 export function AboutMap({ studio }) {
   const { notes, store } = studio;
-  const all = [...new Set([...notes, ...store.survey.notes]), ...store.survey.phrases];
+  // The reader of the file and that of the draft note the same; a phrase is equal by its text.
+  const noted = new Map([...notes, ...store.survey.notes].map((note) => [said(note), note]));
+  const all = [...noted.values(), ...store.survey.phrases];
   if (!all.length) return null;
   return html`<details class="notes" open=${notes.length > 0}><summary>${words.notes}</summary><ul>${all.map((note) => html`<li><${Phrase} phrase=${note} /></li>`)}</ul></details>`;
 }

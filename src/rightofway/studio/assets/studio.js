@@ -34,7 +34,7 @@ export class Studio extends Observable {
   isFresh = false; // whether the document has just been opened
   suggested = ""; // a name for the file of the document
   seeksChange = false; // whether the next difference is to be brought into view
-  /** @type {(unknown[] | string)[]} */
+  /** @type {import("../../viz/page/assets/payload.d.ts").PhraseData[]} */
   notes = [];
   /** @type {Complaint[]} */
   complaints = []; // what the server has refused: { place, named, message }

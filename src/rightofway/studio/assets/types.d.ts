@@ -1,6 +1,7 @@
 /** Types that modules of the studio share: documents as they are written, and what is on their map. */
 
 import type {
+  PhraseData,
   ComparisonData,
   Payload,
   RobotData as PlayedRobot,
@@ -320,7 +321,7 @@ export interface Found {
   draft?: string;
   origin?: [string, string] | null;
   known?: string;
-  notes?: (unknown[] | string)[];
+  notes?: PhraseData[];
   suggested?: string;
   tool?: string;
 }

@@ -30,6 +30,7 @@ from rightofway.io.sites import sites_of
 from rightofway.io.text import json_text, parse_yaml
 from rightofway.metrics import inspect, measure
 from rightofway.model import Plan, Scenario
+from rightofway.phrases import Phrase, to_parts
 from rightofway.studio.messages import Blobs, Emit, as_fault_data
 from rightofway.viz.verdict import give_verdict
 
@@ -45,7 +46,8 @@ def open_file(_emit: Emit, _blobs: Blobs, *, path: str, count: int | None = None
     if is_layout(file):
         document = parse_yaml(example_of_layout(file, file.with_suffix(".yaml")))
         layout = read_layout(file)
-        notes = [*getattr(layout, "notes", ()), f"a new scenario on {describe_layout(layout)}"]
+        new = Phrase("a new scenario on {layout}", layout=describe_layout(layout))
+        notes = to_parts([*getattr(layout, "notes", ()), new])
         return (
             {"kind": "layout", "document": {**as_plain(document), "robots": []}, "notes": notes},
         )
@@ -62,7 +64,7 @@ def open_file(_emit: Emit, _blobs: Blobs, *, path: str, count: int | None = None
 
 def _of_loaded(kind: str, loaded: Loaded) -> dict[str, Any]:
     document = as_plain(dump_scenario(loaded.scenario))
-    return {"kind": kind, "document": document, "notes": list(loaded.notes)}
+    return {"kind": kind, "document": document, "notes": to_parts(list(loaded.notes))}
 
 
 def _with_faults(file: Path) -> dict[str, Any]:
@@ -112,7 +114,7 @@ def validate_document(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str)
         return (
             {"ok": False, "faults": [as_fault_data(fault) for fault in error.faults], "notes": []},
         )
-    return ({"ok": True, "faults": [], "notes": list(loaded.notes)},)
+    return ({"ok": True, "faults": [], "notes": to_parts(list(loaded.notes))},)
 
 
 def inspect_document(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) -> Result:
@@ -124,7 +126,7 @@ def inspect_document(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) 
     return (
         {
             "what": sites.description,
-            "notes": list(sites.notes),
+            "notes": to_parts(list(sites.notes)),
             **{key: value for key, value in asdict(result).items() if key != "findings"},
             "findings": [
                 {**asdict(finding), "sentence": str(finding)} for finding in result.findings

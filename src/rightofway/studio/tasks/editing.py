@@ -67,7 +67,7 @@ def survey_document(
     answer: dict[str, Any] = {
         "ok": not faults,
         "faults": [as_fault_data(fault) for fault in faults],
-        "notes": list(notes),
+        "notes": to_parts(list(notes)),
         "site": None,
         "findings": [],
         "sentences": [],
