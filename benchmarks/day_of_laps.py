@@ -37,7 +37,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         path = Path(name) / "plan.journal"
         journal = BatchedJournal(SqliteJournal(path))
-        setattr(demo, "_NothingKept", lambda: journal)  # noqa: B010 (the demo keeps none)
+        setattr(demo, "NothingKept", lambda: journal)  # noqa: B010 (the demo keeps none)
 
         def watch(letter: Letter) -> None:
             nonlocal largest

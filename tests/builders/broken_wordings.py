@@ -8,7 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rightofway.control import Entry, FleetControl, RobotLedger, RobotState
-from rightofway.control.ledger import SentOrder
+from rightofway.control.orders import make_order
+from rightofway.control.robot_ledger import SentOrder
 
 __all__ = ["WORDINGS", "LastNodeIsEnough", "VertexTwiceInBase"]
 
@@ -146,7 +147,7 @@ class OrderPerLeg(FleetControl):
         own = self.ledger.robots[robot]
         if own.arrived < own.released:
             return super()._update(robot, end)
-        return self._new_order(robot, own.released, end)
+        return make_order(self.ledger, robot, own.released, end)
 
 
 class WithdrawalOutlivesOrder(FleetControl):

@@ -12,6 +12,7 @@ from rightofway.control import FleetControl, SqliteJournal
 from rightofway.control.commands import Commands
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.laps import LapsToDrive
+from rightofway.control.names import list_jobs
 from rightofway.control.operator import Operator
 from rightofway.errors import InputError
 from rightofway.io import scenario_of
@@ -39,7 +40,7 @@ def obey(floor: Floor, commands: Commands) -> None:
 
 def jobs_of(floor: Floor) -> dict[str, str]:
     """Return where the jobs are that are not done, by name."""
-    return {job["name"]: job["at"] for job in floor.dispatcher.list_jobs()}
+    return {job["name"]: job["at"] for job in list_jobs(floor.dispatcher.ledger)}
 
 
 def test_a_job_that_is_added_goes_where_it_is_least_out_of_the_way_and_is_done() -> None:
@@ -119,8 +120,8 @@ def test_a_command_is_carried_out_once_though_its_answer_was_lost(tmp_path: Path
     [(_, answer)] = Operator(again).obey(commands)[1]
     commands.answer(number, answer)
     assert people.wait_for(number, 0) == {"done": True, "text": "R1/job1 at N7 is added"}
-    assert [job["name"] for job in again.list_jobs()].count("R1/job1") == 1
-    assert "R1/job2" not in [job["name"] for job in again.list_jobs()]
+    assert [job["name"] for job in list_jobs(again.ledger)].count("R1/job1") == 1
+    assert "R1/job2" not in [job["name"] for job in list_jobs(again.ledger)]
 
 
 @pytest.mark.parametrize(

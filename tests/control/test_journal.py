@@ -129,3 +129,14 @@ def test_a_snapshot_leaves_the_notices_that_are_not_on_the_disk_yet(tmp_path: Pa
     batched.flush()
     assert list(journal.read_entries()) == [{"kind": "snapshot"}, told]
     journal.close()
+
+
+def test_each_snapshot_says_when_the_run_began(tmp_path: Path) -> None:
+    """The first entry goes with the third snapshot; its moment, 10 s, stays."""
+    moments = iter(range(10, 20))
+    journal = SqliteJournal(tmp_path / "run.journal", lambda: next(moments))
+    journal.commit(ENTRIES)
+    for _ in range(3):
+        journal.begin_again({"kind": "snapshot"})
+    assert list(journal.read_history()) == [{"kind": "snapshot", "began": 10}] * 2
+    journal.close()

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import rightofway
-from rightofway.control import JournalReader, JournalRow, SqliteJournal
+from rightofway.control import FleetControl, JournalReader, JournalRow, SqliteJournal
 from rightofway.control import recording as module
 from rightofway.control.demo import drive_demo
 from rightofway.control.notices import make_notice
@@ -124,6 +124,26 @@ def test_alarms_begin_and_end(tmp_path: Path) -> None:
     recording.read_on()
     alarms = [row for row in recording.take_frame()["rows"] if row[2] == "alarm"]
     assert alarms == [(20.0, 0, "alarm", "lost", lost), (21.0, 0, "alarm", "lost", None)]
+    reader.close()
+
+
+def test_times_count_from_the_begin_of_the_run_after_its_first_entries_have_gone(
+    tmp_path: Path,
+) -> None:
+    """The demo began at 0 s; the two snapshots that are left were made at 21 s and at 22 s."""
+    path = tmp_path / "run.journal"
+    drive_demo(door(), journal=path)
+    moments = iter((20.0, 21.0, 22.0))
+    journal = SqliteJournal(path, lambda: next(moments))
+    snapshot = FleetControl(journal).ledger.make_snapshot()
+    for _ in range(3):
+        journal.begin_again(snapshot)
+    journal.close()
+    reader = JournalReader(path)
+    assert reader.read_rows()[0].moment == 21.0
+    recording = Recording(door(), reader)
+    recording.read_on()
+    assert recording.now == 22.0
     reader.close()
 
 

@@ -34,6 +34,7 @@ from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.driver import Driver
 from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd
 from rightofway.control.identities import Identity, make_simulated_identities
+from rightofway.control.names import list_jobs
 from rightofway.control.notices import Notices
 from rightofway.control.order_map import OrderMap
 from rightofway.errors import GaveUp, InputError
@@ -320,7 +321,7 @@ def fail_work(floor: Floor, patch: pytest.MonkeyPatch) -> str:
 def test_work_that_fails_is_done_again(floor: Floor, monkeypatch: pytest.MonkeyPatch) -> None:
     name = fail_work(floor, monkeypatch)
     assert floor.said == ["R1 has failed in job0: it goes no further"]
-    assert floor.dispatcher.list_jobs()[0]["state"] == "failed"
+    assert list_jobs(floor.dispatcher.ledger)[0]["state"] == "failed"
     floor.wait()
     assert floor.places == ["N1", "N0"]
     assert floor.done == [0, 1]

@@ -9,7 +9,7 @@ from rightofway.control.journal import (
     JournalRow,
     SqliteJournal,
 )
-from rightofway.control.ledger import Ledger, RobotLedger, RouteToDrive
+from rightofway.control.ledger import Ledger
 from rightofway.control.messages import (
     Condition,
     InstantAction,
@@ -19,6 +19,8 @@ from rightofway.control.messages import (
     RobotError,
     RobotState,
 )
+from rightofway.control.robot_ledger import RobotLedger
+from rightofway.control.routes import RouteToDrive
 from rightofway.control.simulated_robot import SimulatedRobot
 
 __all__ = [

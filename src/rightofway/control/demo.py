@@ -7,44 +7,36 @@ arrives at once and nothing is lost. Simulated time goes from one step of a robo
 from __future__ import annotations
 
 import heapq
-import time
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
-from functools import lru_cache, partial
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from rightofway.check import check
-from rightofway.control.commands import Commands
+from rightofway.control.demo_record import DemoRecord, NothingKept, SimulatedClock
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.identities import Identity, make_simulated_identities
-from rightofway.control.journal import BatchedJournal, Entry, SqliteJournal
 from rightofway.control.laps import LapsToDrive
-from rightofway.control.ledger import RobotLedger, RouteToDrive
 from rightofway.control.notices import Notices, make_notice
 from rightofway.control.operator import Operator
 from rightofway.control.order_map import OrderMap
-from rightofway.control.routes import make_routes_to_drive
 from rightofway.control.simulated_robot import SimulatedRobot
 from rightofway.control.story import Story
+from rightofway.control.timed_robot import Durations, TimedRobot
 from rightofway.errors import InputError
-from rightofway.execution import replay
 from rightofway.model import ExecutionTrace, Plan, Tick, Track
-from rightofway.model.route import drives_along
 from rightofway.phrases import Phrase, to_parts
 
 __all__ = ["DemoResult", "drive_demo"]
 
 Report = Callable[[Tick, str], None]
-
-PAUSE = 0.1
-"""Seconds between two looks at what people ask for."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -159,16 +151,16 @@ def drive_demo(
         raise InputError.at("", f"the plan has {judged.summary} (only one without can be driven)")
     names = [robot.name for robot in plan.scenario.robots]
     repeated = None if laps is None else LapsToDrive(plan)
-    durations = _Durations(plan, delays, seed, repeated)
+    durations = Durations(plan, delays, seed, repeated)
     for name, completion in zip(names, durations.round(0).completion, strict=True):
         if completion is None:
             message = f"{name} would never complete, and a demo ends when all jobs are done"
             raise InputError.at("delays", f"{message} (give delays that end)")
     identities = identities or make_simulated_identities(names, version)
-    clock = _SimulatedClock(plan)
-    record = None if journal is None else _DemoRecord(journal, clock, pace, stays=stays)
+    clock = SimulatedClock(plan)
+    record = None if journal is None else DemoRecord(journal, clock, pace, stays=stays)
     try:
-        control = FleetControl(record.journal if record else _NothingKept())
+        control = FleetControl(record.journal if record else NothingKept())
         dispatcher = Dispatcher(control, plan, repeated)
         demo = _Demo(dispatcher, durations, identities, clock, record, watch=watch, report=report)
         demo.switches = switch
@@ -178,124 +170,16 @@ def drive_demo(
             record.close()
 
 
-class _SimulatedClock:
-    """The time of a demo [ticks]."""
-
-    def __init__(self, plan: Plan) -> None:
-        clock, seconds = plan.scenario.problem.clock, plan.scenario.units.seconds
-        self._tick = float(clock.tick * (seconds or 1))  # [s]
-        self.now = 0
-
-    def read_seconds(self) -> float:
-        """Return the time [s]."""
-        return self.now * self._tick
-
-    def to_ticks(self, seconds: float) -> int:
-        """Return a time in ticks, one at least."""
-        return max(round(seconds / self._tick), 1)
-
-
-class _DemoRecord:
-    """The journal of a demo, and what people ask for meanwhile."""
-
-    def __init__(
-        self, path: Path, clock: _SimulatedClock, pace: float | None, *, stays: bool
-    ) -> None:
-        self._file = SqliteJournal(path, clock.read_seconds)
-        if next(iter(self._file.read_history()), None) is not None:
-            self._file.close()
-            message = "has a run already, and a demo begins anew (name another file)"
-            raise InputError.at(str(path), message)
-        self.journal, self.commands = BatchedJournal(self._file), Commands(path)
-        self.step = clock.to_ticks(PAUSE * (pace or 1))  # between two looks at what people ask for
-        self._pace, self.stays = pace, stays
-        self.journal.commit([{"kind": "pace", "seconds": pace}])
-
-    def write(self, entry: Entry) -> None:
-        """Write an entry."""
-        self.journal.commit([entry])
-
-    def wait(self) -> None:
-        """Wait for people where no pause does."""
-        if self._pace is None:
-            time.sleep(PAUSE)
-
-    def close(self) -> None:
-        """Give the files free."""
-        self.journal.flush()
-        self._file.close()
-        self.commands.close()
-
-
-class _NothingKept:
-    """The journal of robots that end with the process: no start would read it."""
-
-    def read_entries(self) -> Iterable[Entry]:
-        """Return nothing."""
-        return ()
-
-    def commit(self, entries: Iterable[Entry]) -> None:
-        """Keep nothing."""
-
-    def begin_again(self, snapshot: Entry) -> None:
-        """Keep nothing."""
-
-
-class _Durations:
-    """How long what robots do takes them: as planned, and longer by delays of a seed.
-
-    Each time that robots come to the end of the plan, the next run of the seed has the delays.
-    """
-
-    def __init__(
-        self, plan: Plan, delays: str | Iterable[str], seed: int, laps: LapsToDrive | None
-    ) -> None:
-        self._plan, self._delays, self._seed, self._laps = plan, delays, seed, laps
-        self._routes, self._roadmap = make_routes_to_drive(plan), plan.scenario.roadmap
-        self.round = lru_cache(maxsize=4)(self._round)
-
-    def _round(self, number: int) -> ExecutionTrace:
-        return replay(self._plan, self._delays, number, self._seed)
-
-    def stay(self, robot: int, own: RobotLedger, visit: int) -> int:
-        """Return how long a robot works and turns in a visit [ticks]."""
-        number, planned = self._planned(robot, visit)
-        sample, lap = self.round(number).dwell[robot], self._routes[robot]
-        more = int(sample[planned]) - sum(lap.get_work(planned))
-        if planned == lap.end - 1 and self._laps:  # it goes on, and turns for that
-            more += self._plan.scenario.problem.itineraries[robot].stages[-1].turn
-        return sum(own.route.get_work(visit)) + max(more, 0)
-
-    def drive(self, robot: int, own: RobotLedger, visit: int) -> int:
-        """Return how long a robot drives into a visit [ticks]."""
-        number, planned = self._planned(robot, visit)
-        sample, lap = self.round(number).drive[robot], self._routes[robot]
-        more = int(sample[planned]) - self._ticks(robot, lap, planned) if planned else 0
-        return self._ticks(robot, own.route, visit) + max(more, 0)
-
-    def _ticks(self, robot: int, route: RouteToDrive, visit: int) -> int:
-        """Return how long the drive into a visit lasts without delays [ticks]."""
-        ends = (self._roadmap.get_vertex(route.get_place(at)) for at in (visit - 1, visit))
-        itinerary = self._plan.scenario.problem.itineraries[robot]
-        return drives_along(self._roadmap, itinerary, list(map(int, ends)))[0]
-
-    def _planned(self, robot: int, visit: int) -> tuple[int, int]:
-        """Return the run that has the delays of a visit, and a visit of the plan."""
-        if self._laps:
-            return self._laps.find_planned_visit(robot, visit)
-        return divmod(visit, self._routes[robot].end)
-
-
 class _Demo:
     """One run."""
 
     def __init__(
         self,
         dispatcher: Dispatcher,
-        durations: _Durations,
+        durations: Durations,
         identities: Sequence[Identity],
-        clock: _SimulatedClock,
-        record: _DemoRecord | None,
+        clock: SimulatedClock,
+        record: DemoRecord | None,
         *,
         watch: Callable[[Letter], None],
         report: Report,
@@ -310,7 +194,7 @@ class _Demo:
         self._end = ControlEnd(control, maps, self._timestamp, notices)
         stoppages = durations.round(0).stoppages or ((),) * len(identities)
         self._robots = [
-            _DemoRobot(
+            TimedRobot(
                 RobotEnd(SimulatedRobot(own.route.places[0]), number, identity, self._timestamp),
                 partial(durations.stay, number, own),
                 partial(durations.drive, number, own),
@@ -475,66 +359,3 @@ class _Demo:
             completion=tuple(Tick(robot.since) for robot in self._robots),
             stoppages=tuple(robot.stoppages for robot in self._robots),
         )
-
-
-class _DemoRobot:
-    """A simulated robot whose steps take time.
-
-    Parameters
-    ----------
-    end
-        The robot with its messages.
-    stay, drive_into
-        How long work and turning of a visit take, and the drive into it [ticks].
-    stoppages
-        When it stands still, in order: first tick and length [ticks].
-    times_kept
-        How many visits have their times kept; None for all.
-    """
-
-    def __init__(
-        self,
-        end: RobotEnd,
-        stay: Callable[[int], int],
-        drive_into: Callable[[int], int],
-        stoppages: tuple[tuple[Tick, Tick | None], ...],
-        times_kept: int | None,
-    ) -> None:
-        self.end, self._stay, self._drive_into, self.stoppages = end, stay, drive_into, stoppages
-        self.visit = 0  # the number of the last one
-        self.enter = deque([0], times_kept)  # when each visit began
-        self.dwell = deque([stay(0)], times_kept)
-        self.drive = deque([0], times_kept)
-        self.since = 0  # when its last step ended
-        self.is_busy = False
-        self._left = self.dwell[0]  # what is left of work and turning of this visit
-
-    def begin_step(self, now: int) -> int | None:
-        """Begin the next step, if there is one; return when it ends."""
-        match self.end.robot.next_step:
-            case None:
-                return None
-            case "arrive":
-                lasts = self._drive_into(self.visit + 1)
-                self.drive.append(lasts)
-            case "begin work":
-                lasts = 0
-            case "end work" | "begin to drive":
-                lasts, self._left = self._left, 0
-        self.is_busy = True
-        end = now + lasts
-        for first, length in self.stoppages:
-            assert length is not None, "a demo has no robot that breaks down for ever"
-            if first < end and now < first + length:  # the rest of the step comes after it
-                end += first + length - max(first, now)
-        return end
-
-    def end_step(self, now: int) -> None:
-        """End the step."""
-        if self.end.robot.next_step == "arrive":
-            self.visit += 1
-            self._left = self._stay(self.visit)
-            self.enter.append(now)
-            self.dwell.append(self._left)
-        self.end.robot.step()
-        self.is_busy, self.since = False, now

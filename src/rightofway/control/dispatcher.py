@@ -10,22 +10,28 @@ from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from itertools import pairwise
-from typing import Any
 
-import numpy as np
-
+from rightofway.control.commitments import StopToMake, list_stops_to_make
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.journal import Entry
 from rightofway.control.laps import LapsToDrive, build_graph_behind_released
-from rightofway.control.ledger import Edge, Ledger, RobotLedger, RouteToDrive
+from rightofway.control.ledger import Ledger
 from rightofway.control.messages import Message
-from rightofway.control.rest import RestPlanner, StopToMake, list_stops_to_make
-from rightofway.control.routes import make_routes_to_drive
-from rightofway.errors import GaveUp, InputError, find_nearest, quote
+from rightofway.control.names import (
+    find_failed_job,
+    find_open_job,
+    find_robot,
+    list_edges_into,
+    name_place,
+)
+from rightofway.control.rest import RestPlanner
+from rightofway.control.robot_ledger import RobotLedger
+from rightofway.control.routes import make_route_from, make_routes_to_drive
+from rightofway.errors import GaveUp, InputError
 from rightofway.model import Plan
 from rightofway.precedence import Part, ReleaseGraph
 from rightofway.search import Distances
-from rightofway.site import Roadmap, VertexId
+from rightofway.site import VertexId
 
 __all__ = ["Dispatcher"]
 
@@ -147,7 +153,7 @@ class Dispatcher:
         """
         self.plan.scenario.roadmap.get_vertex(at)  # refuses what is none
         robots = self.ledger.robots
-        candidates = [self.number_of(robot)] if robot is not None else range(len(robots))
+        candidates = [find_robot(self.ledger, robot)] if robot is not None else range(len(robots))
         on_floor = [number for number in candidates if not robots[number].is_off]
         if not on_floor:
             raise InputError.at("robot", "is off the floor (name another one, or none)")
@@ -183,7 +189,7 @@ class Dispatcher:
         if at is not None:
             self.plan.scenario.roadmap.get_vertex(at)  # refuses what is none
         stops = self._stops()
-        number, place = self._open_job(stops, name)
+        number, place = find_open_job(self.ledger, stops, name)
         old = stops[number][place]
         stops[number][place] = old._replace(
             place=old.place if at is None else at, work=old.work if work is None else work
@@ -206,7 +212,7 @@ class Dispatcher:
             If no plan without it was found: the old one stands.
         """
         stops = self._stops()
-        number, place = self._open_job(stops, name)
+        number, place = find_open_job(self.ledger, stops, name)
         job = stops[number].pop(place).job
         text = f"{name} is withdrawn"
         return self._replanned(stops, withdrawn=[(number, job)], text=text)
@@ -224,7 +230,7 @@ class Dispatcher:
         InputError
             If it has not failed.
         """
-        entry = {"kind": "again", **self._failed_job(name)}
+        entry = {"kind": "again", **find_failed_job(self.ledger, name)}
         robot = entry["robot"]
         return self.note(
             entry, {"kind": "cancel wanted", "robot": robot}, text=f"{name} is done again"
@@ -243,15 +249,9 @@ class Dispatcher:
         InputError
             If it has not failed.
         """
-        return self.note({"kind": "skipped", **self._failed_job(name)}, text=f"{name} is skipped")
-
-    def _failed_job(self, name: str) -> Entry:
-        """Return robot and job of a failed job."""
-        robot, _, job = name.rpartition("/")
-        number = self.number_of(robot)
-        if job not in self.ledger.robots[number].failed:
-            raise InputError.at("job", f"{quote(name)} has not failed (see rightofway jobs list)")
-        return {"robot": number, "job": job}
+        return self.note(
+            {"kind": "skipped", **find_failed_job(self.ledger, name)}, text=f"{name} is skipped"
+        )
 
     def replan(self) -> list[Message]:
         """Plan the rest as things are now.
@@ -294,7 +294,7 @@ class Dispatcher:
         GaveUp
             If no plan from there was found, as where another robot is in the way.
         """
-        robot = self.number_of(name)
+        robot = find_robot(self.ledger, name)
         own, said = self.ledger.robots[robot], self.control.places.get(robot, "")
         if not own.is_off:
             remedy = f"confirm first that it is off the floor: rightofway jobs … remove {name}"
@@ -307,7 +307,7 @@ class Dispatcher:
         stops[robot] = list_stops_to_make(own, own.arrived - 1)
         if stops[robot] and stops[robot][0].ends_lap:
             del stops[robot][0]  # it was counted when the robot arrived
-        begun = replace(own, route=_route_from(own.route, place), is_off=False)
+        begun = replace(own, route=make_route_from(own.route, place), is_off=False)
         begun.arrived = begun.released = first
         notes = self._carried_out(f"{name} goes on from {place}")
         return [
@@ -331,7 +331,7 @@ class Dispatcher:
         InputError
             If there is no such vertex or lane.
         """
-        edges = _list_edges_into(self.plan.scenario.roadmap, names)
+        edges = list_edges_into(self.plan.scenario.roadmap, names)
         return self._noted({"kind": "closed", "names": names, "edges": edges}, "closed")
 
     def open(self, *names: str) -> list[Message]:
@@ -350,51 +350,18 @@ class Dispatcher:
         closed = self.ledger.closed
         known = names if names in closed else names[::-1]
         if known not in closed:
-            remedy = f"closed are: {', '.join(map(_name_place, closed)) or 'none'}"
-            raise InputError.at("place", f"{_name_place(names)} is not closed ({remedy})")
+            remedy = f"closed are: {', '.join(map(name_place, closed)) or 'none'}"
+            raise InputError.at("place", f"{name_place(names)} is not closed ({remedy})")
         return self._noted({"kind": "opened", "names": known}, "open")
 
     def _noted(self, entry: Entry, state: str) -> list[Message]:
         """Commit a change of the floor, then replan the rest if that is possible."""
-        text = f"{_name_place(entry['names'])} is {state}"
+        text = f"{name_place(entry['names'])} is {state}"
         messages = self.note(entry, text=text)
         try:
             return [*messages, *self.replan()]
         except GaveUp:
             return messages
-
-    def list_jobs(self) -> list[dict[str, Any]]:
-        """Return the jobs of all robots that are not done, in their order: name, place, state."""
-        rows = []
-        for name, own in zip(self.ledger.names, self.ledger.robots, strict=True):
-            for visit in range(own.arrived, own.route.end):
-                for job in own.route.get_jobs(visit):
-                    if job in own.finished:
-                        continue
-                    state = "released" if visit <= own.released else "planned"
-                    state = "failed" if job in own.failed else state
-                    place = own.route.get_place(visit)
-                    rows.append({"name": f"{name}/{job}", "at": place, "state": state})
-        return rows
-
-    def number_of(self, name: str) -> int:
-        """Return the number of a robot.
-
-        Parameters
-        ----------
-        name
-            Its name.
-
-        Raises
-        ------
-        InputError
-            If no robot has it.
-        """
-        names = self.ledger.names
-        if name not in names:
-            meant = find_nearest(name, names) or names[0]
-            raise InputError.at("robot", f"{quote(name)} is no robot (for example {meant})")
-        return names.index(name)
 
     def note(self, *entries: Entry, text: str) -> list[Message]:
         """Commit what a command changes, with its answer.
@@ -499,54 +466,3 @@ class Dispatcher:
             (ticks(before, vertex) + ticks(vertex, after) - ticks(before, after), place)
             for place, (before, after) in enumerate(pairwise(vertices))
         )
-
-    def _open_job(self, stops: Sequence[Sequence[StopToMake]], name: str) -> tuple[int, int]:
-        """Return the robot of a job that is not released, and which of its stops it is."""
-        robot, _, job = name.rpartition("/")
-        number = self.number_of(robot)
-        for place, stop in enumerate(stops[number]):
-            if stop.job == job:
-                return number, place
-        own = self.ledger.robots[number]
-        if job in own.route.all_jobs:
-            state = "done" if job in own.finished else "released"
-            raise InputError.at("job", f"{quote(name)} is {state} already (it cannot be changed)")
-        raise InputError.at("job", f"{quote(name)} is no job (see rightofway jobs list)")
-
-
-def _route_from(route: RouteToDrive, place: str) -> RouteToDrive:
-    """Return where a robot begins that was put at a place, and where its route ends.
-
-    Its visits have numbers that no order of before has.
-    """
-    places = (place, route.places[-1])
-    return RouteToDrive(
-        places=places, jobs=((), ()), work=((), ()), enter=(0, 1), first=route.end, in_step=False
-    )
-
-
-def _list_edges_into(roadmap: Roadmap, names: Sequence[str]) -> list[Edge]:
-    """Return the edges that lead into a vertex, or into a lane from both its ends.
-
-    Robots between the ends of a lane that was split drive out of it.
-    """
-    vertices = [roadmap.get_vertex(name) for name in names]
-    if len(vertices) == 1:
-        tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
-        into = [(tail, vertices[0]) for tail in tails[roadmap.heads == vertices[0]].tolist()]
-    else:
-        lanes = roadmap.find_ways_along((vertices[0], vertices[-1]))
-        if not lanes:
-            message = f"no lane joins {names[0]} and {names[-1]} (name both its ends)"
-            raise InputError.at("place", message)
-        into = [ends for lane in lanes for ends in ((lane[0], lane[1]), (lane[-1], lane[-2]))]
-    return [
-        (roadmap.name(tail), roadmap.name(head))
-        for tail, head in into
-        if roadmap.find_edge(tail, head) is not None
-    ]
-
-
-def _name_place(names: Sequence[str]) -> str:
-    """Return what people call a vertex, or a lane."""
-    return names[0] if len(names) == 1 else f"the lane between {names[0]} and {names[-1]}"

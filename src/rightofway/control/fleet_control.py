@@ -13,18 +13,23 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 
 from rightofway.control.journal import Entry, Journal
-from rightofway.control.ledger import Ledger, RobotLedger, RouteToDrive, plan_entry
-from rightofway.control.messages import (
-    Condition,
-    InstantAction,
-    Message,
-    Order,
-    OrderNode,
-    RobotState,
+from rightofway.control.ledger import Ledger, plan_entry
+from rightofway.control.messages import Condition, InstantAction, Message, RobotState
+from rightofway.control.orders import make_order, make_update
+from rightofway.control.proofs import (
+    find_proven_visit,
+    has_stopped,
+    is_acknowledged_by,
+    is_taken_back,
+    list_facts,
+    say_stray,
+    take_fault,
 )
-from rightofway.errors import InputError, escape_text
-from rightofway.phrases import Phrase
-from rightofway.precedence import Arrival, Part, ReleaseGraph
+from rightofway.control.releases import find_last_part, is_in_base
+from rightofway.control.robot_ledger import RobotLedger
+from rightofway.control.routes import RouteToDrive
+from rightofway.control.splices import refuse_changes, refuse_rotation
+from rightofway.precedence import Arrival, ReleaseGraph
 
 LOOK_AHEAD = 4
 """Released parts that a robot has not reached yet, at most: re-planning keeps the rest free."""
@@ -119,7 +124,7 @@ class FleetControl:
             If robots of the plan move round a circle at one instant.
         """
         names = tuple(names) or tuple(f"robot {number}" for number in range(len(routes)))
-        _refuse_rotation(graph, names)
+        refuse_rotation(graph, names)
         entry = plan_entry("plan", run, routes, graph, committed=[0] * len(routes), names=names)
         self._commit(entry)
 
@@ -166,24 +171,10 @@ class FleetControl:
         """
         robots, names = self.ledger.robots, self.ledger.names
         committed = self.list_committed()
-        _refuse_rotation(graph, names)
-        for robot, (own, new, end) in enumerate(zip(robots, routes, committed, strict=True)):
-            old, begin = own.route, max(own.route.first, new.first)
-            if robot in placed:
-                committed[robot] = begin
-                keeps_released = own.is_off and begin == old.end
-            else:
-                keeps_released = begin <= own.arrived and all(
-                    (old.get_place(visit), old.get_jobs(visit))
-                    == (new.get_place(visit), new.get_jobs(visit))
-                    for visit in range(begin, end + 1)
-                )
-            if not keeps_released:
-                message = "the route changes what is released (begin it with the released parts)"
-                raise InputError.at(("routes", robot), message)
-            unwanted = {job for other, job in withdrawn if other == robot}
-            if lost := sorted(old.all_jobs - own.finished - new.all_jobs - unwanted):
-                raise InputError.at(("routes", robot), f"{lost[0]} is in no visit (keep each job)")
+        refuse_rotation(graph, names)
+        refuse_changes(robots, routes, committed, withdrawn, placed)
+        for robot in placed:
+            committed[robot] = max(robots[robot].route.first, routes[robot].first)
         entry = plan_entry("splice", self.ledger.run, routes, graph, committed=committed)
         begins = [{"kind": "placed", "robot": k, "visit": routes[k].first} for k in placed]
         self._commit(*begins, {**entry, "withdrawn": [list(job) for job in withdrawn]}, *notes)
@@ -292,7 +283,8 @@ class FleetControl:
         self.lost.discard(robot)
         own, graph = self.ledger.robots[robot], self.ledger.graph
         before = own.arrived
-        self._commit(*self._facts(robot, state))
+        visit = self._proven(own, state)
+        self._commit(*list_facts(self.ledger, robot, state, visit, self._report))
         answers = list(self._answers(robot, state))
         self._commit(*answers)
         # At once: by the timer alone, a robot that says often that it has no order, because the
@@ -352,101 +344,9 @@ class FleetControl:
         elif own.cancel is not None and own.cancel.action_id is not None:
             yield InstantAction(robot=robot, action_id=own.cancel.action_id, kind="cancelOrder")
 
-    # --- what a state proves (rule 7) ------------------------------------------------------------
-
-    def _facts(self, robot: int, state: RobotState) -> Iterator[Entry]:
-        """Yield what a state proves: finished jobs, an arrival, faults."""
-        own = self.ledger.robots[robot]
-        for action_id, status in state.actions.items():
-            job = own.jobs_of.get(action_id)
-            if job is None or job in own.finished:
-                continue
-            if status == "FINISHED":
-                yield {"kind": "finished", "robot": robot, "job": job}
-            elif (
-                status == "FAILED"
-                and state.order_id == own.order_id
-                and self._is_failure(own, action_id, job)
-            ):
-                self._report(robot, Phrase("has failed in {job}: it goes no further", job=job))
-                yield {"kind": "failed", "robot": robot, "job": job}
-        visit = self._proven(own, state)
-        if visit is not None and visit > own.arrived:
-            yield {"kind": "arrived", "robot": robot, "visit": visit}
-        fault = None if own.fault else self._fault(robot, state)
-        if fault is not None:
-            yield self._fault_entry(robot, fault, state)
-
-    def _fault_entry(self, robot: int, fault: str, state: RobotState) -> Entry:
-        """Report a fault; return its entry."""
-        sentence = Phrase("is faulty: {fault}; a person has to look after it", fault=fault)
-        self._report(robot, sentence)
-        place = state.last_place or None
-        return {"kind": "fault", "robot": robot, "fault": fault, "place": place}
-
-    @staticmethod
-    def _is_failure(own: RobotLedger, action_id: str, job: str) -> bool:
-        """Return whether the last action for a job failed by itself, not by our withdrawal."""
-        is_last = action_id.endswith(f"-{own.attempts[job]}")
-        return is_last and job not in own.failed and own.cancel is None
-
     def _proven(self, own: RobotLedger, state: RobotState) -> int | None:
         """Return the visit at whose vertex a state proves that the robot has arrived."""
-        sent = own.orders.get(state.order_id)
-        if sent is None or state.last_sequence_id % 2:
-            return None
-        end = sent.ends.get(state.update_id)
-        if end is None:  # never sent, or so old that it proves nothing new
-            return None
-        begin = max(sent.offset, own.route.first)
-        visit = sent.offset + state.last_sequence_id // 2
-        if not begin <= visit <= min(end, own.released):
-            return None
-        if own.route.get_place(visit) != state.last_place:
-            return None
-        if not state.nodes:
-            # A state from before the update, after a withdrawal or a reset has no nodes either.
-            return visit if visit == end else None
-        ahead = [sent.offset + (number + 1) // 2 for number in (*state.nodes, *state.edges)]
-        visit = min(visit, min(ahead) - 1)
-        return visit if visit >= begin else None
-
-    def _fault(self, robot: int, state: RobotState) -> str | None:
-        """Return how a state contradicts all that was sent (rule 11)."""
-        own = self.ledger.robots[robot]
-        sent = own.orders.get(state.order_id)
-        if sent is None:
-            return self._fault_of_order(robot, own, state)
-        if state.update_id >= sent.updates:
-            return Phrase(
-                "it has update {update} of an order with {updates}",
-                update=str(state.update_id),
-                updates=str(sent.updates),
-            )
-        visit = sent.offset + state.last_sequence_id // 2
-        if state.update_id not in sent.ends or visit < own.route.first:
-            return None  # of long ago: where it was is not kept
-        end = max(sent.ends.values())
-        base = range(sent.offset, end + 1)
-        beyond = [number for number in state.nodes if sent.offset + number // 2 not in base]
-        if beyond:
-            return Phrase("it drives to node {node}, which was not released", node=str(beyond[0]))
-        places = own.route.stretch(sent.offset, end + 1)
-        if state.order_id == own.order_id and state.last_place not in {*places, ""}:
-            return Phrase("it is at {place}, off its way", place=escape_text(state.last_place[:80]))
-        return None
-
-    def _fault_of_order(self, robot: int, own: RobotLedger, state: RobotState) -> str | None:
-        """Return what is wrong with an order that is not kept."""
-        if not state.order_id:
-            return None
-        if not self.ledger.owns(robot, state.order_id):
-            order = escape_text(state.order_id[:80])
-            return Phrase("it has order {order}, which is not ours", order=order)
-        number = int(state.order_id.rpartition("-")[2])
-        if number < own.first_order and state.nodes:
-            return Phrase("it still has an order from before it was placed")
-        return None
+        return find_proven_visit(own, state)
 
     # --- what follows for its orders (rules 6, 8, 9) ---------------------------------------------
 
@@ -455,16 +355,16 @@ class FleetControl:
         own = self.ledger.robots[robot]
         if own.message is None or own.is_off:
             return
-        if state.order_id == own.order_id and self._is_taken_back(robot, state):
+        if state.order_id == own.order_id and is_taken_back(self.ledger, robot, state):
             yield from self._settle_doubt(robot, state)
         elif state.order_id == own.order_id:
             if own.token in state.actions:
                 yield {"kind": "certain", "robot": robot}
             stands_at = own.find_held(state.last_place)
-            if not own.is_acknowledged and self._acknowledges(own, state):
+            if not own.is_acknowledged and is_acknowledged_by(own, state):
                 yield {"kind": "acknowledged", "robot": robot}
-            elif self._has_stopped(own, state) and stands_at is not None:
-                order = self._new_order(robot, stands_at, stands_at)
+            elif has_stopped(own, state) and stands_at is not None:
+                order = make_order(self.ledger, robot, stands_at, stands_at)
                 yield {**order, "stands_at": stands_at}
         elif not state.order_id or self.ledger.owns(robot, state.order_id):
             yield from self._settle_doubt(robot, state)
@@ -482,88 +382,13 @@ class FleetControl:
         elif own.token in state.actions and state.is_idle:
             stands_at = own.find_held(state.last_place)
             if stands_at is not None:
-                yield self._new_order(robot, stands_at, own.released)
+                yield make_order(self.ledger, robot, stands_at, own.released)
             elif own.fault is None:
-                place = escape_text(state.last_place[:80])
-                fault = Phrase("it stands at {place}, which it does not hold", place=place)
-                yield self._fault_entry(robot, fault, state)
-
-    def _is_taken_back(self, robot: int, state: RobotState) -> bool:
-        """Return whether an old withdrawal, which has come late, took the current order back.
-
-        The robot takes no update of it any more. Its answer to a token says where it stands.
-        """
-        own, start = self.ledger.robots[robot], f"{self.ledger.run}-{robot}-cancel"
-        current = own.cancel.action_id if own.cancel else None
-        return any(
-            status == "FINISHED" and action.startswith(start) and action != current
-            for action, status in state.actions.items()
-        )
-
-    @staticmethod
-    def _acknowledges(own: RobotLedger, state: RobotState) -> bool:
-        """Return whether a state shows the last order or update, to its last node."""
-        assert own.message is not None
-        last = own.message.nodes[-1].sequence_id
-        is_known = last in state.nodes or last == state.last_sequence_id
-        return state.update_id == own.message.update_id and is_known
-
-    @staticmethod
-    def _has_stopped(own: RobotLedger, state: RobotState) -> bool:
-        """Return whether a robot has carried out our withdrawal, or had nothing to withdraw."""
-        if own.cancel is None or own.cancel.action_id is None or own.token is not None:
-            return False
-        status = state.actions.get(own.cancel.action_id)
-        return status in {"FINISHED", "FAILED"} and state.is_idle and own.is_acknowledged
-
-    def _new_order(self, robot: int, begin: int, end: int) -> Entry:
-        """Return the entry of a new order over some parts."""
-        own = self.ledger.robots[robot]
-        order_id = f"{self.ledger.run}-{robot}-{own.order_count}"
-        parts = range(begin, end + 1)
-        nodes, actions = self._nodes(robot, parts, begin)
-        order = Order(robot=robot, order_id=order_id, update_id=0, nodes=tuple(nodes))
-        return _order_entry(order, begin, actions)
+                yield take_fault(robot, say_stray(state), state, self._report)
 
     def _update(self, robot: int, end: int) -> Entry:
-        """Return the entry of an update to a last part; it begins with the last node of the base.
-
-        That node is sent again word for word; its actions are done once.
-        """
-        own = self.ledger.robots[robot]
-        assert own.message is not None
-        sent = own.orders[own.order_id]
-        parts = range(own.released + 1, end + 1)
-        nodes, actions = self._nodes(robot, parts, sent.offset)
-        order = Order(
-            robot=robot,
-            order_id=own.order_id,
-            update_id=sent.updates,
-            nodes=(own.message.nodes[-1], *nodes),
-        )
-        return _order_entry(order, sent.offset, actions)
-
-    def _nodes(
-        self, robot: int, parts: range, offset: int
-    ) -> tuple[list[OrderNode], list[tuple[str, str, int]]]:
-        """Return the nodes of parts, and the id, job and number of their actions.
-
-        The action of a job keeps its id in all orders, so that it is not done twice: a state that
-        says that it is finished may have been lost.
-        """
-        own, actions, nodes = self.ledger.robots[robot], [], []
-        for part in parts:
-            ids = list[str]()
-            for job in own.route.get_jobs(part):
-                if job in own.finished or job in own.failed:  # a person decides on failed ones
-                    continue
-                last = own.attempts.get(job, 0)
-                attempt = max(last, 1)
-                ids.append(f"{self.ledger.run}-{robot}-{job}-{attempt}")
-                actions.append((ids[-1], job, attempt))
-            place, number = own.route.get_place(part), 2 * (part - offset)
-            nodes.append(OrderNode(place=place, sequence_id=number, actions=tuple(ids)))
-        return nodes, actions
+        """Return the entry of an update to a last part."""
+        return make_update(self.ledger, robot, end)
 
     # --- what may be released (rules 4 and 5) ----------------------------------------------------
 
@@ -582,7 +407,7 @@ class FleetControl:
         if own.is_off or own.token is not None:
             return None
         if own.message is None:
-            return self._new_order(robot, own.arrived, own.arrived)
+            return make_order(self.ledger, robot, own.arrived, own.arrived)
         if not own.is_acknowledged:
             return None
         if own.cancel is None:
@@ -594,48 +419,17 @@ class FleetControl:
 
     def _next_release(self, robot: int, own: RobotLedger) -> Entry | None:
         """Return an update with all that may be released now, if there is any."""
-        end = own.released
-        while self._may_release(robot, own, end + 1):
-            end += 1
+        if not self.is_fit(robot):
+            return None
+        end = find_last_part(self.ledger, robot, self._ahead(robot), self._is_in_base)
         if end == own.released:
             return None
         # All that was released to it is driven and acknowledged, so it stands without an order.
         if own.order_jobs >= self._long_order and own.arrived == own.released:
-            return self._new_order(robot, own.released, end)
+            return make_order(self.ledger, robot, own.released, end)
         return self._update(robot, end)
 
-    def _may_release(self, robot: int, own: RobotLedger, part: int) -> bool:
-        """Return whether a part may be released after those before it (rule 4)."""
-        route = own.route
-        return (
-            part < route.end
-            and not own.is_on_hold
-            and own.fault is None
-            and self.is_fit(robot)
-            and part - own.arrived <= self._ahead(robot)
-            and own.finished.issuperset(route.get_jobs(part - 1))
-            and not self._is_in_base(own, part)
-            and not self._is_closed(route.get_place(part - 1), route.get_place(part))
-            and not self._is_strayed_to(route.get_place(part))
-            and self.ledger.graph.may_go(Part(robot, part), self.ledger.arrived)
-        )
-
-    @staticmethod
-    def _is_in_base(own: RobotLedger, part: int) -> bool:
-        """Return whether a robot holds the vertex of a part already, by an earlier part.
-
-        A robot that forgot its order would take an update again whose way ends where it began, and
-        drive it twice.
-        """
-        return own.route.get_place(part) in own.route.stretch(own.arrived, part)
-
-    def _is_closed(self, tail: str, head: str) -> bool:
-        """Return whether nobody may enter an edge."""
-        return any((tail, head) in edges for edges in self.ledger.closed.values())
-
-    def _is_strayed_to(self, place: str) -> bool:
-        """Return whether a faulty robot says that it is at a place."""
-        return any(other.strays_at == place for other in self.ledger.robots)
+    _is_in_base = staticmethod(is_in_base)
 
     def _ahead(self, robot: int) -> int:
         """Return how far ahead a robot may be released: twice as far if it asks for more."""
@@ -657,22 +451,3 @@ class FleetControl:
             self._since_snapshot += len(entries)
             for entry in entries:
                 self.ledger.apply(entry)
-
-
-def _order_entry(order: Order, offset: int, actions: list[tuple[str, str, int]]) -> Entry:
-    """Return the entry of an order whose sequence id 0 is a part of the route."""
-    document = order.to_document()
-    return {
-        "kind": "order",
-        "robot": order.robot,
-        "order": document,
-        "offset": offset,
-        "actions": actions,
-    }
-
-
-def _refuse_rotation(graph: ReleaseGraph, names: Sequence[str]) -> None:
-    if cycle := graph.find_rotation():
-        robots = ", ".join(names[robot] for robot in sorted({part.robot for part in cycle}))
-        message = f"{robots} move round a circle at one instant, which orders cannot make safe"
-        raise InputError.at("plan", f"{message} (plan with rotations: false)")

@@ -149,10 +149,14 @@ class SqliteJournal:
             database.executemany("INSERT INTO entries (entry, moment) VALUES (?, ?)", rows)
 
     def begin_again(self, snapshot: Entry) -> None:
-        """Append a snapshot; drop the entries from before the last snapshot but one."""
+        """Append a snapshot; drop the entries from before the last snapshot but one.
+
+        The snapshot gets the moment at which the run began, as the first entry may go.
+        """
         with self._transaction() as database:
             query = "INSERT INTO entries (entry, moment) VALUES (?, ?)"
-            number = database.execute(query, (_text_of(snapshot), self._now())).lastrowid
+            text = _text_of({**snapshot, **_find_begin(database)})
+            number = database.execute(query, (text, self._now())).lastrowid
             last = database.execute("SELECT max(number) FROM snapshots").fetchone()[0] or 0
             database.execute("DELETE FROM entries WHERE number < ?", (last,))
             database.execute("DELETE FROM snapshots WHERE number < ?", (last,))
@@ -284,6 +288,15 @@ class BatchedJournal:
 
 def _text_of(entry: Entry) -> str:
     return json.dumps(entry, separators=(",", ":"))
+
+
+def _find_begin(database: sqlite3.Connection) -> Entry:
+    """Return the moment at which the run began, as a snapshot has it; nothing if none is known."""
+    row = database.execute("SELECT entry, moment FROM entries ORDER BY number LIMIT 1").fetchone()
+    if row is None:
+        return {}
+    began = json.loads(row[0]).get("began", row[1])
+    return {} if began is None else {"began": began}
 
 
 def _lock_of(path: Path) -> Path:

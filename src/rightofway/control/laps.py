@@ -17,8 +17,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rightofway.control.ledger import RobotLedger, RouteToDrive
-from rightofway.control.routes import make_routes_to_drive
+from rightofway.control.robot_ledger import RobotLedger
+from rightofway.control.routes import RouteToDrive, make_routes_to_drive
 from rightofway.errors import InputError
 from rightofway.model import Plan, Scenario, Track
 from rightofway.precedence import Arrival, Part, ReleaseGraph

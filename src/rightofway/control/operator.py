@@ -15,6 +15,7 @@ from rightofway.control.commands import Answer, Commands
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.journal import Entry
 from rightofway.control.messages import Message
+from rightofway.control.names import find_robot, list_jobs
 from rightofway.errors import GaveUp, InputError, quote
 
 __all__ = ["Operator"]
@@ -83,7 +84,7 @@ class Operator:
         clock = dispatcher.plan.scenario.problem.clock
         ticks = None if lasts is None else clock.ticks(Fraction(lasts))
         if kind == "list":
-            return [], {"done": True, "text": "", "jobs": dispatcher.list_jobs()}
+            return [], {"done": True, "text": "", "jobs": list_jobs(dispatcher.ledger)}
         changes: dict[str, Callable[[], list[Message]]] = {
             "add": lambda: dispatcher.add_job(str(at), int(ticks or 0), robot)[1],
             "change": lambda: dispatcher.change_job(name, at, ticks),
@@ -102,7 +103,7 @@ class Operator:
     def _operate(self, kind: str, name: str | None) -> list[Message]:
         """Hold one robot or all, let them go, or confirm where one is."""
         dispatcher, names = self._dispatcher, self._dispatcher.ledger.names
-        robots = range(len(names)) if name is None else [dispatcher.number_of(name)]
+        robots = range(len(names)) if name is None else [find_robot(dispatcher.ledger, name)]
         entry = OPERATIONS.get(kind)
         if entry is None:
             raise InputError.at("command", f"{quote(kind)} is no command (see rightofway jobs)")

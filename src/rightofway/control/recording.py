@@ -12,7 +12,9 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from rightofway.control.journal import JournalRow
-from rightofway.control.ledger import Ledger, RobotLedger, RouteToDrive
+from rightofway.control.ledger import Ledger
+from rightofway.control.robot_ledger import RobotLedger
+from rightofway.control.routes import RouteToDrive
 from rightofway.control.story import Story
 from rightofway.errors import InputError, quote
 from rightofway.model import Plan
@@ -161,7 +163,8 @@ class Recording:
         """Take in the entries of one moment."""
         moment = group[0].moment
         if moment is not None:
-            self._began = moment if self._began is None else self._began
+            if self._began is None:
+                self._began = group[0].entry.get("began", moment)  # a snapshot knows it
             self._moment, self._seen = max(self._moment, moment), self._clock()
         tick = round(
             max(self._tick(self._moment), self._rows[-1][0] if self._rows else 0), DECIMALS

@@ -8,18 +8,24 @@ the rest has the order of a plan: the new order has no cycle. Bookings are those
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from itertools import accumulate
-from typing import NamedTuple
 
 from rightofway.check import check
+from rightofway.control.commitments import (
+    RobotCommitment,
+    StopToMake,
+    list_stops_to_make,
+    make_robot_commitment,
+)
 from rightofway.control.laps import build_graph_behind_released
-from rightofway.control.ledger import RobotLedger, RouteToDrive
+from rightofway.control.robot_ledger import RobotLedger
+from rightofway.control.routes import RouteToDrive
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.execution.replan import list_held
 from rightofway.model import Plan, PlannerRun, Robot, Scenario, Stop, Tick, Track, route_of
-from rightofway.model.route import drives_along, route_through
+from rightofway.model.route import route_through
 from rightofway.planners.lacam import build_timetable_if_possible
 from rightofway.planners.local_search import LocalSearch
 from rightofway.planners.task import Task, make_planning_problem
@@ -28,52 +34,13 @@ from rightofway.search import Distances
 from rightofway.site import Roadmap, VertexId
 from rightofway.solve import solve
 
-__all__ = ["RestPlanner", "StopToMake", "list_stops_to_make"]
+__all__ = ["RestPlanner"]
 
 SHARE = 50
 """Rights of way are switched where that saves a fiftieth of the flowtime of the rest, or more."""
 
 MOST_ASIDE = 3
 """Neighbours that are tried where a robot has to leave a place and come back to work there."""
-
-
-class StopToMake(NamedTuple):
-    """A job that is not released yet, the end of a lap, or a place to pass."""
-
-    place: str
-    job: str = ""
-    work: int = 0  # [ticks]
-    ends_lap: bool = False
-
-
-def list_stops_to_make(own: RobotLedger, released: int) -> list[StopToMake]:
-    """Return the jobs and ends of laps of a robot behind what is released, in their order.
-
-    Parameters
-    ----------
-    own
-        What is known of the robot.
-    released
-        Its last part that is kept.
-    """
-    stops = []
-    for visit in range(released + 1, own.route.end):
-        place = own.route.get_place(visit)
-        rows = zip(own.route.get_jobs(visit), own.route.get_work(visit), strict=True)
-        stops += [StopToMake(place, job, work) for job, work in rows if job not in own.finished]
-        if visit in own.route.lap_ends:
-            stops.append(StopToMake(place, ends_lap=True))
-    return stops
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Commitment:
-    """What a robot keeps, from the visit on at which it has arrived."""
-
-    route: RouteToDrive  # up to the last released part
-    vertices: tuple[int, ...]
-    work: int  # that is not done yet [ticks]
-    busy: int  # until it is done at the end of it [ticks]
 
 
 class RestPlanner:
@@ -129,7 +96,7 @@ class RestPlanner:
             If no plan was found, or the judge refuses it.
         """
         commitments = [
-            self._commitment(robot, own, end)
+            make_robot_commitment(self._scenario, robot, own, end)
             for robot, (own, end) in enumerate(zip(robots, released, strict=True))
         ]
         moving = [robot for robot, own in enumerate(robots) if not own.is_off]
@@ -173,7 +140,8 @@ class RestPlanner:
         moving = [robot for robot, own in enumerate(robots) if not own.is_off]
         routes = [own.route.cut_before(own.arrived) for own in robots]
         commitments = {
-            robot: self._commitment(robot, robots[robot], released[robot]) for robot in moving
+            robot: make_robot_commitment(self._scenario, robot, robots[robot], released[robot])
+            for robot in moving
         }
         stops = {
             robot: [
@@ -231,36 +199,9 @@ class RestPlanner:
         released_first = build_graph_behind_released(self._scenario, routes, released, absent)
         return None if released_first.find_rotation() else (routes, released_first)
 
-    def _commitment(self, robot: int, own: RobotLedger, released: int) -> _Commitment:
-        route = own.route.cut_before(own.arrived)
-        length = released - own.arrived + 1
-        roadmap = self._scenario.roadmap
-        vertices = tuple(int(roadmap.get_vertex(place)) for place in route.places[:length])
-        work = sum(
-            ticks
-            for names, times in zip(route.jobs[:length], route.work[:length], strict=True)
-            for job, ticks in zip(names, times, strict=True)
-            if job not in own.finished
-        )
-        itinerary = self._scenario.problem.itineraries[robot]
-        drives = drives_along(roadmap, itinerary, vertices) if length > 1 else []
-        return _Commitment(
-            route=replace(
-                route,
-                places=route.places[:length],
-                jobs=route.jobs[:length],
-                work=route.work[:length],
-                enter=route.enter[:length],
-                lap_ends=tuple(end for end in route.lap_ends if end <= released),
-            ),
-            vertices=vertices,
-            work=work,
-            busy=work + sum(drives),
-        )
-
     def _find_passable(
         self,
-        commitments: Sequence[_Commitment],
+        commitments: Sequence[RobotCommitment],
         closed: Collection[tuple[str, str]],
         stuck: Sequence[int],
     ) -> Roadmap:
@@ -274,7 +215,7 @@ class RestPlanner:
 
     def _routes(
         self,
-        commitments: Sequence[_Commitment],
+        commitments: Sequence[RobotCommitment],
         ways: Mapping[int, Sequence[StopToMake]],
         passable: Roadmap,
         stuck: Collection[int],
@@ -358,7 +299,7 @@ class RestPlanner:
         return len(stops)
 
     def _way(
-        self, own: RobotLedger, commitment: _Commitment, stops: Sequence[StopToMake], aside: int
+        self, own: RobotLedger, commitment: RobotCommitment, stops: Sequence[StopToMake], aside: int
     ) -> list[StopToMake]:
         """Return the stops behind what is kept, with one beside it where the robot comes back.
 
@@ -398,7 +339,7 @@ class RestPlanner:
         whole: Scenario,
         index: int,
         track: Track,
-        commitment: _Commitment,
+        commitment: RobotCommitment,
         stops: Sequence[StopToMake],
     ) -> RouteToDrive:
         """Return the route of a whole track, with its jobs and ends of laps."""

@@ -1,11 +1,142 @@
-"""The routes of a plan as orders have them: names of vertices, and the work at stops as jobs."""
+"""Routes as orders have them: names of vertices, and the work at stops as jobs."""
 
 from __future__ import annotations
 
-from rightofway.control.ledger import RouteToDrive
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
 from rightofway.model import Plan, route_of
 
-__all__ = ["make_routes_to_drive"]
+__all__ = ["RouteToDrive", "make_route_from", "make_routes_to_drive"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RouteToDrive:
+    """The route of a robot as orders have it; visits keep their numbers when the first ones go.
+
+    Attributes
+    ----------
+    places
+        The name of the vertex of each visit.
+    jobs
+        For each visit the names of what is to be done there; each name is in one visit.
+    first
+        The number of the first visit that is kept.
+    work
+        For each job of each visit how long it lasts with its turn [ticks]; empty where nobody
+        plans.
+    enter
+        When each visit is planned to begin [ticks]: only the order of these times counts. Empty
+        where nobody plans.
+    lap_ends
+        Numbers of the visits at which a lap ends.
+    in_step
+        Whether the end is that of a lap of the plan, so that its next lap may follow.
+    """
+
+    places: tuple[str, ...]
+    jobs: tuple[tuple[str, ...], ...]
+    first: int = 0
+    work: tuple[tuple[int, ...], ...] = ()
+    enter: tuple[int, ...] = ()
+    lap_ends: tuple[int, ...] = ()
+    in_step: bool = True
+
+    @property
+    def end(self) -> int:
+        """The number after that of the last visit."""
+        return self.first + len(self.places)
+
+    def get_place(self, visit: int) -> str:
+        """Return the name of the vertex of a visit.
+
+        Parameters
+        ----------
+        visit
+            The number of a visit that is kept.
+        """
+        return self.places[self._index(visit)]
+
+    def get_jobs(self, visit: int) -> tuple[str, ...]:
+        """Return what is to be done in a visit.
+
+        Parameters
+        ----------
+        visit
+            The number of a visit that is kept.
+        """
+        return self.jobs[self._index(visit)]
+
+    def get_work(self, visit: int) -> tuple[int, ...]:
+        """Return how long each job of a visit lasts [ticks].
+
+        Parameters
+        ----------
+        visit
+            The number of a visit that is kept.
+        """
+        return self.work[self._index(visit)]
+
+    def stretch(self, begin: int, end: int) -> tuple[str, ...]:
+        """Return the places of visits, those before ``end``.
+
+        Parameters
+        ----------
+        begin, end
+            Numbers of visits; what is not kept is left out.
+        """
+        return self.places[max(begin - self.first, 0) : max(end - self.first, 0)]
+
+    def cut_before(self, visit: int) -> RouteToDrive:
+        """Return the route without the visits before one.
+
+        Parameters
+        ----------
+        visit
+            The number of a visit that is kept.
+        """
+        index = self._index(visit)
+        return replace(
+            self,
+            first=visit,
+            places=self.places[index:],
+            jobs=self.jobs[index:],
+            work=self.work[index:],
+            enter=self.enter[index:],
+            lap_ends=tuple(end for end in self.lap_ends if end >= visit),
+        )
+
+    @property
+    def all_jobs(self) -> set[str]:
+        """Return the names of all that is to be done."""
+        return {job for jobs in self.jobs for job in jobs}
+
+    def _index(self, visit: int) -> int:
+        index = visit - self.first
+        if index < 0:
+            raise IndexError(f"visit {visit} is not kept, the first is {self.first}")
+        return index
+
+    @classmethod
+    def of_document(cls, document: Mapping[str, Any]) -> RouteToDrive:
+        """Return a route of a journal.
+
+        Parameters
+        ----------
+        document
+            The route as `asdict` has it.
+        """
+        return cls(
+            **{
+                **document,
+                "places": tuple(document["places"]),
+                "jobs": tuple(map(tuple, document["jobs"])),
+                "work": tuple(map(tuple, document["work"])),
+                "enter": tuple(document["enter"]),
+                "lap_ends": tuple(document["lap_ends"]),
+            }
+        )
 
 
 def make_routes_to_drive(plan: Plan) -> list[RouteToDrive]:
@@ -39,3 +170,14 @@ def make_routes_to_drive(plan: Plan) -> list[RouteToDrive]:
             )
         )
     return routes
+
+
+def make_route_from(route: RouteToDrive, place: str) -> RouteToDrive:
+    """Return where a robot begins that was put at a place, and where its route ends.
+
+    Its visits have numbers that no order of before has.
+    """
+    places = (place, route.places[-1])
+    return RouteToDrive(
+        places=places, jobs=((), ()), work=((), ()), enter=(0, 1), first=route.end, in_step=False
+    )

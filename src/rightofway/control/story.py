@@ -6,7 +6,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
-from rightofway.control.ledger import Ledger, RobotLedger
+from rightofway.control.ledger import Ledger
+from rightofway.control.robot_ledger import RobotLedger
 from rightofway.phrases import Phrase
 from rightofway.precedence import Part
 from rightofway.report.driving import (

@@ -1,0 +1,95 @@
+"""What a robot keeps where the rest is replanned, and the stops that it has still to make."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+from rightofway.control.robot_ledger import RobotLedger
+from rightofway.control.routes import RouteToDrive
+from rightofway.model import Scenario
+from rightofway.model.route import drives_along
+
+__all__ = ["RobotCommitment", "StopToMake", "list_stops_to_make", "make_robot_commitment"]
+
+
+class StopToMake(NamedTuple):
+    """A job that is not released yet, the end of a lap, or a place to pass."""
+
+    place: str
+    job: str = ""
+    work: int = 0  # [ticks]
+    ends_lap: bool = False
+
+
+def list_stops_to_make(own: RobotLedger, released: int) -> list[StopToMake]:
+    """Return the jobs and ends of laps of a robot behind what is released, in their order.
+
+    Parameters
+    ----------
+    own
+        What is known of the robot.
+    released
+        Its last part that is kept.
+    """
+    stops = []
+    for visit in range(released + 1, own.route.end):
+        place = own.route.get_place(visit)
+        rows = zip(own.route.get_jobs(visit), own.route.get_work(visit), strict=True)
+        stops += [StopToMake(place, job, work) for job, work in rows if job not in own.finished]
+        if visit in own.route.lap_ends:
+            stops.append(StopToMake(place, ends_lap=True))
+    return stops
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RobotCommitment:
+    """What a robot keeps, from the visit on at which it has arrived."""
+
+    route: RouteToDrive  # up to the last released part
+    vertices: tuple[int, ...]
+    work: int  # that is not done yet [ticks]
+    busy: int  # until it is done at the end of it [ticks]
+
+
+def make_robot_commitment(
+    scenario: Scenario, robot: int, own: RobotLedger, released: int
+) -> RobotCommitment:
+    """Return what a robot keeps, up to its last released part.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    robot
+        Its number.
+    own
+        What is known of it.
+    released
+        Its last part that is kept.
+    """
+    route = own.route.cut_before(own.arrived)
+    length = released - own.arrived + 1
+    roadmap = scenario.roadmap
+    vertices = tuple(int(roadmap.get_vertex(place)) for place in route.places[:length])
+    work = sum(
+        ticks
+        for names, times in zip(route.jobs[:length], route.work[:length], strict=True)
+        for job, ticks in zip(names, times, strict=True)
+        if job not in own.finished
+    )
+    itinerary = scenario.problem.itineraries[robot]
+    drives = drives_along(roadmap, itinerary, vertices) if length > 1 else []
+    return RobotCommitment(
+        route=replace(
+            route,
+            places=route.places[:length],
+            jobs=route.jobs[:length],
+            work=route.work[:length],
+            enter=route.enter[:length],
+            lap_ends=tuple(end for end in route.lap_ends if end <= released),
+        ),
+        vertices=vertices,
+        work=work,
+        busy=work + sum(drives),
+    )

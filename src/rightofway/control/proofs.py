@@ -1,0 +1,163 @@
+"""What a state proves: arrivals, finished jobs, acknowledgements, faults (rules 7 and 11).
+
+States may come late, twice and in any order, with a wrong field. What is proven stays true.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from rightofway.control.journal import Entry
+from rightofway.control.ledger import Ledger
+from rightofway.control.messages import RobotState
+from rightofway.control.robot_ledger import RobotLedger
+from rightofway.errors import escape_text
+from rightofway.phrases import Phrase
+
+__all__ = [
+    "find_proven_visit",
+    "has_stopped",
+    "is_acknowledged_by",
+    "is_taken_back",
+    "list_facts",
+    "say_stray",
+    "take_fault",
+]
+
+Report = Callable[[int, str], None]
+"""Receives a robot and a sentence on it."""
+
+
+def list_facts(
+    ledger: Ledger, robot: int, state: RobotState, visit: int | None, report: Report
+) -> Iterator[Entry]:
+    """Yield what a state proves: finished jobs, an arrival at a visit, faults; report faults."""
+    own = ledger.robots[robot]
+    for action_id, status in state.actions.items():
+        job = own.jobs_of.get(action_id)
+        if job is None or job in own.finished:
+            continue
+        if status == "FINISHED":
+            yield {"kind": "finished", "robot": robot, "job": job}
+        elif (
+            status == "FAILED"
+            and state.order_id == own.order_id
+            and _is_failure(own, action_id, job)
+        ):
+            report(robot, Phrase("has failed in {job}: it goes no further", job=job))
+            yield {"kind": "failed", "robot": robot, "job": job}
+    if visit is not None and visit > own.arrived:
+        yield {"kind": "arrived", "robot": robot, "visit": visit}
+    fault = None if own.fault else _find_fault(ledger, robot, state)
+    if fault is not None:
+        yield take_fault(robot, fault, state, report)
+
+
+def say_stray(state: RobotState) -> str:
+    """Return the fault of a robot that has lost its order elsewhere than where it was held."""
+    place = escape_text(state.last_place[:80])
+    return Phrase("it stands at {place}, which it does not hold", place=place)
+
+
+def take_fault(robot: int, fault: str, state: RobotState, report: Report) -> Entry:
+    """Report a fault; return its entry."""
+    sentence = Phrase("is faulty: {fault}; a person has to look after it", fault=fault)
+    report(robot, sentence)
+    place = state.last_place or None
+    return {"kind": "fault", "robot": robot, "fault": fault, "place": place}
+
+
+def _is_failure(own: RobotLedger, action_id: str, job: str) -> bool:
+    """Return whether the last action for a job failed by itself, not by our withdrawal."""
+    is_last = action_id.endswith(f"-{own.attempts[job]}")
+    return is_last and job not in own.failed and own.cancel is None
+
+
+def find_proven_visit(own: RobotLedger, state: RobotState) -> int | None:
+    """Return the visit at whose vertex a state proves that the robot has arrived."""
+    sent = own.orders.get(state.order_id)
+    if sent is None or state.last_sequence_id % 2:
+        return None
+    end = sent.ends.get(state.update_id)
+    if end is None:  # never sent, or so old that it proves nothing new
+        return None
+    begin = max(sent.offset, own.route.first)
+    visit = sent.offset + state.last_sequence_id // 2
+    if not begin <= visit <= min(end, own.released):
+        return None
+    if own.route.get_place(visit) != state.last_place:
+        return None
+    if not state.nodes:
+        # A state from before the update, after a withdrawal or a reset has no nodes either.
+        return visit if visit == end else None
+    ahead = [sent.offset + (number + 1) // 2 for number in (*state.nodes, *state.edges)]
+    visit = min(visit, min(ahead) - 1)
+    return visit if visit >= begin else None
+
+
+def _find_fault(ledger: Ledger, robot: int, state: RobotState) -> str | None:
+    """Return how a state contradicts all that was sent (rule 11)."""
+    own = ledger.robots[robot]
+    sent = own.orders.get(state.order_id)
+    if sent is None:
+        return _find_fault_of_order(ledger, robot, state)
+    if state.update_id >= sent.updates:
+        return Phrase(
+            "it has update {update} of an order with {updates}",
+            update=str(state.update_id),
+            updates=str(sent.updates),
+        )
+    visit = sent.offset + state.last_sequence_id // 2
+    if state.update_id not in sent.ends or visit < own.route.first:
+        return None  # of long ago: where it was is not kept
+    end = max(sent.ends.values())
+    base = range(sent.offset, end + 1)
+    beyond = [number for number in state.nodes if sent.offset + number // 2 not in base]
+    if beyond:
+        return Phrase("it drives to node {node}, which was not released", node=str(beyond[0]))
+    places = own.route.stretch(sent.offset, end + 1)
+    if state.order_id == own.order_id and state.last_place not in {*places, ""}:
+        return Phrase("it is at {place}, off its way", place=escape_text(state.last_place[:80]))
+    return None
+
+
+def _find_fault_of_order(ledger: Ledger, robot: int, state: RobotState) -> str | None:
+    """Return what is wrong with an order that is not kept."""
+    if not state.order_id:
+        return None
+    if not ledger.owns(robot, state.order_id):
+        order = escape_text(state.order_id[:80])
+        return Phrase("it has order {order}, which is not ours", order=order)
+    number = int(state.order_id.rpartition("-")[2])
+    if number < ledger.robots[robot].first_order and state.nodes:
+        return Phrase("it still has an order from before it was placed")
+    return None
+
+
+def is_taken_back(ledger: Ledger, robot: int, state: RobotState) -> bool:
+    """Return whether an old withdrawal, which has come late, took the current order back.
+
+    The robot takes no update of it any more. Its answer to a token says where it stands.
+    """
+    own, start = ledger.robots[robot], f"{ledger.run}-{robot}-cancel"
+    current = own.cancel.action_id if own.cancel else None
+    return any(
+        status == "FINISHED" and action.startswith(start) and action != current
+        for action, status in state.actions.items()
+    )
+
+
+def is_acknowledged_by(own: RobotLedger, state: RobotState) -> bool:
+    """Return whether a state shows the last order or update, to its last node."""
+    assert own.message is not None
+    last = own.message.nodes[-1].sequence_id
+    is_known = last in state.nodes or last == state.last_sequence_id
+    return state.update_id == own.message.update_id and is_known
+
+
+def has_stopped(own: RobotLedger, state: RobotState) -> bool:
+    """Return whether a robot has carried out our withdrawal, or had nothing to withdraw."""
+    if own.cancel is None or own.cancel.action_id is None or own.token is not None:
+        return False
+    status = state.actions.get(own.cancel.action_id)
+    return status in {"FINISHED", "FAILED"} and state.is_idle and own.is_acknowledged

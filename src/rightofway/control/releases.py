@@ -1,0 +1,69 @@
+"""What may be released to a robot (rule 4): parts of its route for which all that excludes is over.
+
+Who goes first has arrived beyond; no person, closure or stray robot is in the way. What robots say
+of themselves holds releases back in the control, and never lets one go.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from rightofway.control.ledger import Ledger
+from rightofway.control.robot_ledger import RobotLedger
+from rightofway.precedence import Part
+
+__all__ = ["find_last_part", "is_in_base"]
+
+
+def find_last_part(
+    ledger: Ledger,
+    robot: int,
+    ahead: int,
+    is_in_base: Callable[[RobotLedger, int], bool],
+) -> int:
+    """Return the last part that may be released now; that which is released if none may.
+
+    Parameters
+    ----------
+    ledger
+        What the journal says.
+    robot
+        A robot that is fit.
+    ahead
+        How many parts beyond the vertex last arrived at may be released.
+    is_in_base
+        Tells whether a robot holds the vertex of a part already.
+    """
+    own, end = ledger.robots[robot], ledger.robots[robot].released
+    if own.is_on_hold or own.fault is not None:
+        return end
+    route, last, arrived = own.route, min(own.arrived + ahead, own.route.end - 1), ledger.arrived
+    while (
+        end < last
+        and own.finished.issuperset(route.get_jobs(end))
+        and not is_in_base(own, end + 1)
+        and not _is_closed(ledger, route.get_place(end), route.get_place(end + 1))
+        and not _is_strayed_to(ledger, route.get_place(end + 1))
+        and ledger.graph.may_go(Part(robot, end + 1), arrived)
+    ):
+        end += 1
+    return end
+
+
+def is_in_base(own: RobotLedger, part: int) -> bool:
+    """Return whether a robot holds the vertex of a part already, by an earlier part.
+
+    A robot that forgot its order would take an update again whose way ends where it began, and
+    drive it twice.
+    """
+    return own.route.get_place(part) in own.route.stretch(own.arrived, part)
+
+
+def _is_closed(ledger: Ledger, tail: str, head: str) -> bool:
+    """Return whether nobody may enter an edge."""
+    return any((tail, head) in edges for edges in ledger.closed.values())
+
+
+def _is_strayed_to(ledger: Ledger, place: str) -> bool:
+    """Return whether a faulty robot says that it is at a place."""
+    return any(other.strays_at == place for other in ledger.robots)

@@ -1,0 +1,263 @@
+"""What a journal says of one robot: where it is, what it holds, its orders and its jobs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+from rightofway.control.journal import Entry
+from rightofway.control.messages import Order
+from rightofway.control.routes import RouteToDrive
+
+__all__ = ["APPLY_TO_ROBOT", "RobotLedger", "SentOrder"]
+
+
+@dataclass(slots=True)
+class SentOrder:
+    """An order of ours.
+
+    Attributes
+    ----------
+    offset
+        The part of its sequence id 0.
+    ends
+        The last part of the base of each update, by its id; of old ones, which can prove nothing
+        new, there are none.
+    updates
+        The number of all updates.
+    """
+
+    offset: int
+    ends: dict[int, int] = field(default_factory=dict)
+    updates: int = 0
+
+
+@dataclass(slots=True)
+class Cancel:
+    """A cancel under way: wanted, asked with an action id, or followed by an order of one node."""
+
+    action_id: str | None = None
+    stands_at: int | None = None  # the part of the order of one node
+
+
+@dataclass(slots=True)
+class RobotLedger:
+    """One robot. It holds the vertex last arrived at and every released part after it."""
+
+    route: RouteToDrive
+    arrived: int = 0
+    released: int = 0
+    orders: dict[str, SentOrder] = field(default_factory=dict)  # without old ones
+    order_count: int = 0  # of all
+    order_jobs: int = 0  # jobs of the current order
+    first_order: int = 0  # since a person placed the robot
+    message: Order | None = None  # the last order or update
+    is_acknowledged: bool = False
+    token: str | None = None  # of a doubt
+    tokens: int = 0
+    cancel: Cancel | None = None
+    cancels: int = 0
+    is_on_hold: bool = False
+    fault: str | None = None
+    strays_at: str | None = None  # the place that a faulty robot names
+    is_off: bool = False  # taken off the floor
+    jobs_of: dict[str, str] = field(default_factory=dict)  # action id: job
+    attempts: dict[str, int] = field(default_factory=dict)  # job: number of its last action
+    finished: set[str] = field(default_factory=set)  # jobs of the route, skipped ones too
+    failed: set[str] = field(default_factory=set)
+    next_job: int = 0  # the number of the next new job: no name comes twice
+    jobs_done: int = 0  # of all
+    laps_done: int = 0
+
+    @property
+    def order_id(self) -> str:
+        """The current order; empty before the first one."""
+        return self.message.order_id if self.message else ""
+
+    @property
+    def held(self) -> tuple[str, ...]:
+        """The vertices that it holds: the one last arrived at, and all that are released."""
+        return self.route.stretch(self.arrived, self.released + 1)
+
+    @property
+    def is_done(self) -> bool:
+        """Whether it is at the end of its route, with all its jobs done."""
+        return self.arrived == self.route.end - 1 and self.finished >= self.route.all_jobs
+
+    def find_held(self, place: str) -> int | None:
+        """Return the held part whose vertex is a place, None if there is none."""
+        held = self.held
+        return self.arrived + held.index(place) if place in held else None
+
+    def take_route(self, route: RouteToDrive) -> None:
+        """Go on along another route; drop what is known of jobs and orders before it.
+
+        Parameters
+        ----------
+        route
+            What is released, and what follows.
+        """
+        self.route, jobs = route, route.all_jobs
+        numbers = (int(job.removeprefix("job")) for job in jobs)
+        self.next_job = max(self.next_job, max(numbers, default=-1) + 1)
+        self.finished &= jobs
+        self.failed &= jobs
+        self.attempts = {job: number for job, number in self.attempts.items() if job in jobs}
+        self.jobs_of = {action: job for action, job in self.jobs_of.items() if job in jobs}
+        for sent in self.orders.values():
+            ends = sent.ends.items()
+            sent.ends = {update: end for update, end in ends if end >= self.route.first}
+        self.orders = {
+            name: sent for name, sent in self.orders.items() if sent.ends or name == self.order_id
+        }
+
+    def to_document(self) -> dict[str, Any]:
+        """Return all of it for a journal."""
+        return {**asdict(self), "finished": sorted(self.finished), "failed": sorted(self.failed)}
+
+    @classmethod
+    def of_document(cls, document: Mapping[str, Any]) -> RobotLedger:
+        """Return what a journal has.
+
+        Parameters
+        ----------
+        document
+            What `to_document` has returned.
+        """
+        message, cancel = document["message"], document["cancel"]
+        orders = {
+            name: SentOrder(
+                sent["offset"],
+                {int(update): end for update, end in sent["ends"].items()},
+                sent["updates"],
+            )
+            for name, sent in document["orders"].items()
+        }
+        return cls(
+            **{
+                **document,
+                "route": RouteToDrive.of_document(document["route"]),
+                "orders": orders,
+                "message": Order.of_document(message) if message else None,
+                "cancel": Cancel(**cancel) if cancel else None,
+                "finished": set(document["finished"]),
+                "failed": set(document["failed"]),
+            }
+        )
+
+
+def _arrive(own: RobotLedger, entry: Entry) -> None:
+    before, own.arrived = own.arrived, max(own.arrived, entry["visit"])
+    own.laps_done += sum(before < visit <= own.arrived for visit in own.route.lap_ends)
+
+
+def _order(own: RobotLedger, entry: Entry) -> None:
+    order = Order.of_document(entry["order"])
+    if order.update_id == 0:
+        own.orders[order.order_id] = SentOrder(entry["offset"])
+        own.order_count, own.order_jobs = own.order_count + 1, 0
+        own.token = None
+        stands_at = entry.get("stands_at")
+        if own.cancel is not None:  # a new order drops a cancel under way: it is asked anew
+            own.cancel = Cancel(stands_at=stands_at)
+    sent = own.orders[order.order_id]
+    end = sent.offset + order.nodes[-1].sequence_id // 2
+    sent.ends[order.update_id], sent.updates = end, sent.updates + 1
+    own.message, own.is_acknowledged = order, False
+    own.released = max(own.released, end)
+    own.order_jobs += len(entry["actions"])
+    for action_id, job, attempt in entry["actions"]:
+        own.jobs_of[action_id] = job
+        own.attempts[job] = attempt
+        own.failed.discard(job)
+
+
+def _acknowledge(own: RobotLedger, _: Entry) -> None:
+    own.is_acknowledged = True
+    if own.cancel is not None and own.cancel.stands_at is not None:
+        own.released, own.cancel = own.cancel.stands_at, None
+
+
+def _doubt(own: RobotLedger, entry: Entry) -> None:
+    own.token, own.tokens = entry["token"], own.tokens + 1
+
+
+def _end_doubt(own: RobotLedger, _: Entry) -> None:
+    own.token = None
+
+
+def _want_cancel(own: RobotLedger, _: Entry) -> None:
+    own.cancel = own.cancel or Cancel()
+
+
+def _ask_cancel(own: RobotLedger, entry: Entry) -> None:
+    own.cancel, own.cancels = Cancel(action_id=entry["action"]), own.cancels + 1
+
+
+def _finish(own: RobotLedger, entry: Entry) -> None:
+    own.jobs_done += entry["job"] not in own.finished
+    own.finished.add(entry["job"])
+    own.failed.discard(entry["job"])
+
+
+def _fail(own: RobotLedger, entry: Entry) -> None:
+    own.failed.add(entry["job"])
+
+
+def _find_fault(own: RobotLedger, entry: Entry) -> None:
+    own.fault, own.strays_at = entry["fault"], entry["place"]
+
+
+def _clear(own: RobotLedger, _: Entry) -> None:
+    own.fault = own.strays_at = None
+
+
+def _hold(own: RobotLedger, entry: Entry) -> None:
+    own.is_on_hold = entry["on"]
+
+
+def _take_off(own: RobotLedger, _: Entry) -> None:
+    own.is_off = True
+
+
+def _place(own: RobotLedger, entry: Entry) -> None:
+    """Have a robot begin at a visit that no order has; orders of before prove nothing."""
+    own.arrived = own.released = entry["visit"]
+    own.message, own.is_acknowledged, own.first_order = None, False, own.order_count
+    own.token = own.cancel = own.fault = own.strays_at = None
+    own.is_off = False
+    for job in own.failed:
+        own.attempts[job] += 1
+    own.failed.clear()
+
+
+def _retry(own: RobotLedger, entry: Entry) -> None:
+    own.attempts[entry["job"]] += 1
+    own.failed.discard(entry["job"])
+
+
+def _skip(own: RobotLedger, entry: Entry) -> None:
+    own.finished.add(entry["job"])
+    own.failed.discard(entry["job"])
+
+
+APPLY_TO_ROBOT: Mapping[str, Callable[[RobotLedger, Entry], None]] = {
+    "arrived": _arrive,
+    "order": _order,
+    "acknowledged": _acknowledge,
+    "doubt": _doubt,
+    "certain": _end_doubt,
+    "cancel wanted": _want_cancel,
+    "cancel asked": _ask_cancel,
+    "finished": _finish,
+    "failed": _fail,
+    "fault": _find_fault,
+    "cleared": _clear,
+    "hold": _hold,
+    "taken off": _take_off,
+    "placed": _place,
+    "again": _retry,
+    "skipped": _skip,
+}
+"""How a robot changes by each kind of entry on it."""

@@ -1,0 +1,78 @@
+"""What a splice must keep (rule 10): what is released, each job, an order without a cycle."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+from rightofway.control.robot_ledger import RobotLedger
+from rightofway.control.routes import RouteToDrive
+from rightofway.errors import InputError
+from rightofway.precedence import ReleaseGraph
+
+__all__ = ["refuse_changes", "refuse_rotation"]
+
+
+def refuse_changes(
+    robots: Sequence[RobotLedger],
+    routes: Sequence[RouteToDrive],
+    committed: Sequence[int],
+    withdrawn: Collection[tuple[int, str]],
+    placed: Collection[int],
+) -> None:
+    """Refuse routes that change what is released, or lose a job.
+
+    Parameters
+    ----------
+    robots
+        What is known of each robot.
+    routes
+        The new routes.
+    committed
+        The last part of each robot that they have to keep.
+    withdrawn
+        Robot and name of jobs that nobody wants any more.
+    placed
+        Robots off the floor that were put at the begin of their routes.
+
+    Raises
+    ------
+    InputError
+        If a route changes what is released, or a job is lost.
+    """
+    for robot, (own, new, end) in enumerate(zip(robots, routes, committed, strict=True)):
+        old, begin = own.route, max(own.route.first, new.first)
+        if robot in placed:
+            keeps_released = own.is_off and begin == old.end
+        else:
+            keeps_released = begin <= own.arrived and all(
+                (old.get_place(visit), old.get_jobs(visit))
+                == (new.get_place(visit), new.get_jobs(visit))
+                for visit in range(begin, end + 1)
+            )
+        if not keeps_released:
+            message = "the route changes what is released (begin it with the released parts)"
+            raise InputError.at(("routes", robot), message)
+        unwanted = {job for other, job in withdrawn if other == robot}
+        if lost := sorted(old.all_jobs - own.finished - new.all_jobs - unwanted):
+            raise InputError.at(("routes", robot), f"{lost[0]} is in no visit (keep each job)")
+
+
+def refuse_rotation(graph: ReleaseGraph, names: Sequence[str]) -> None:
+    """Refuse a release graph with a cycle.
+
+    Parameters
+    ----------
+    graph
+        Who waits for whom.
+    names
+        Of the robots.
+
+    Raises
+    ------
+    InputError
+        If robots move round a circle at one instant.
+    """
+    if cycle := graph.find_rotation():
+        robots = ", ".join(names[robot] for robot in sorted({part.robot for part in cycle}))
+        message = f"{robots} move round a circle at one instant, which orders cannot make safe"
+        raise InputError.at("plan", f"{message} (plan with rotations: false)")
