@@ -263,6 +263,7 @@ def _run(
         decisions=draft.decisions,
         reroutes=draft.reroutes,
         improvement=draft.improvement,
+        forced_losses=draft.forced_losses,
         start=None if old is None else compare_with_start(old, task.scenario, draft.tracks),
         alone=tuple(alone.tolist()),
     )

@@ -43,8 +43,7 @@ from rightofway.phrases import Phrase
 from rightofway.planners import DEFAULT_PLANNER, IMPROVER, Feature, PlannerSpec, find, find_all
 
 if TYPE_CHECKING:
-    from rightofway.metrics import ForcedLoss
-    from rightofway.model import Plan
+    from rightofway.model import ForcedLoss, Plan
     from rightofway.quantities import Quantities
 
 SECONDS_PER_VISIT = 2.2e-6
@@ -182,10 +181,11 @@ def bound(
 
     Both follow from the times at which the robots would be done if each drove alone. With a time
     limit, conflict-based search and prices of places then raise the bound of the flowtime, and
-    pairs of robots are listed that lose time to each other in every plan. A SCENARIO of - is
+    robots are listed that lose time to each other in every plan. A SCENARIO of - is
     standard input.
     """
     from rightofway.deadline import Deadline
+    from rightofway.io.plan.writer import make_forced_losses
     from rightofway.metrics import compute_alone_completions, find_forced_losses
     from rightofway.planners.bounds import prove_bound
     from rightofway.report.plan import report_bounds
@@ -205,15 +205,9 @@ def bound(
         bounds = {"flowtime": sum(alone), "makespan": max(alone)}
         if proof is not None:
             bounds[proof.objective.value] = proof.bound
-        pairs = [
-            {
-                "robots": [names[robot] for robot in loss.robots],
-                "ticks": loss.ticks,
-                "vertex": problem.roadmap.name(loss.vertex),
-            }
-            for loss in losses
-        ]
-        forced = {} if time_limit is None else {"forced_losses": pairs}
+        forced: dict[str, Any] = {}
+        if time_limit is not None:
+            forced = {"forced_losses": [], **make_forced_losses(losses, problem)}
         put_json({**describe_measures(problem), "lower_bound": bounds, "robots": robots, **forced})
         return
     quantities = choose_quantities(problem, in_ticks=in_ticks)

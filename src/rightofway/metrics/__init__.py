@@ -15,7 +15,7 @@ from rightofway.metrics.collisions import (
 )
 from rightofway.metrics.comparison import MAX_COMPARED, Comparison, compare
 from rightofway.metrics.events import Event, list_events, make_event_columns
-from rightofway.metrics.forced_losses import ForcedLoss, find_forced_losses
+from rightofway.metrics.forced_losses import find_forced_losses
 from rightofway.metrics.inspection import inspect
 from rightofway.metrics.lost_time import compute_lost_time, join_waits
 from rightofway.metrics.measure import Metrics, measure
@@ -31,7 +31,6 @@ __all__ = [
     "Comparison",
     "Event",
     "Finding",
-    "ForcedLoss",
     "Inspection",
     "Metrics",
     "NamedCollision",

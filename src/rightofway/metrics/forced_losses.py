@@ -1,14 +1,14 @@
-"""What pairs of robots lose to each other in every plan: why a bound is above the robots alone."""
+"""What groups of robots lose to each other in every plan: why no plan is better."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
 
 from rightofway.arguments import checks_arguments
 from rightofway.deadline import Deadline
 from rightofway.metrics.collisions import find_collisions, find_near_misses, find_swaps
-from rightofway.model import Objective, Scenario, Tick, Track, checked_time_limit
-from rightofway.model.outcome import minimized
+from rightofway.model import Objective, Scenario, Tick, Track, checked_time_limit, completions_of
+from rightofway.model.outcome import ForcedLoss, minimized
 from rightofway.search import Bookings, ConflictBasedSearch, Distances, find_earliest_track
 from rightofway.site import VertexId
 
@@ -16,33 +16,23 @@ MOST_PAIRS = 200
 """Pairs that are solved, those first that meet first."""
 
 STATES = 10_000
-"""Joint states of each pair."""
+"""Joint states of each pair or group."""
 
+GROUPS = range(3, 5)
+"""The numbers of robots of a group that is solved together."""
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ForcedLoss:
-    """Two robots that cannot both be as early as alone.
-
-    Attributes
-    ----------
-    robots
-        The two, by index, the smaller first.
-    ticks
-        What they lose together in every plan, at least [ticks].
-    vertex
-        Where they would meet first, each on its best track alone.
-    """
-
-    robots: tuple[int, int]
-    ticks: Tick
-    vertex: VertexId
+Robots = tuple[int, ...]
 
 
 @checks_arguments
 def find_forced_losses(
-    scenario: Scenario, *, time_limit: float | None = None
+    scenario: Scenario,
+    *,
+    time_limit: float | None = None,
+    pairs: int = MOST_PAIRS,
+    states: int = STATES,
 ) -> tuple[ForcedLoss, ...]:
-    """Return which pairs of robots lose time to each other in every plan, the most first.
+    """Return which robots lose time to each other in every plan, the most first.
 
     Parameters
     ----------
@@ -50,16 +40,21 @@ def find_forced_losses(
         The problem; every robot can reach its places.
     time_limit
         When to stop [s]; None for no limit.
+    pairs
+        How many pairs are looked at, those first that meet first.
+    states
+        Joint states at most of each pair or group.
 
     Returns
     -------
     tuple of ForcedLoss
-        None of pairs that lose nothing, nor where costs have weights or surcharges.
+        Pairs, and groups of up to four robots that lose more than their pairs explain. None of
+        robots that lose nothing, nor where costs have weights or surcharges.
 
     Notes
     -----
-    Each pair is solved for itself. A robot may be in several pairs, so that the losses do not add
-    up. Deterministic without a time limit.
+    Each pair or group is solved for itself. A robot may be in several, so that the losses do not
+    add up. Deterministic without a time limit.
     """
     deadline = Deadline.after(checked_time_limit(time_limit))
     if minimized(scenario) is not Objective.FLOWTIME:
@@ -67,21 +62,47 @@ def find_forced_losses(
     tracks = _alone(scenario)
     if tracks is None:
         return ()
-    search, losses = ConflictBasedSearch(scenario.problem), []
-    alone = [search.search_together([robot], states=STATES)[1] for robot in range(len(tracks))]
-    for robots, vertex in list(_meetings(scenario, tracks).items())[:MOST_PAIRS]:
-        if deadline.measure_seconds_left() == 0:
-            break
-        least = [alone[robot] for robot in robots]
-        _, together = search.search_together(
-            robots, states=STATES, time_limit=deadline.measure_seconds_left()
-        )
-        if together is None or None in least:
-            continue  # such robots have no plan at all
-        loss = together - sum(ticks for ticks in least if ticks is not None)
-        if loss > 0:
-            losses.append(ForcedLoss(robots=robots, ticks=Tick(loss), vertex=vertex))
-    return tuple(sorted(losses, key=lambda loss: (-loss.ticks, loss.robots)))
+    search, alone = ConflictBasedSearch(scenario.problem), completions_of(scenario, tracks)
+
+    def measure_loss(robots: Robots) -> Tick:
+        """Return what robots lose at least, alone on the roads [ticks]; 0 where time is up."""
+        left = deadline.measure_seconds_left()
+        if left == 0:
+            return Tick(0)
+        _, least = search.search_together(robots, states=states, time_limit=left)
+        # A search that did not end gives a lower bound, and tracks are never below the least.
+        return Tick(0 if least is None else max(least - sum(alone[robot] for robot in robots), 0))
+
+    forced = dict[Robots, ForcedLoss]()
+    for robots, vertex in list(_meetings(scenario, tracks).items())[:pairs]:
+        if ticks := measure_loss(robots):
+            forced[robots] = ForcedLoss(robots=robots, ticks=ticks, vertex=vertex)
+    for group in _list_groups(forced):
+        ticks = measure_loss(group)
+        inside = {pair: loss for pair, loss in forced.items() if {*pair} <= {*group}}
+        if ticks > _sum_of_disjoint(inside):
+            vertex = next(iter(inside.values())).vertex
+            forced[group] = ForcedLoss(robots=group, ticks=ticks, vertex=vertex)
+    return tuple(sorted(forced.values(), key=lambda loss: (-loss.ticks, loss.robots)))
+
+
+def _list_groups(pairs: Iterable[Robots]) -> list[Robots]:
+    """Return the robots that pairs connect to each other, where they are three or four."""
+    groups: list[set[int]] = []
+    for pair in pairs:
+        touched = [group for group in groups if group & {*pair}]
+        groups = [group for group in groups if group not in touched]
+        groups.append(set(pair).union(*touched))
+    return [tuple(sorted(group)) for group in groups if len(group) in GROUPS]
+
+
+def _sum_of_disjoint(pairs: Mapping[Robots, ForcedLoss]) -> int:
+    """Return the most that pairs without a common robot lose in sum [ticks]."""
+    most = 0
+    for pair, loss in pairs.items():
+        others = {other: part for other, part in pairs.items() if not {*pair} & {*other}}
+        most = max(most, loss.ticks + _sum_of_disjoint(others))
+    return most
 
 
 def _alone(scenario: Scenario) -> list[Track] | None:
@@ -95,14 +116,14 @@ def _alone(scenario: Scenario) -> list[Track] | None:
     return tracks
 
 
-def _meetings(scenario: Scenario, tracks: list[Track]) -> dict[tuple[int, int], VertexId]:
+def _meetings(scenario: Scenario, tracks: list[Track]) -> dict[Robots, VertexId]:
     """Return the pairs that meet on their tracks, and where they do first, in order of time."""
     of_points = [(hit.start, hit.robots, hit.vertex) for hit in find_collisions(scenario, tracks)]
     head_on = [(swap.tick, swap.robots, swap.vertices[0]) for swap in find_swaps(tracks)]
     of_sizes = [
         (miss.start, miss.robots, miss.places[0][0]) for miss in find_near_misses(scenario, tracks)
     ]
-    first: dict[tuple[int, int], VertexId] = {}
+    first: dict[Robots, VertexId] = {}
     for _, robots, vertex in sorted([*of_points, *head_on, *of_sizes]):
         first.setdefault(robots, vertex)
     return first

@@ -4,7 +4,7 @@ from rightofway.model.booking_rules import BookingRules
 from rightofway.model.closures import Closure, Closures
 from rightofway.model.lap import Lap, lap_of, visits_of_laps
 from rightofway.model.lost_time import Loss, LostTime
-from rightofway.model.outcome import Objective, Outcome, OutcomeKind, Proof
+from rightofway.model.outcome import ForcedLoss, Objective, Outcome, OutcomeKind, Proof
 from rightofway.model.plan import (
     Decision,
     Improvement,
@@ -42,6 +42,7 @@ __all__ = [
     "Closures",
     "Decision",
     "ExecutionTrace",
+    "ForcedLoss",
     "Improvement",
     "Itinerary",
     "Lap",

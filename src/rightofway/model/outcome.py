@@ -13,6 +13,7 @@ from rightofway.model.route import Track
 from rightofway.model.scenario import Scenario
 from rightofway.model.stays import completions_of, compute_costs, cost_of
 from rightofway.model.units import Tick
+from rightofway.site import VertexId
 
 
 class Objective(StrEnum):
@@ -128,6 +129,25 @@ class Outcome:
     objective: Objective = Objective.FLOWTIME
     bound: Tick | None = None
     factor: Fraction | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ForcedLoss:
+    """Robots that cannot all be as early as alone.
+
+    Attributes
+    ----------
+    robots
+        Two or more, by index, the smaller first.
+    ticks
+        What they lose together in every plan, at least [ticks].
+    vertex
+        Where the first two of them that meet would meet, each on its best track alone.
+    """
+
+    robots: tuple[int, ...]
+    ticks: Tick
+    vertex: VertexId
 
 
 def classify_cost(cost: Tick, proof: Proof) -> Outcome:

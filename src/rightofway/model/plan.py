@@ -11,7 +11,7 @@ from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, find_nearest, quote
 from rightofway.model.figures import provided
 from rightofway.model.lost_time import LostTime
-from rightofway.model.outcome import Outcome
+from rightofway.model.outcome import ForcedLoss, Outcome
 from rightofway.model.robot import Robot
 from rightofway.model.route import Track
 from rightofway.model.scenario import Scenario
@@ -146,6 +146,9 @@ class PlannerRun:
         What changes of the first plan gained, or None where there were none. Files do not keep it.
     start
         What was kept of the plan that it was made from, or None where it was made from nothing.
+    forced_losses
+        Of an optimal plan: groups of robots that lose time to each other in every plan, those that
+        lose most first. A robot may be in several groups, so that losses do not add up.
     alone
         The least completion of each robot without the others [ticks], or None where planning did
         not compute it. Files do not keep it.
@@ -163,6 +166,7 @@ class PlannerRun:
     reroutes: tuple[Reroute, ...] = ()
     improvement: Improvement | None = field(default=None, compare=False)
     start: StartPlan | None = None
+    forced_losses: tuple[ForcedLoss, ...] = ()
     alone: tuple[Tick, ...] | None = field(default=None, repr=False, compare=False)
     outcome: Outcome | None = None
 

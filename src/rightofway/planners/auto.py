@@ -19,7 +19,7 @@ from rightofway.model import Proof, Tick, Track, cost_of
 from rightofway.model.outcome import minimized
 from rightofway.phrases import Phrase, say_count
 from rightofway.planners.bounds import SHARE as SHARE_OF_NODES
-from rightofway.planners.bounds import compute_price_bound
+from rightofway.planners.bounds import compute_price_bound, explain_optimum
 from rightofway.planners.features import refuse_with_swaps_left
 from rightofway.planners.impossible import find_blocking_set
 from rightofway.planners.lns import improve_best, lns
@@ -56,6 +56,11 @@ def auto(task: Task) -> Draft:
             raise InputError.at(("options", "swaps"), message)
         refuse_with_swaps_left(task.scenario.problem)
         return paper(task)
+    return explain_optimum(task, _best(task))
+
+
+def _best(task: Task) -> Draft:
+    """Return the best plan of several methods, with what is proven of it."""
     prover = _Prover(task)
     first = _explained(task)
     if first is not None:

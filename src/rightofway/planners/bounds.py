@@ -14,14 +14,24 @@ Lam, Le Bodic, Harabor & Stuckey, *Branch-and-cut-and-price for multi-agent path
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from rightofway.deadline import Deadline
 from rightofway.errors import NoPlanExists
-from rightofway.model import Proof, Scenario, Tick
+from rightofway.metrics import find_forced_losses
+from rightofway.model import Objective, Proof, Scenario, Tick
 from rightofway.model.outcome import minimized
+from rightofway.planners.task import Draft, Task
 from rightofway.search import ConflictBasedSearch, PriceAscent
 
 SHARE = 0.3
 """The part of the time for conflict-based search."""
+
+SHARE_OF_LOSSES = 0.1
+"""The part of the time left for the losses that force an optimum."""
+
+PAIRS, STATES = 50, 2_000
+"""Pairs of robots whose losses are looked for, and joint states of each."""
 
 
 def prove_bound(
@@ -48,6 +58,22 @@ def prove_bound(
     if not is_reached:
         least = max(least, compute_price_bound(scenario, deadline, steps))
     return Proof(bound=least, objective=minimized(scenario)), is_reached
+
+
+def explain_optimum(task: Task, draft: Draft) -> Draft:
+    """Return a plan with the losses that force its flowtime, where it is proven to be optimal.
+
+    They are found within a part of the time left, and by a bounded number of steps.
+    """
+    proof, scenario = draft.proof, task.scenario
+    if proof is None or proof.objective is not Objective.FLOWTIME:
+        return draft
+    cost = proof.objective.of(scenario, draft.tracks)
+    if cost > proof.bound or task.alone is None or cost == int(task.alone.sum()):
+        return draft  # not optimal, or no robot loses time
+    limit = task.deadline.shorten(SHARE_OF_LOSSES).measure_seconds_left()
+    losses = find_forced_losses(scenario, time_limit=limit, pairs=PAIRS, states=STATES)
+    return replace(draft, forced_losses=losses)
 
 
 def compute_price_bound(scenario: Scenario, deadline: Deadline, steps: int) -> Tick:

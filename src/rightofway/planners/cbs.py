@@ -35,6 +35,7 @@ from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Proof, Tick, completions_of, cost_of
 from rightofway.model.outcome import Objective, minimized
 from rightofway.phrases import Phrase, say_count
+from rightofway.planners.bounds import explain_optimum
 from rightofway.planners.impossible import find_blocking_set
 from rightofway.planners.lns import improve_best
 from rightofway.planners.prioritized import make_fleet_search
@@ -60,7 +61,7 @@ def cbs(task: Task) -> Draft:
     first = _first_plan(task)
     if is_of_makespan:
         return _of_least_makespan(task, first or _of_least_flowtime(task, None))
-    return _of_least_flowtime(task, first)
+    return explain_optimum(task, _of_least_flowtime(task, first))
 
 
 def _search(task: Task, **limits: Any) -> ConflictBasedSearch:

@@ -11,7 +11,16 @@ from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
 from rightofway.deadline import NO_DEADLINE, Deadline
-from rightofway.model import Decision, Improvement, Problem, Proof, Reroute, Scenario, Track
+from rightofway.model import (
+    Decision,
+    ForcedLoss,
+    Improvement,
+    Problem,
+    Proof,
+    Reroute,
+    Scenario,
+    Track,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,7 +76,7 @@ class Draft:
         One for each robot.
     status
         What the planner did, in words.
-    decisions, reroutes, improvement
+    decisions, reroutes, improvement, forced_losses
         As in `PlannerRun`.
     keeps_swaps
         Whether the plan may hold swaps, as plans of the published method do.
@@ -83,6 +92,7 @@ class Draft:
     improvement: Improvement | None = None
     keeps_swaps: bool = False
     proof: Proof | None = None
+    forced_losses: tuple[ForcedLoss, ...] = ()
 
 
 Planner = Callable[[Task], Draft]

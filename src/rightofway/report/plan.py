@@ -9,7 +9,6 @@ from itertools import chain
 from rightofway.check import Report
 from rightofway.languages import ENGLISH
 from rightofway.metrics import (
-    ForcedLoss,
     Metrics,
     compute_alone_completions,
     compute_lost_time,
@@ -19,7 +18,7 @@ from rightofway.metrics import (
     free_running,
     measure,
 )
-from rightofway.model import Loss, LostTime, Objective, Plan, Proof, Scenario
+from rightofway.model import ForcedLoss, Loss, LostTime, Objective, Plan, Proof, Scenario
 from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import Phrase, chain_items, join_items, say_count
 from rightofway.quantities import Quantities, format_decimal
@@ -36,10 +35,12 @@ from rightofway.report.sentences import (
     OBJECTIVES,
     Words,
     describe_decision,
+    describe_forced_loss,
     describe_improvement,
     describe_losses,
     describe_proof,
     explain_decision,
+    list_forced_losses,
 )
 
 MAX_LINES = 10
@@ -74,7 +75,8 @@ def summarize_plan(plan: Plan, quantities: Quantities, language: str = ENGLISH) 
     ]
     if quantities.in_ticks:
         costs.append((Phrase("tick"), replace(quantities, in_ticks=False).format_duration(1)))
-    return lay_out([Facts(costs), "", *_robots(words, lost), *_losses(words, lost)], language)
+    parts = [*_robots(words, lost), *_losses(words, lost), *_forced_losses(words)]
+    return lay_out([Facts(costs), "", *parts], language)
 
 
 def describe_planning(plan: Plan, quantities: Quantities) -> str:
@@ -185,6 +187,18 @@ def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
         yield Phrase("… and {number} more (--json lists all)", number=str(len(largest) - MAX_LINES))
     yield from _detours(words, lost)
     yield from _homes_in_the_way(words, chain.from_iterable(groups.values()))
+
+
+def _forced_losses(words: Words) -> Iterator[Part]:
+    """Yield why no plan is better, where that is proven."""
+    losses = list_forced_losses(words.plan)
+    if losses:
+        yield ""
+    for loss in losses[:MAX_LINES]:
+        place = words.name_place(loss.vertex)
+        yield describe_forced_loss(words.plan.scenario, loss, words.quantities, place)
+    if len(losses) > MAX_LINES:
+        yield Phrase("… and {number} more (--json lists all)", number=str(len(losses) - MAX_LINES))
 
 
 def _detours(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
@@ -326,15 +340,9 @@ def report_bounds(
         parts.append(Phrase("… and {robots} (--json lists all)", robots=more))
     if losses:
         parts.append("")
+    place = PlaceNames(scenario)
     parts += [
-        Phrase(
-            "In every plan, {one} and {other} lose at least {time} to each other: alone they would"
-            " meet in {place}.",
-            one=scenario.robots[loss.robots[0]].name,
-            other=scenario.robots[loss.robots[1]].name,
-            time=quantities.format_duration(loss.ticks),
-            place=PlaceNames(scenario)(loss.vertex),
-        )
+        describe_forced_loss(scenario, loss, quantities, place(loss.vertex))
         for loss in losses[:MAX_LINES]
     ]
     return parts

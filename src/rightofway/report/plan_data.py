@@ -6,10 +6,11 @@ from dataclasses import asdict
 from typing import Any
 
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.io.plan.writer import outcome_document
+from rightofway.io.plan.writer import make_forced_losses, outcome_document
 from rightofway.metrics import compute_lost_time, derive_outcome, measure, waits
 from rightofway.model import Plan, Scenario
 from rightofway.model.outcome import classify_error
+from rightofway.report.sentences import list_forced_losses
 from rightofway.values import written
 
 
@@ -33,6 +34,7 @@ def make_summary_data(plan: Plan) -> dict[str, Any]:
             "first_plan_seconds": _rounded(run.first_plan_seconds),
             **({} if run.start is None else {"start": asdict(run.start)}),
             "outcome": outcome_document(derive_outcome(plan)),
+            **make_forced_losses(list_forced_losses(plan), plan.scenario),
         },
         **describe_measures(plan.scenario),
         "metrics": {**metrics.as_dict(), "gap": round(metrics.gap, 6)},

@@ -14,6 +14,7 @@ from rightofway.metrics import derive_outcome, measure
 from rightofway.model import (
     Closure,
     Decision,
+    ForcedLoss,
     Improvement,
     Loss,
     Objective,
@@ -22,7 +23,7 @@ from rightofway.model import (
     Scenario,
 )
 from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase, chain_items, say_count
+from rightofway.phrases import Phrase, chain_items, join_items, say_count
 from rightofway.quantities import Quantities
 from rightofway.values import written
 
@@ -111,6 +112,34 @@ def describe_proof(plan: Plan) -> str:
             objective=OBJECTIVES[outcome.objective],
         )
     return ""
+
+
+def list_forced_losses(plan: Plan) -> Sequence[ForcedLoss]:
+    """Return why no plan is better, where this is proven of a plan; nothing of other plans."""
+    is_optimal = derive_outcome(plan).kind is OutcomeKind.OPTIMAL
+    return plan.run.forced_losses if is_optimal else ()
+
+
+def describe_forced_loss(
+    scenario: Scenario, loss: ForcedLoss, quantities: Quantities, place: str
+) -> Phrase:
+    """Return what robots lose to each other in every plan, and where they would meet."""
+    names = [scenario.robots[robot].name for robot in loss.robots]
+    values = {"time": quantities.format_duration(loss.ticks), "place": place}
+    if len(names) > 2:  # noqa: PLR2004
+        return Phrase(
+            "In every plan, {robots} lose at least {time} to each other: alone, two of them would"
+            " meet in {place}.",
+            robots=join_items(names),
+            **values,
+        )
+    return Phrase(
+        "In every plan, {one} and {other} lose at least {time} to each other: alone they would"
+        " meet in {place}.",
+        one=names[0],
+        other=names[1],
+        **values,
+    )
 
 
 def describe_improvement(improvement: Improvement, quantities: Quantities) -> Phrase:

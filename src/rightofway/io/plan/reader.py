@@ -17,6 +17,7 @@ from rightofway.io.scenario.loaded_map import LoadedMap
 from rightofway.io.scenario.reader import Loaded, read_scenario
 from rightofway.model import (
     Decision,
+    ForcedLoss,
     Objective,
     Outcome,
     OutcomeKind,
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
 
     from rightofway.io.plan.shape import (
         DecisionDocument,
+        ForcedLossDocument,
         OutcomeDocument,
         SteadyDocument,
         TrackDocument,
@@ -179,6 +181,10 @@ def _run(data: Any, names: _Names | None) -> PlannerRun | None:
     for index, reroute in enumerate(document.reroutes):
         robot = faults.attempt(("reroutes", index), names.robot, "robot", reroute.robot)
         reroutes.append(Reroute(robot=robot or 0, because=reroute.because))
+    losses = [
+        faults.attempt(("forced_losses", index), _forced_loss, loss, names)
+        for index, loss in enumerate(document.forced_losses)
+    ]
     faults.stop()
     return PlannerRun(
         name=document.name,
@@ -190,7 +196,16 @@ def _run(data: Any, names: _Names | None) -> PlannerRun | None:
         reroutes=tuple(reroutes),
         start=None if document.start is None else StartPlan(**document.start.model_dump()),
         outcome=None if document.outcome is None else _outcome(document.outcome),
+        forced_losses=tuple(loss for loss in losses if loss),
     )
+
+
+def _forced_loss(document: ForcedLossDocument, names: _Names) -> ForcedLoss:
+    robots = {names.robot("robots", name) for name in document.robots}
+    if len(robots) < len(document.robots):
+        raise InputError.at("robots", "a robot is named twice (name different robots)")
+    vertex = names.vertex("vertex", document.vertex)
+    return ForcedLoss(robots=tuple(sorted(robots)), ticks=Tick(document.ticks), vertex=vertex)
 
 
 def _outcome(document: OutcomeDocument) -> Outcome:

@@ -68,6 +68,16 @@ class OutcomeDocument(Document):
     )
 
 
+class ForcedLossDocument(Document):
+    """Robots that lose time to each other in every plan."""
+
+    robots: list[Name] = Field(min_length=2, description="names of two robots or more")
+    ticks: Annotated[int, Field(ge=1)] = Field(
+        description="what they lose together at least, a whole number of ticks above 0"
+    )
+    vertex: str = Field(description="the name of the vertex where two of them would meet")
+
+
 class PlannerDocument(Document):
     """How a plan came about."""
 
@@ -83,6 +93,10 @@ class PlannerDocument(Document):
     )
     outcome: OutcomeDocument | None = Field(
         default=None, description="{kind, objective, bound, factor} that is proven, or null"
+    )
+    forced_losses: list[ForcedLossDocument] = Field(
+        default=[],
+        description="a list of {robots, ticks, vertex}: robots that lose time in every plan",
     )
 
 

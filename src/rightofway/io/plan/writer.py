@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,7 @@ from rightofway.files import write_whole
 from rightofway.io.formats import PLAN_FORMAT
 from rightofway.io.scenario.writer import dump_scenario
 from rightofway.io.text import json_text
-from rightofway.model import Decision, Outcome, Plan, PlannerRun, Scenario, SteadyState
+from rightofway.model import Decision, ForcedLoss, Outcome, Plan, PlannerRun, Scenario, SteadyState
 from rightofway.model.given import checked_plan, require_truths
 from rightofway.phrases import to_parts
 from rightofway.values import written
@@ -108,7 +109,21 @@ def _planner(run: PlannerRun, scenario: Scenario, *, seconds: bool) -> dict[str,
         ],
         **({} if run.start is None else {"start": asdict(run.start)}),
         **({} if run.outcome is None else {"outcome": outcome_document(run.outcome)}),
+        **make_forced_losses(run.forced_losses, scenario),
     }
+
+
+def make_forced_losses(losses: Sequence[ForcedLoss], scenario: Scenario) -> dict[str, Any]:
+    """Return forced losses as plan files and reports for programs have them; none, no key."""
+    documents = [
+        {
+            "robots": [scenario.robots[robot].name for robot in loss.robots],
+            "ticks": loss.ticks,
+            "vertex": scenario.roadmap.name(loss.vertex),
+        }
+        for loss in losses
+    ]
+    return {"forced_losses": documents} if documents else {}
 
 
 def outcome_document(outcome: Outcome) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from itertools import chain
 from typing import Any, cast
 
 import numpy as np
@@ -23,6 +24,7 @@ from rightofway.metrics import Metrics, compare, compute_lost_time, join_waits, 
 from rightofway.model import (
     Decision,
     ExecutionTrace,
+    ForcedLoss,
     Loss,
     LostTime,
     Plan,
@@ -36,19 +38,21 @@ from rightofway.model.closures import Closure
 from rightofway.model.given import checked_plan
 from rightofway.model.place_names import PlaceNames
 from rightofway.model.steady_state import refuse_unknown_robots
-from rightofway.phrases import Phrase, PhraseBook, to_parts
+from rightofway.phrases import Phrase, PhraseBook, join_items, to_parts
 from rightofway.report.circuits import describe_circuit, summarize_circuit
 from rightofway.report.sentences import (
     Words,
     describe_closure,
     describe_decision,
     describe_executed_loss,
+    describe_forced_loss,
     describe_improvement,
     describe_loss,
     describe_proof,
     describe_reason,
     list_closed_vertices,
     list_figures,
+    list_forced_losses,
     read_closed_ticks,
     summarize_decision,
 )
@@ -63,6 +67,7 @@ from rightofway.viz.page.schema import (
     DrivenData,
     FaultsData,
     FloorData,
+    ForcedLossData,
     LossRow,
     OtherPlan,
     Payload,
@@ -148,6 +153,8 @@ def make_payload(
     names = PlaceNames(scenario)
     if names.is_measured:
         payload["places"] = [(vertex, book.add(name)) for vertex, name in names.of_robots.items()]
+    if forced := list_forced_losses(plan):
+        payload["forcedLosses"] = [_forced_loss(loss, words, book) for loss in forced]
     if steady:
         payload["steady"] = _steady(plan, steady, book)
         payload["laps"] = [robot.laps or scenario.rules.laps for robot in scenario.robots]
@@ -311,6 +318,22 @@ def _robots(
             robot_data["stands"] = True
         robots.append(robot_data)
     return robots
+
+
+def _forced_loss(loss: ForcedLoss, words: Words, book: PhraseBook) -> ForcedLossData:
+    plan, place = words.plan, words.name_place(loss.vertex)
+    names = join_items([words.name_robot(robot) for robot in loss.robots])
+    head = Phrase("{robots} lose {time}", robots=names, time=words.say_time(loss.ticks))
+    text = describe_forced_loss(plan.scenario, loss, words.quantities, place)
+    tracks = [plan.tracks[robot] for robot in loss.robots]
+    comes = [track.enter[track.vertices == loss.vertex].tolist()[:1] for track in tracks]
+    return {
+        "head": book.add(head),
+        "text": book.add(text),
+        "robots": list(loss.robots),
+        "vertices": [int(loss.vertex)],
+        "tick": max(chain.from_iterable(comes), default=0),
+    }
 
 
 def _decision(decision: Decision, words: Words, book: PhraseBook) -> DecisionData:

@@ -207,6 +207,19 @@ class FaultsData(TypedDict):
     listed: list[FaultData]
 
 
+class ForcedLossData(TypedDict):
+    """Robots that lose time in every plan, and where they would meet; texts are by index.
+
+    ``tick`` is when the last of them is there in this plan; 0 where none comes there.
+    """
+
+    head: int
+    text: int
+    robots: list[int]
+    vertices: list[int]
+    tick: int
+
+
 class PlannerData(TypedDict):
     """How the plan came about: the planner, what it did or gained, what is proven."""
 
@@ -390,6 +403,7 @@ class PlanData(TypedDict):
     planner: PlannerData
     decisions: list[DecisionData]
     reroutes: list[RerouteData]
+    forcedLosses: NotRequired[list[ForcedLossData]]
     metrics: MetricsData
     steady: NotRequired[list[SteadyData]]
     laps: NotRequired[list[int]]

@@ -10,7 +10,7 @@ import { joined, upperFirst } from "./words.js";
 /** @import { Choice } from "./choice.js" */
 /** @import { Clock } from "./clock.js" */
 /** @import { Comparison } from "./comparison.js" */
-/** @import { DecisionData, FaultData } from "./payload.d.ts" */
+/** @import { DecisionData, FaultData, ForcedLossData } from "./payload.d.ts" */
 /** @import { Live } from "./live.js" */
 /** @import { Plan } from "./plan.js" */
 /** @import { Robot, Stage } from "./robot.js" */
@@ -21,7 +21,7 @@ const MOST_LINES = 200; // of stages or losses in a card
 
 /** @typedef {[string, string | Node | null]} Term A term, and what it is. */
 
-/** All about the robot or decision that is chosen. */
+/** All about the robot, decision, fault or forced loss that is chosen. */
 export class Card {
   /**
    * @param {Root} root
@@ -67,15 +67,17 @@ export class Card {
   }
 
   #show() {
-    const { robot, fault, decisionIndex } = this.choice;
+    const { robot, fault, forcedLoss, decisionIndex } = this.choice;
     const decision = this.plan.decisions[decisionIndex];
     this.box.hidden = !robot;
     if (!robot) return;
     const content = fault
       ? this.#fault(fault)
-      : decision
-        ? this.#decision(decision)
-        : this.#robot(robot);
+      : forcedLoss
+        ? this.#forcedLoss(forcedLoss)
+        : decision
+          ? this.#decision(decision)
+          : this.#robot(robot);
     this.box.replaceChildren(...content);
     this.box.scrollTop = 0;
     this.#clearMap();
@@ -123,6 +125,7 @@ export class Card {
       element("h3", {}, texts.trip),
       this.#lines(robot.stages, (stage) => this.#stage(robot, stage)),
       ...this.#losses(robot),
+      ...this.#forcedLosses(robot),
       ...this.#encounters(robot),
     ];
   }
@@ -258,6 +261,40 @@ export class Card {
       this.#moment(loss.tick, this.plan.phrases.said(loss.text), loss.places),
     );
     return [element("h3", {}, robot instanceof FloorRobot ? texts.waits : texts.losesTime), lines];
+  }
+
+  /**
+   * What the robot and others lose in every plan.
+   *
+   * @param {Robot} robot
+   */
+  #forcedLosses(robot) {
+    const { forcedLosses, phrases } = this.plan;
+    const own = forcedLosses.filter(({ robots }) => robots.includes(robot.index));
+    if (!own.length) return [];
+    const lines = this.#lines(own, (loss) =>
+      goTo(this.words.time(loss.tick), phrases.said(loss.head), () =>
+        chooseAt(this.clock, loss.tick, () =>
+          this.choice.chooseForcedLoss(forcedLosses.indexOf(loss)),
+        ),
+      ),
+    );
+    return [element("h3", {}, texts.inEveryPlan), lines];
+  }
+
+  /** @param {ForcedLossData} loss */
+  #forcedLoss(loss) {
+    const { phrases } = this.plan;
+    const robots = loss.robots.map((index) => this.choice.robots[index]);
+    const names = robots.map((robot) =>
+      link(robot.name, () => this.choice.chooseRobot(robot.index)),
+    );
+    return [
+      this.#header(...robots.map(swatch), element("h2", {}, ...joined(names))),
+      element("p", { className: "name" }, texts.whyNoneIsBetter),
+      element("p", { lang: phrases.languageOf(loss.text) }, phrases.said(loss.text)),
+      element("ol", {}, this.#moment(loss.tick, texts.inThisPlan, loss.vertices)),
+    ];
   }
 
   /**

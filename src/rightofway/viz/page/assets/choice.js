@@ -6,7 +6,7 @@ import { Observable } from "./observable.js";
 /** @typedef {"plan" | "floor" | "both"} Mode What to show: the plan, what happened on the floor, or both. */
 
 /**
- * What the user looks at: a robot, a decision or fault, the heat map, the plan or what became of it,
+ * What the user looks at: a robot, a decision, fault or forced loss, the heat map, the plan or what became of it,
  * the bottleneck, a corridor, what robots book, places of a finding. It is the fleet that views show, and
  * writes nothing into the plan. Events: `choice`, `heat`, `mode`,
  * `bottleneck`, `corridor`, `space`; `fleet` when the robots of a fleet that is driven have gone on.
@@ -19,6 +19,7 @@ export class Choice extends Observable {
     this.robotIndex = -1;
     this.decisionIndex = -1;
     this.faultIndex = -1;
+    this.forcedIndex = -1; // of a loss that every plan has
     this.heat = false;
     /** @type {Mode} */
     this.mode = plan.happened ? "both" : "plan";
@@ -50,9 +51,14 @@ export class Choice extends Observable {
     return this.robots[this.robotIndex] ?? null;
   }
 
-  /** The decision or fault, or null: what happens between its `robots` at its `vertices` at its `tick`. */
+  /** The decision, fault or forced loss, or null: what happens between its `robots` at its `vertices` at its `tick`. */
   get decision() {
-    return this.fault ?? this.plan.decisions[this.decisionIndex] ?? null;
+    return this.fault ?? this.forcedLoss ?? this.plan.decisions[this.decisionIndex] ?? null;
+  }
+
+  /** What robots lose to each other in every plan, or null. */
+  get forcedLoss() {
+    return this.plan.forcedLosses[this.forcedIndex] ?? null;
   }
 
   /** The fault, or null. */
@@ -86,6 +92,15 @@ export class Choice extends Observable {
    */
   chooseFault(index) {
     this.#set(this.plan.faults[index]?.robots[0] ?? -1, -1, index);
+  }
+
+  /**
+   * Look at what robots lose in every plan, and so at the first of them.
+   *
+   * @param {number} index
+   */
+  chooseForcedLoss(index) {
+    this.#set(this.plan.forcedLosses[index]?.robots[0] ?? -1, -1, -1, index);
   }
 
   /** Also ends the choice of a corridor that has begun. */
@@ -206,13 +221,20 @@ export class Choice extends Observable {
    * @param {number} robot
    * @param {number} decision
    * @param {number} [fault]
+   * @param {number} [forced]
    */
-  #set(robot, decision, fault = -1) {
-    if (robot === this.robotIndex && decision === this.decisionIndex && fault === this.faultIndex)
-      return;
+  #set(robot, decision, fault = -1, forced = -1) {
+    const isSame = [
+      robot === this.robotIndex,
+      decision === this.decisionIndex,
+      fault === this.faultIndex,
+      forced === this.forcedIndex,
+    ];
+    if (isSame.every(Boolean)) return;
     if (robot !== this.robotIndex) this.pair = -1;
     this.lit = [];
     this.faultIndex = fault;
+    this.forcedIndex = forced;
     this.robotIndex = robot;
     this.decisionIndex = decision;
     this.tell("choice");

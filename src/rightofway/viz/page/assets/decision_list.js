@@ -10,7 +10,8 @@ import { TwoLineList, chooseAt } from "./two_line_list.js";
 /** @import { Words } from "./words.js" */
 
 /**
- * The list of all resolved conflicts, and of the robots that were sent another way.
+ * The list of what robots lose in every plan, of the robots that were sent another way, and of all resolved
+ * conflicts.
  *
  * @param {Root} root
  * @param {Plan} plan
@@ -25,7 +26,7 @@ export function makeDecisionList(root, plan, clock, choice, words) {
     head: texts.rerouted(words.robot(robot)),
     detail: said(because),
     isEnglish: languageOf(because) === "en",
-    isChosen: () => choice.decisionIndex < 0 && choice.robotIndex === robot,
+    isChosen: () => !choice.decision && choice.robotIndex === robot,
     choose: () => choice.chooseRobot(robot),
   }));
   /** @type {TwoLines[]} */
@@ -35,7 +36,14 @@ export function makeDecisionList(root, plan, clock, choice, words) {
     isChosen: () => choice.decisionIndex === index,
     choose: () => chooseAt(clock, decision.tick, () => choice.chooseDecision(index)),
   }));
-  const items = [...reroutes, ...decisions];
+  /** @type {TwoLines[]} */
+  const forced = plan.forcedLosses.map((loss, index) => ({
+    head: phrases.said(loss.head),
+    detail: texts.whyNoneIsBetter,
+    isChosen: () => choice.forcedIndex === index,
+    choose: () => chooseAt(clock, loss.tick, () => choice.chooseForcedLoss(index)),
+  }));
+  const items = [...forced, ...reroutes, ...decisions];
   const isSilent = hasNoReasons(plan);
   const none = isSilent ? texts.noDecisions : texts.noneNeeded;
   return new TwoLineList(root, "decision", choice, items, {
@@ -51,5 +59,5 @@ export function makeDecisionList(root, plan, clock, choice, words) {
  */
 export function hasNoReasons(plan) {
   const isLate = plan.noPlan || plan.planned.some(({ delay }) => delay > 0);
-  return isLate && !plan.reroutes.length && !plan.decisions.length;
+  return isLate && ![plan.forcedLosses, plan.reroutes, plan.decisions].some(({ length }) => length);
 }

@@ -36,7 +36,9 @@ export class DeepLink {
     const robot = this.plan.robots.findIndex(({ name }) => name === asked.get("robot"));
     const decision = Number.parseInt(asked.get("decision") ?? "", 10) - 1;
     const fault = Number.parseInt(asked.get("fault") ?? "", 10) - 1;
+    const forced = Number.parseInt(asked.get("forced") ?? "", 10) - 1;
     if (this.plan.faults[fault]) this.choice.chooseFault(fault);
+    else if (this.plan.forcedLosses[forced]) this.choice.chooseForcedLoss(forced);
     else if (this.plan.decisions[decision]) this.choice.chooseDecision(decision);
     else if (robot >= 0) this.choice.chooseRobot(robot);
     const mode = MODES.find((each) => each === asked.get("show"));
@@ -65,6 +67,7 @@ export class DeepLink {
   get address() {
     const state = new URLSearchParams({ tick: String(Math.round(this.clock.tick * 100) / 100) });
     if (this.choice.fault) state.set("fault", String(this.choice.faultIndex + 1));
+    else if (this.choice.forcedLoss) state.set("forced", String(this.choice.forcedIndex + 1));
     else if (this.choice.decision) state.set("decision", String(this.choice.decisionIndex + 1));
     else if (this.choice.robot) state.set("robot", this.choice.robot.name);
     if (this.plan.happened) state.set("show", this.choice.mode);

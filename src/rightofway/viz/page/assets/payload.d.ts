@@ -167,6 +167,15 @@ export interface FloorData {
   losses: LossRow[];
 }
 
+/** Robots that lose time in every plan, and where they would meet; texts are by index. ``tick`` is when the last of them is there in this plan; 0 where none comes there. */
+export interface ForcedLossData {
+  head: number;
+  text: number;
+  robots: number[];
+  vertices: number[];
+  tick: number;
+}
+
 /** Where (0, 0) of the drawing lies on the site, and the length of its unit there. */
 export interface FrameData {
   x: number;
@@ -269,6 +278,7 @@ export interface OtherPlan {
   planner: PlannerData;
   decisions: DecisionData[];
   reroutes: RerouteData[];
+  forcedLosses?: ForcedLossData[];
   metrics: MetricsData;
   steady?: SteadyData[];
   laps?: number[];
@@ -296,6 +306,7 @@ export interface Payload {
   planner: PlannerData;
   decisions: DecisionData[];
   reroutes: RerouteData[];
+  forcedLosses?: ForcedLossData[];
   metrics: MetricsData;
   steady?: SteadyData[];
   laps?: number[];

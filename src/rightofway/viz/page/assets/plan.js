@@ -34,6 +34,7 @@ export class Plan extends Site {
     if (this.comparison) this.#shareEnd();
     this.planner = raw.planner;
     this.decisions = raw.decisions;
+    this.forcedLosses = raw.forcedLosses ?? []; // of an optimal plan
     this.reroutes = raw.reroutes;
     this.metrics = raw.metrics;
   }

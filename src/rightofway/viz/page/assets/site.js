@@ -3,7 +3,7 @@ import { Quantities } from "./quantities.js";
 import { Roadmap } from "./roadmap.js";
 import { Robot } from "./robot.js";
 
-/** @import { ClosureData, DecisionData, FaultData, LevelData, Payload } from "./payload.d.ts" */
+/** @import { ClosureData, DecisionData, FaultData, ForcedLossData, LevelData, Payload } from "./payload.d.ts" */
 /** @import { FloorRobot } from "./floor.js" */
 /** @import { Driven } from "./driven.js" */
 /** @import { Steady } from "./steady.js" */
@@ -35,6 +35,8 @@ export class Site {
     this.faults = [];
     /** @type {DecisionData[]} */
     this.decisions = [];
+    /** @type {ForcedLossData[]} */
+    this.forcedLosses = [];
     /** @type {FloorRobot[] | null} */
     this.happened = null;
     /** @type {Driven | null} */

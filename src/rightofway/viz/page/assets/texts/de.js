@@ -211,6 +211,9 @@ export const GERMAN = {
   works: (time) => `arbeitet ${time}`,
   turns: (time) => `dreht ${time}`,
   losesTime: "Verliert Zeit",
+  whyNoneIsBetter: "Warum kein Plan besser ist",
+  inEveryPlan: "In jedem Plan",
+  inThisPlan: "in diesem Plan",
   theFault: (kind) => `der Fehler (${kind})`,
   ifItWaits: "Wenn er wartet",
 

@@ -251,6 +251,9 @@ export const ENGLISH = {
   /** @param {string} time */
   turns: (time) => `turns ${time}`,
   losesTime: "Loses time",
+  whyNoneIsBetter: "Why no plan is better",
+  inEveryPlan: "In every plan",
+  inThisPlan: "in this plan",
   /** @param {string} kind */
   theFault: (kind) => `the fault (${kind})`,
   ifItWaits: "If it waits",
