@@ -274,13 +274,13 @@ def _first(name: str, value: Any, module: str) -> str:
 
 def _constant(name: str, module: str) -> str:
     """Return the sentence below a constant, in a module or in the one that it is imported from."""
-    body = ast.parse(inspect.getsource(import_module(module))).body
-    for statement, below in pairwise(body):
+    source = ast.parse(inspect.getsource(import_module(module)))
+    for statement, below in pairwise(source.body):
         targets = getattr(statement, "targets", [getattr(statement, "target", None)])
         if name in [getattr(each, "id", None) for each in targets]:
             text = getattr(below, "value", None)
             return str(text.value) if isinstance(text, ast.Constant) else ""
-    for statement in body:
+    for statement in ast.walk(source):  # also imports for the checker of types alone
         if isinstance(statement, ast.ImportFrom) and statement.module and not statement.level:
             names = {each.asname or each.name: each.name for each in statement.names}
             if name in names:

@@ -110,6 +110,10 @@ GOOD: dict[str, Callable[[], tuple[Callable[..., Any], dict[str, Any]]]] = {
         {"scenario": DOOR, "tracks": plan().tracks},
     ),
     "Plan.__getitem__": lambda: (plan().__getitem__, {"name": "R1"}),
+    "Plan.compute_value": lambda: (
+        plan().compute_value,
+        {"objective": rw.Objective.MAKESPAN},
+    ),
     "Plan.once": lambda: (plan().once, {"figure": "of a test", "compute": list}),
     "Plan.to_dataframe": lambda: (plan().to_dataframe, {"library": "pandas"}),
     "Quantities.format_cell": lambda: (QUANTITIES.format_cell, {"ticks": 1}),

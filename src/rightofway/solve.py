@@ -281,7 +281,7 @@ def _outcome(spec: PlannerSpec, draft: Draft, plan: Plan, *, keeps_rules: bool) 
     proof = draft.proof or Proof(bound=alone)
     if proof.objective is not Objective.MAKESPAN:
         proof = replace(proof, bound=max(proof.bound, alone))
-    cost = proof.objective.of(plan.scenario, plan.tracks)
+    cost = plan.compute_value(proof.objective)
     if not keeps_rules:  # its swaps may save time, so it proves nothing
         return Outcome(kind=OutcomeKind.BEST_FOUND, objective=proof.objective, bound=proof.bound)
     if cost < proof.bound:

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 import rightofway
-from rightofway import FleetBuilder, InputError, Plan, PlannerRun, Track
+from rightofway import FleetBuilder, InputError, Objective, Plan, PlannerRun, Track
 
 
 def waiting() -> Plan:
@@ -28,6 +28,12 @@ def test_a_plan_answers_what_it_costs() -> None:
     metrics = rightofway.measure(plan)
     assert (metrics.flowtime, metrics.makespan) == (plan.flowtime, plan.makespan)
     assert metrics.lower_bound == plan.lower_bound
+
+
+def test_a_plan_has_a_value_by_each_objective() -> None:
+    plan = waiting()
+    assert plan.compute_value(Objective.MAKESPAN) == plan.makespan
+    assert plan.compute_value(Objective.FLOWTIME) == plan.flowtime
 
 
 def test_a_plan_answers_for_one_robot() -> None:

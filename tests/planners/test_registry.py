@@ -13,6 +13,7 @@ from typing import Annotated, Any, Literal
 
 import pytest
 
+from rightofway import FleetBuilder, solve
 from rightofway.errors import InputError
 from rightofway.planners import (
     Feature,
@@ -143,3 +144,16 @@ def test_planners_of_other_packages_are_searched_once_for_a_path(tmp_path: Path)
         command, env={**os.environ, "PYTHONPATH": paths}, capture_output=True, text=True, check=True
     )
     assert run.stdout.split() == ["own", "own", "True"]
+
+
+def test_our_own_planners_plan_without_a_search_of_installed_packages(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """LaCAM knows no turn rates: the planners that do are looked for where a fleet needs them."""
+
+    def search(_path: tuple[str, ...]) -> dict[str, Any]:
+        raise AssertionError("packages were searched")
+
+    monkeypatch.setattr("rightofway.planners.registry._of_other_packages", search)
+    fleet = FleetBuilder(grid=[".."]).add_robot("R1", home="N0", target="N1")
+    assert solve(fleet.build_scenario(), "lacam").flowtime > 0

@@ -184,10 +184,12 @@ def _start_quickly() -> None:
     """Spare a command, before it imports anything large, what takes CPU and serves no command.
 
     NumPy's linear algebra starts a thread for each core and keeps them busy for a while; products
-    of matrices are not what planning spends its time on. The garbage collector looks at all modules
+    of matrices are not what planning spends its time on. Pydantic looks through all installed
+    packages for plugins. The garbage collector looks at all modules
     again and again while they are imported; they stay.
     """
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     gc.set_threshold(50_000, *gc.get_threshold()[1:])
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, TypeVar, get_args
 
-from rightofway.errors import InputError, InputFault, Where, find_nearest, locate_faults, quote
+from rightofway.errors import InputError, InputFault, Where, find_nearest, quote
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -29,12 +29,9 @@ class Faults:
     def attempt(self, where: Where, read: Callable[..., T], *arguments: Any) -> T | None:
         """Return ``read(*arguments)``, or None after noting its faults under a place."""
         try:
-            if where == "":  # of a million lanes of a map, each is read so
-                return read(*arguments)
-            with locate_faults(where):
-                return read(*arguments)
+            return read(*arguments)
         except InputError as error:
-            self._faults += error.faults
+            self._faults += [fault.nest(where) for fault in error.faults]
             return None
 
     def part(

@@ -125,10 +125,10 @@ def _scen_row(line: int, text: str) -> ScenRow:
     columns = text.split("\t") if "\t" in text else text.split()
     if len(columns) not in {8, 9}:
         raise InputError.at("", f"{len(columns)} columns (give {_COLUMNS})")
-    numbers = [columns[index].strip() for index in range(2, 8)]
-    for number in numbers:
-        if not _SIZE.fullmatch(number):
-            raise InputError.at("", f"{quote(number)} is no count of cells (give {_COLUMNS})")
+    numbers = list(map(str.strip, columns[2:8]))
+    if not all(map(_SIZE.fullmatch, numbers)):
+        number = next(number for number in numbers if not _SIZE.fullmatch(number))
+        raise InputError.at("", f"{quote(number)} is no count of cells (give {_COLUMNS})")
     width, height, start_x, start_y, goal_x, goal_y = map(int, numbers)
     return ScenRow(
         line=line,

@@ -8,15 +8,10 @@ from pathlib import Path
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, Steps, Where, name_file, quote
 from rightofway.files import as_path
-from rightofway.io.foreign import format_of_text, read_foreign
 from rightofway.io.formats import SCENARIO_FORMAT
-from rightofway.io.layouts import refuse_layout
-from rightofway.io.locations import document_of
 from rightofway.io.movingai import load_scen
-from rightofway.io.plan.reader import plan_of
 from rightofway.io.scenario.reader import Loaded, read_scenario
 from rightofway.io.text import is_regular, read_text
-from rightofway.io.workbook import load_workbook_scenario
 from rightofway.model import Plan, Scenario
 
 WORKBOOKS = (".xlsx", ".xlsm", ".xls", ".ods")
@@ -59,8 +54,14 @@ def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
         with name_file(str(path)):
             return _classic(path, count)
     if path.suffix.lower() in WORKBOOKS:
+        from rightofway.io.workbook import load_workbook_scenario
+
         _refuse_count(count)
         return load_workbook_scenario(path)
+    # What a kind of files needs is imported with the first one: a `.scen` file needs none of it.
+    from rightofway.io.layouts import refuse_layout
+    from rightofway.io.locations import document_of
+
     with name_file(str(path)):
         _refuse_count(count)
         refuse_layout(path)
@@ -92,6 +93,9 @@ def load_plan(
         With every independent fault, its place, value and remedy. A plan that breaks rules is not
         at fault here: `rightofway.check` judges it.
     """
+    from rightofway.io.locations import document_of
+    from rightofway.io.plan.reader import plan_of
+
     path = as_path(path)
     kinds = {".scen": "a .scen file", **dict.fromkeys(WORKBOOKS, "a workbook")}
     kind = kinds.get(path.suffix.lower())
@@ -130,6 +134,9 @@ def load_either(
     path = as_path(path)
     if path.suffix.lower() in {".scen", *WORKBOOKS}:
         return load_with_notes(path, count)
+    from rightofway.io.locations import document_of
+    from rightofway.io.plan.reader import plan_of
+
     with name_file(str(path)):
         _refuse_count(count)
     text, foreign = _foreign(path, map_file, scen)
@@ -169,6 +176,8 @@ def _classic(path: Path, count: int | None) -> Loaded:
 
 
 def _refuse_foreign(text: str) -> None:
+    from rightofway.io.foreign import format_of_text
+
     if format_of_text(text):
         message = "is a plan of another program, not a scenario (check, show or improve it)"
         raise InputError.at("", message)
@@ -185,6 +194,9 @@ def _foreign(
     path: Path, map_file: Path | str | None, scen: Path | str | None
 ) -> tuple[str, Plan | None]:
     """Return the text of a file, and its plan if it is one of another program."""
+    from rightofway.io.foreign import read_foreign
+    from rightofway.io.layouts import refuse_layout
+
     with name_file(str(path)):
         refuse_layout(path)
         text = read_text(path)

@@ -31,7 +31,7 @@ def derive_outcome(plan: Plan) -> Outcome:
     if said is not None and said.kind in {OutcomeKind.NO_PLAN_EXISTS, OutcomeKind.GAVE_UP}:
         return said  # its tracks stand for no plan
     if said is not None and said.bound is not None:
-        cost = said.objective.of(plan.scenario, plan.tracks)
+        cost = plan.compute_value(said.objective)
         proof = Proof(bound=said.bound, objective=said.objective, factor=said.factor)
         is_careful = said.kind is OutcomeKind.BEST_FOUND  # a plan with swaps proves nothing
         if cost >= said.bound and (is_careful or classify_cost(cost, proof) == said):

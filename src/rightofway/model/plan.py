@@ -11,7 +11,7 @@ from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, find_nearest, quote
 from rightofway.model.figures import provided
 from rightofway.model.lost_time import LostTime
-from rightofway.model.outcome import ForcedLoss, Outcome
+from rightofway.model.outcome import ForcedLoss, Objective, Outcome
 from rightofway.model.robot import Robot
 from rightofway.model.route import Track
 from rightofway.model.scenario import Scenario
@@ -322,6 +322,13 @@ class Plan:
     def makespan(self) -> Tick:
         """The latest completion time [ticks]."""
         return max(self.completions)
+
+    @checks_arguments
+    def compute_value(self, objective: Objective) -> Tick:
+        """Return the value of this plan [ticks]; it is computed once for each objective."""
+        if objective is Objective.FLOWTIME:
+            return self.flowtime
+        return self.once(objective.value, lambda: objective.of(self.scenario, self.tracks))
 
     @property
     def lower_bound(self) -> Tick:

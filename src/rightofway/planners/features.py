@@ -60,9 +60,9 @@ def refuse_unknown(
             why = "it leaves swaps, and robots with a size collide in them"
             raise InputError.at("", f"{method} is for points: {why} ({remedy(Feature.SIZES)})")
         refuse_sizes(problem.resources, method, remedy(Feature.SIZES))
-    if Feature.TURN_RATES not in features:
+    if problem.turns and Feature.TURN_RATES not in features:
         refuse_turn_rates(problem, method, remedy(Feature.TURN_RATES))
-    if Feature.CLOSURES not in features:
+    if problem.closures is not None and Feature.CLOSURES not in features:
         refuse_closures(problem, method, remedy(Feature.CLOSURES))
     if problem.is_barred and Feature.BARRED_EDGES not in features:
         message = f"{method} does not know edges that are barred for some robots"

@@ -105,7 +105,7 @@ def describe_proof(plan: Plan) -> str:
         )
     is_above_alone = outcome.bound is not None and outcome.bound > metrics.lower_bound
     if outcome.kind is OutcomeKind.BEST_FOUND and outcome.bound and is_above_alone:
-        cost = outcome.objective.of(plan.scenario, plan.tracks)
+        cost = plan.compute_value(outcome.objective)
         return Phrase(
             "at most {gap} above the least {objective}",
             gap=f"{cost / outcome.bound - 1:.1%}",

@@ -1,15 +1,37 @@
-"""Layouts of sites, as other programs write them: vertices, lanes, stations; maps as pictures."""
+"""Layouts of sites, as other programs write them: vertices, lanes, stations; maps as pictures.
 
-from rightofway.io.layouts.formats import (
-    LayoutFormat,
-    describe_layout,
-    is_layout,
-    layout_formats,
-    read_layout,
-    refuse_layout,
-)
-from rightofway.io.layouts.graph import layout_of_graph
-from rightofway.io.layouts.writing import LAYOUT_WRITERS, layout_text
+Each part is imported when it is first used: `scenario` documents need the curves alone.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rightofway.io.layouts.formats import (
+        LayoutFormat,
+        describe_layout,
+        is_layout,
+        layout_formats,
+        read_layout,
+        refuse_layout,
+    )
+    from rightofway.io.layouts.graph import layout_of_graph
+    from rightofway.io.layouts.writing import LAYOUT_WRITERS, layout_text
+
+_MODULES = {
+    "formats": (
+        "LayoutFormat",
+        "describe_layout",
+        "is_layout",
+        "layout_formats",
+        "read_layout",
+        "refuse_layout",
+    ),
+    "graph": ("layout_of_graph",),
+    "writing": ("LAYOUT_WRITERS", "layout_text"),
+}
 
 __all__ = [
     "LAYOUT_WRITERS",
@@ -22,3 +44,10 @@ __all__ = [
     "read_layout",
     "refuse_layout",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    for module, names in _MODULES.items():
+        if name in names:
+            return getattr(import_module(f"{__name__}.{module}"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -13,7 +13,6 @@ from rightofway.errors import InputError, find_nearest, locate_faults, quote
 from rightofway.io.faults import Faults
 from rightofway.io.movingai import load_map
 from rightofway.io.scenario.curves import LaneCurve, lane_curve, points_along
-from rightofway.io.scenario.layouts import map_of_layout
 from rightofway.io.scenario.loaded_map import (
     FleetTraits,
     LoadedMap,
@@ -70,6 +69,8 @@ def map_of(
     if document.layout is not None:
         with locate_faults("layout"):
             file = file_beside(base, document.layout)
+        from rightofway.io.scenario.layouts import map_of_layout
+
         return map_of_layout(document, file, units, fleet)
     if document.roadmap is not None:
         with locate_faults("roadmap"):
