@@ -4,10 +4,12 @@ from dataclasses import replace
 
 from hypothesis import strategies as st
 
+import rightofway
 from rightofway.deadline import Deadline
-from rightofway.errors import NoPlanExists
+from rightofway.errors import Blockage, GaveUp, NoPlanExists
 from rightofway.model import Rules, Scenario
 from rightofway.planners.impossible import find_blocking_set
+from tests.builders.any_plan import QUICK
 from tests.builders.fleets import grid_fleet
 from tests.builders.laws import law, leave
 from tests.oracles.all_steps import can_get_through
@@ -52,8 +54,25 @@ def test_a_blocking_set_is_blocked_and_minimal(scenario: Scenario) -> None:
     if has_plan(scenario, everybody):
         leave("a plan exists")
     blockage = find_blocking_set(scenario, range(len(everybody)), seed=0, deadline=Deadline())
+    check_minimal(scenario, blockage)
+    assert NoPlanExists([blockage]).robots == blockage.robots
+
+
+@law(fleets(), st.sampled_from(("auto", "cbs", "lacam")))
+def test_every_planner_names_a_minimal_set(scenario: Scenario, planner: str) -> None:
+    try:
+        rightofway.solve(scenario, planner, time_limit=None, options=QUICK.get(planner))
+    except NoPlanExists as proof:
+        for blockage in proof.blockages:
+            check_minimal(scenario, blockage)
+        return
+    except GaveUp:
+        leave("the planner gave up")
+    assert has_plan(scenario, tuple(robot.name for robot in scenario.robots))
+
+
+def check_minimal(scenario: Scenario, blockage: Blockage) -> None:
     assert not has_plan(scenario, blockage.robots)
     for name in blockage.robots:
         fewer = tuple(other for other in blockage.robots if other != name)
         assert not fewer or has_plan(scenario, fewer)
-    assert NoPlanExists([blockage]).robots == blockage.robots
