@@ -106,6 +106,7 @@ def test_the_summary_for_programs_has_the_numbers_of_the_one_for_people(
         "name": "auto", "options": {"swaps": "resolve", "iterations": 0, "nodes": 1000}, "seed": 0,
         "status": "optimal: proven by 0 nodes of conflict-based search (two-level, waits only)",
         "outcome": {"kind": "optimal", "objective": "flowtime", "bound": 19},
+        "forced_losses": [{"robots": ["R1", "R2"], "ticks": 1, "vertex": "N1"}],
     }  # fmt: skip
     assert data["metrics"]["flowtime"] == 19
     assert (data["tick"], data["units"]) == (1, {"length": None, "time": None})
