@@ -9,8 +9,9 @@ all there are.
 ``python -m benchmarks.sizes rules`` plans on such graphs with other rules for pieces, each by 1000
 neighbourhoods, without a clock: the figures of decision 41.
 
-``python -m benchmarks.sizes ccbs FOLDER`` plans tasks of Continuous-CBS (Andreychuk et al., 2019),
-whose roadmaps are at github.com/PathPlanning/Continuous-CBS: a folder with map.xml and 1_task.xml.
+``python -m benchmarks.sizes ccbs FOLDER [ROBOTS ...]`` plans tasks of Continuous-CBS (Andreychuk et
+al., 2019), whose roadmaps are at github.com/PathPlanning/Continuous-CBS: a folder with map.xml and
+1_task.xml. The super-dense one is read with RIGHTOFWAY_MOST_CHARACTERS=60000000.
 
 ``python -m benchmarks.sizes FOLDER [SCENARIO ...]`` wants a folder of the MovingAI benchmark, with
 ``maps`` and ``scens`` in it. SCENARIO is a file with a real layout, as ``rightofway convert``
@@ -21,12 +22,14 @@ default planner, by the clock on the wall.
 
 from __future__ import annotations
 
+import gc
 import random
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 from math import nan
 from pathlib import Path
 from statistics import median
@@ -329,34 +332,39 @@ def _ratio(document: dict[str, Any]) -> float:
 CCBS_ROBOTS, CCBS_TASKS, CCBS_RADIUS = (20, 40), (1, 2), 0.354
 
 
-def on_a_public_roadmap(folder: Path) -> str:
+def on_a_public_roadmap(folder: Path, counts: Sequence[int]) -> str:
     """Return the table of tasks of Continuous-CBS, its discs at speed 1, by the default planner."""
     lines = []
-    for robots in CCBS_ROBOTS:
+    for robots in counts:
         for task in CCBS_TASKS:
             text = (folder / f"{task}_task.xml").read_text(encoding="utf-8")
             agents = [agent.value for agent in parse_xml(text).descendants("agent")]
-            scenario = scenario_of(
-                {
-                    "format": "rightofway-scenario/1",
-                    "map": {"layout": "map.xml"},
-                    "robots": [
-                        {"name": f"R{k}", "radius": CCBS_RADIUS,
-                         "home": f"n{agent['start_id']}", "target": f"n{agent['goal_id']}"}
-                        for k, agent in enumerate(agents[:robots])
-                    ],
-                    "rules": {"return": "none"},
-                },
-                folder,
-            )  # fmt: skip
-            metrics = measure(rightofway.solve(scenario, time_limit=SECONDS))
-            ratio = metrics.flowtime / metrics.lower_bound
-            lines.append((str(robots), str(task), str(scenario.roadmap.n_edges), f"{ratio:.4f}"))
-    return table(("robots", "task", "edges", f"ratio after {SECONDS} s"), lines)
+            document = {
+                "format": "rightofway-scenario/1",
+                "map": {"layout": "map.xml"},
+                "robots": [
+                    {"name": f"R{k}", "radius": CCBS_RADIUS,
+                     "home": f"n{agent['start_id']}", "target": f"n{agent['goal_id']}"}
+                    for k, agent in enumerate(agents[:robots])
+                ],
+                "rules": {"return": "none"},
+            }  # fmt: skip
+            reading, scenario = seconds(partial(scenario_of, document, folder))
+            plan = rightofway.solve(scenario, time_limit=SECONDS)
+            metrics = measure(plan)
+            first = plan.run.first_plan_seconds
+            assert first is not None, "there is a plan"
+            lines.append((
+                str(robots), str(task), str(scenario.roadmap.n_edges), f"{reading:.1f}",
+                f"{first:.1f}", f"{metrics.flowtime / metrics.lower_bound:.4f}",
+            ))  # fmt: skip
+    heads = ("robots", "task", "edges", "reading [s]", "first plan [s]", f"ratio after {SECONDS} s")
+    return table(heads, lines)
 
 
 def main() -> None:
     """Print the tables."""
+    gc.set_threshold(50_000, *gc.get_threshold()[1:])  # as commands do
     if len(sys.argv) == 1:
         print(on_random_graphs())  # noqa: T201
         return
@@ -364,7 +372,8 @@ def main() -> None:
         print(by_rules())  # noqa: T201
         return
     if sys.argv[1] == "ccbs":
-        print(on_a_public_roadmap(Path(sys.argv[2])))  # noqa: T201
+        counts = [int(count) for count in sys.argv[3:]] or CCBS_ROBOTS
+        print(on_a_public_roadmap(Path(sys.argv[2]), counts))  # noqa: T201
         return
     print(cost_of_sizes(Path(sys.argv[1])))  # noqa: T201
     for path in sys.argv[2:]:

@@ -18,6 +18,7 @@ from rightofway.io import dump_plan, dump_scenario, load_with_notes, plan_of, sc
 from rightofway.io.text import json_text
 from rightofway.site import Edge
 from rightofway.site.crossings import MOST_CUTS, choose_spacing, find_crossed
+from rightofway.site.nearness import Lines
 from rightofway.site.spacing import split_lanes
 
 Point = tuple[float, float]
@@ -177,6 +178,31 @@ def test_lanes_are_met_as_an_oracle_says() -> None:
             for line, want in zip(lines, wanted, strict=True)
         ]
         assert found.tolist() == expected
+
+
+def test_of_thousands_of_crossings_few_are_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
+    """3000 lanes of about 8 on 30 by 30, each crossed by a hundred: one crossing is enough."""
+    draw = random.Random(1)  # noqa: S311 (no secret depends on it)
+    begin = np.array([[draw.uniform(0, 30) for _ in "xy"] for _ in range(3000)])
+    end = begin + [[draw.uniform(-10, 10) for _ in "xy"] for _ in begin]
+    far = np.array([[1000.0, 1000.0]])
+    wanted = np.hypot(*(end - begin).T) > 3
+    looked_at: list[int] = []
+    find_crossing = Lines.find_crossing
+
+    def count_pairs(*arguments: Any) -> tuple[Any, Any]:
+        pairs = find_crossing(*arguments)
+        looked_at.append(len(pairs[0]))
+        return pairs
+
+    monkeypatch.setattr(Lines, "find_crossing", count_pairs)
+    found = find_crossed(begin, end, far, wanted, 0.1)
+    few = sum(looked_at)
+    looked_at.clear()
+    monkeypatch.setattr("rightofway.site.crossings.PARTS", (1,))
+    assert find_crossed(begin, end, far, wanted, 0.1).tolist() == found.tolist()
+    assert found.sum() > 0.9 * wanted.sum()
+    assert 5 * few < sum(looked_at)
 
 
 def is_met(
