@@ -63,6 +63,30 @@ class _Fleet:
             other = tuple(shape for shape in other if len(shape) == 1)
         return any(self.excludes(i, x, j, y) for x, y in product(one, other))
 
+    def costs_alone(self, robot: int) -> dict[State, int]:
+        """Return what a robot alone still costs in each state it can come to, without closures."""
+        start = State(self.scenario.problem.itineraries[robot].home)
+        before: dict[State, list[tuple[State, int]]] = {start: []}
+        todo = [start]
+        while todo:
+            state = todo.pop()
+            for after, _, ticks in self.actions(robot, state):
+                if after not in before:
+                    before[after] = []
+                    todo.append(after)
+                before[after].append((state, ticks))
+        costs = {state: 0 for state in before if state.is_done}
+        heap = [(0, state) for state in costs]
+        while heap:
+            cost, state = heappop(heap)
+            if cost > costs[state]:
+                continue
+            for earlier, ticks in before[state]:
+                if cost + ticks < costs.get(earlier, cost + ticks + 1):
+                    costs[earlier] = cost + ticks
+                    heappush(heap, (cost + ticks, earlier))
+        return costs
+
     def together(self, states: tuple[State, ...], tick: int) -> list[tuple[Action, ...]]:
         """Return what all robots can do in a tick without booking what excludes each other."""
         found: list[tuple[Action, ...]] = [()]
@@ -124,17 +148,33 @@ class _Fleet:
 
 
 def least_flowtime(scenario: Scenario) -> int | None:
-    """Return the least sum of completions by weight [ticks], None where there is no plan."""
+    """Return the least sum of completions by weight [ticks], None where there is no plan.
+
+    Joint states in the order of what they cost and what each robot alone would cost from there.
+    """
     fleet = _Fleet(scenario)
-    weights = [itinerary.weight for itinerary in scenario.problem.itineraries]
+    itineraries = scenario.problem.itineraries
+    weights = [itinerary.weight for itinerary in itineraries]
+    alone = [fleet.costs_alone(robot) for robot in range(len(itineraries))]
     moments = [begins(scenario, closure) for closure in scenario.closures]
     moments += [ends(scenario, closure) or 0 for closure in scenario.closures]
     horizon = max(moments, default=0)  # nothing is opened or closed later
-    start = (0, tuple(State(itinerary.home) for itinerary in scenario.problem.itineraries))
+
+    def least_left(states: tuple[State, ...]) -> int | None:
+        least = 0
+        for weight, costs, state in zip(weights, alone, states, strict=True):
+            if state not in costs:
+                return None
+            least += weight * costs[state]
+        return least
+
+    start = (0, tuple(State(itinerary.home) for itinerary in itineraries))
     best = {start: 0}
-    heap = [(0, *start)]
+    least = least_left(start[1])
+    heap = [] if least is None else [(least, 0, *start)]
     while heap:
-        cost, tick, states = heappop(heap)
+        _, negative, tick, states = heappop(heap)
+        cost = -negative
         if tick == horizon and all(
             state.is_done and not fleet.is_closed(robot, ((state.vertex,),), tick)
             for robot, state in enumerate(states)
@@ -145,9 +185,9 @@ def least_flowtime(scenario: Scenario) -> int | None:
         for chosen in fleet.together(states, tick):
             after = (min(tick + 1, horizon), tuple(each[0] for each in chosen))
             total = cost + sum(w * each[2] for w, each in zip(weights, chosen, strict=True))
-            if total < best.get(after, total + 1):
+            if total < best.get(after, total + 1) and (left := least_left(after[1])) is not None:
                 best[after] = total
-                heappush(heap, (total, *after))
+                heappush(heap, (total + left, -total, *after))
     return None
 
 
