@@ -205,10 +205,16 @@ class _Demo:
                 zip(control.ledger.robots, identities, strict=True)
             )
         ]
-        self._listens = {topic: robot for robot in self._robots for topic in robot.end.topics}
+        self._listens = {
+            topic: number for number, robot in enumerate(self._robots) for topic in robot.end.topics
+        }
         self._story = Story(control.ledger, names)
         self._sent = Counter[str]()
         self._dispatcher, self.switches = dispatcher, False
+        self._may_begin = set(range(len(self._robots)))  # robots that may have something to do
+        self._has_news = set(range(len(self._robots)))  # robots of which the story may go on
+        self._graph = control.ledger.graph  # at the last look of the story
+        self._stamp = (-1, "")  # the last time, and how messages have it
 
     @property
     def _now(self) -> int:
@@ -219,9 +225,12 @@ class _Demo:
 
     def _timestamp(self) -> str:
         """Return the simulated time as messages have it: a time unit is a second after 1970."""
-        seconds = float(self._plan.scenario.problem.clock.time(self._now))
-        moment = datetime.fromtimestamp(0, UTC) + timedelta(seconds=seconds)
-        return f"{moment:%Y-%m-%dT%H:%M:%S}.{moment.microsecond // 1000:03d}Z"
+        if self._stamp[0] != self._now:
+            seconds = float(self._plan.scenario.problem.clock.time(self._now))
+            moment = datetime.fromtimestamp(0, UTC) + timedelta(seconds=seconds)
+            text = f"{moment:%Y-%m-%dT%H:%M:%S}.{moment.microsecond // 1000:03d}Z"
+            self._stamp = (self._now, text)
+        return self._stamp[1]
 
     def run(self, wait_until: Callable[[Tick], None], laps: int | None) -> DemoResult:
         """Go from step to step until no robot has anything to do, or all laps are made."""
@@ -240,9 +249,11 @@ class _Demo:
         agenda: list[tuple[int, int]] = []  # when the next step of a robot ends
         self._exchange(self._end.make_letters(self._control.start()))
         while True:
-            for number, robot in enumerate(self._robots):
+            for number in sorted(self._may_begin):
+                robot = self._robots[number]
                 if not robot.is_busy and (end := robot.begin_step(self._now)) is not None:
                     heapq.heappush(agenda, (end, number))
+            self._may_begin.clear()
             if not agenda or agenda[0][0] > self._now:
                 self._end_instant()
             if not agenda and not self._waits_for_people:
@@ -252,6 +263,7 @@ class _Demo:
                 continue
             moment, number = heapq.heappop(agenda)
             self._robots[number].end_step(moment)
+            self._may_begin.add(number)
             self._exchange([self._robots[number].end.report_state()])
             yield
 
@@ -269,8 +281,12 @@ class _Demo:
 
     def _end_instant(self) -> None:
         """Tell what is new; keep it."""
-        for happening in self._story.go_on():
+        graph = self._control.ledger.graph
+        if graph is not self._graph:  # other robots may wait for others
+            self._graph, self._has_news = graph, set(range(len(self._robots)))
+        for happening in self._story.go_on(sorted(self._has_news)):
             self._tell(happening.text)
+        self._has_news.clear()
         if self._record:
             self._record.journal.flush()
 
@@ -302,6 +318,7 @@ class _Demo:
                 self._tell(said)
                 self._record.write(make_notice(to_parts(said)))
         self._exchange(self._end.make_letters(messages))
+        self._has_news.update(range(len(self._robots)))
         self._end_instant()
         for number, answer in answers:
             self._record.commands.answer(number, answer)
@@ -314,12 +331,15 @@ class _Demo:
             letter = queue.popleft()
             self._sent[letter.name] += 1
             self._watch(letter)
-            robot = self._listens.get(letter.topic)
-            if robot is None:
+            number = self._listens.get(letter.topic)
+            if number is None:
+                self._has_news.add(self._end.find_robot(letter.topic) or 0)
                 queue.extend(self._end.receive(letter))
             else:
-                robot.end.receive(letter)
-                queue.append(robot.end.report_state())
+                self._may_begin.add(number)
+                self._has_news.add(number)
+                self._robots[number].end.receive(letter)
+                queue.append(self._robots[number].end.report_state())
 
     def _result(self, *, is_endless: bool) -> DemoResult:
         robots = self._control.ledger.robots

@@ -37,14 +37,14 @@ def find_last_part(
     own, end = ledger.robots[robot], ledger.robots[robot].released
     if own.is_on_hold or own.fault is not None:
         return end
-    route, last, arrived = own.route, min(own.arrived + ahead, own.route.end - 1), ledger.arrived
+    route, last, arrived = own.route, min(own.arrived + ahead, own.route.end - 1), list[int]()
     while (
         end < last
         and own.finished.issuperset(route.get_jobs(end))
         and not is_in_base(own, end + 1)
+        and ledger.graph.may_go(Part(robot, end + 1), arrived := arrived or ledger.arrived)
         and not _is_closed(ledger, route.get_place(end), route.get_place(end + 1))
         and not _is_strayed_to(ledger, route.get_place(end + 1))
-        and ledger.graph.may_go(Part(robot, end + 1), arrived)
     ):
         end += 1
     return end

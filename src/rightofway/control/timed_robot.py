@@ -29,6 +29,7 @@ class Durations:
         self._plan, self._delays, self._seed, self._laps = plan, delays, seed, laps
         self._routes, self._roadmap = make_routes_to_drive(plan), plan.scenario.roadmap
         self.round = lru_cache(maxsize=4)(self._round)
+        self._drives: dict[tuple[int, str, str], int] = {}  # along each edge, by robot [ticks]
 
     def _round(self, number: int) -> ExecutionTrace:
         return replay(self._plan, self._delays, number, self._seed)
@@ -51,9 +52,12 @@ class Durations:
 
     def _ticks(self, robot: int, route: RouteToDrive, visit: int) -> int:
         """Return how long the drive into a visit lasts without delays [ticks]."""
-        ends = (self._roadmap.get_vertex(route.get_place(at)) for at in (visit - 1, visit))
-        itinerary = self._plan.scenario.problem.itineraries[robot]
-        return drives_along(self._roadmap, itinerary, list(map(int, ends)))[0]
+        key = robot, route.get_place(visit - 1), route.get_place(visit)
+        if key not in self._drives:
+            ends = [int(self._roadmap.get_vertex(place)) for place in key[1:]]
+            itinerary = self._plan.scenario.problem.itineraries[robot]
+            self._drives[key] = drives_along(self._roadmap, itinerary, ends)[0]
+        return self._drives[key]
 
     def _planned(self, robot: int, visit: int) -> tuple[int, int]:
         """Return the run that has the delays of a visit, and a visit of the plan."""

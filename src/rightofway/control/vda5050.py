@@ -540,6 +540,8 @@ def write_message(body: Body | Mapping[str, Any], header: Header) -> dict[str, A
             names.get(key, key): {"a": item, "b": item, "theta": 0.0}
             if is_new and key == "allowedDeviationXY"
             else renamed(item)
+            if isinstance(item, dict | list)
+            else item
             for key, item in value.items()
             if key not in left_out
         }
