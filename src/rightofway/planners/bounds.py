@@ -27,10 +27,7 @@ from rightofway.search import ConflictBasedSearch, PriceAscent
 SHARE = 0.3
 """The part of the time for conflict-based search."""
 
-SHARE_OF_LOSSES = 0.1
-"""The part of the time left for the losses that force an optimum."""
-
-PAIRS, STATES = 50, 2_000
+PAIRS, STATES = 50, 1_000
 """Pairs of robots whose losses are looked for, and joint states of each."""
 
 
@@ -63,7 +60,7 @@ def prove_bound(
 def explain_optimum(task: Task, draft: Draft) -> Draft:
     """Return a plan with the losses that force its flowtime, where it is proven to be optimal.
 
-    They are found within a part of the time left, and by a bounded number of steps.
+    A bounded number of steps finds them: without a time limit reached the same losses each time.
     """
     proof, scenario = draft.proof, task.scenario
     if proof is None or proof.objective is not Objective.FLOWTIME:
@@ -71,7 +68,7 @@ def explain_optimum(task: Task, draft: Draft) -> Draft:
     cost = proof.objective.of(scenario, draft.tracks)
     if cost > proof.bound or task.alone is None or cost == int(task.alone.sum()):
         return draft  # not optimal, or no robot loses time
-    limit = task.deadline.shorten(SHARE_OF_LOSSES).measure_seconds_left()
+    limit = task.deadline.measure_seconds_left()
     losses = find_forced_losses(scenario, time_limit=limit, pairs=PAIRS, states=STATES)
     return replace(draft, forced_losses=losses)
 
