@@ -144,7 +144,6 @@ NOUNS = {
     "cyclic": 48,
     "io": 73,
     "model": 45,
-    "values": 18,
 }
 """How many public functions and methods begin with another word; the numbers may only fall."""
 

@@ -45,7 +45,7 @@ from rightofway.planners import (
 )
 from rightofway.planners.features import refuse_unknown
 from rightofway.planners.registry import name_able
-from rightofway.values import at, between, written
+from rightofway.values import format_number, make_range_reader, read_at
 
 __all__ = ["improve", "solve"]
 
@@ -218,7 +218,7 @@ def _run(
     from rightofway.planners.warm_start import compare_with_start
     from rightofway.search import compute_least_completions
 
-    seconds_per_visit = at("seconds_per_visit", between(0, 3600), seconds_per_visit)
+    seconds_per_visit = read_at("seconds_per_visit", make_range_reader(0, 3600), seconds_per_visit)
     planner = f"planner {spec.name}"
     refuse_unknown(
         task.scenario.problem, spec.features, planner, lambda needed: f"choose {name_able(needed)}"
@@ -293,7 +293,7 @@ def _outcome(spec: PlannerSpec, draft: Draft, plan: Plan, *, keeps_rules: bool) 
 def _written_options(task: Task) -> dict[str, Any]:
     """Return the options as files keep them: an exact number as a whole number or text."""
     return {
-        name: written(value) if isinstance(value, Fraction) else value
+        name: format_number(value) if isinstance(value, Fraction) else value
         for name, value in task.options.items()
     }
 

@@ -14,7 +14,7 @@ from rightofway.errors import InputError, InputFault, Where, quote
 T = TypeVar("T")
 
 Number = int | float | str | Decimal | Fraction
-"""A number as users write it: ``2``, ``0.5``, ``"1/3"``; never rounded, see `exact`."""
+"""A number as users write it: ``2``, ``0.5``, ``"1/3"``; never rounded, see `read_exact`."""
 
 DIGITS = 18
 """Numerator and denominator of a speed, a length or a time have at most that many digits."""
@@ -28,7 +28,7 @@ PATTERN = r"[+-]?([0-9]+/[0-9]+|([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?)"
 _NUMBER = re.compile(PATTERN.replace("([eE][+-]?[0-9]+)", "([eE](?P<exponent>[+-]?[0-9]+))"))
 
 
-def exact(value: object, *, digits: int = DIGITS) -> Fraction:
+def read_exact(value: object, *, digits: int = DIGITS) -> Fraction:
     """Return the number that was written, exactly.
 
     Raises
@@ -51,9 +51,9 @@ def exact(value: object, *, digits: int = DIGITS) -> Fraction:
         raise ValueError(f"{quote(value)} divides by zero (give another denominator)") from None
 
 
-def coordinate(value: object) -> Fraction:
-    """Return a coordinate exactly, as `exact` does; its decimals may be as many as a float has."""
-    number = exact(value, digits=COORDINATE_DIGITS)
+def read_coordinate(value: object) -> Fraction:
+    """Return a coordinate exactly, as `read_exact` does, with as many decimals as a float has."""
+    number = read_exact(value, digits=COORDINATE_DIGITS)
     if abs(number) > 10**DIGITS:
         raise ValueError(f"{quote(value)} is out of range (give at most {DIGITS} digits)")
     return number
@@ -71,12 +71,12 @@ def _out_of_range(value: object, digits: int) -> ValueError:
     )
 
 
-def written(number: Fraction) -> int | str:
+def format_number(number: Fraction) -> int | str:
     """Return a fraction as documents have it: a whole number, or text like ``1/3``."""
     return number.numerator if number.denominator == 1 else str(number)
 
 
-def coerced(value: object, source: str, **readers: Callable[[object], object]) -> None:
+def coerce_fields(value: object, source: str, **readers: Callable[[object], object]) -> None:
     """Replace fields of a frozen value by what their readers make of them.
 
     Raises
@@ -94,12 +94,12 @@ def coerced(value: object, source: str, **readers: Callable[[object], object]) -
         raise InputError(faults, source)
 
 
-def optional(read: Callable[[object], T]) -> Callable[[object], T | None]:
+def allow_none(read: Callable[[object], T]) -> Callable[[object], T | None]:
     """Return a reader that also takes None."""
     return lambda value: None if value is None else read(value)
 
 
-def vertex(value: object) -> int:
+def read_vertex(value: object) -> int:
     """Return a vertex; a name is refused."""
     if isinstance(value, Integral) and not isinstance(value, bool):
         return int(value)
@@ -109,29 +109,29 @@ def vertex(value: object) -> int:
     )
 
 
-def number(value: object) -> Fraction:
+def read_number(value: object) -> Fraction:
     """Return an exact number; one that is exact already may have any number of digits."""
-    return value if type(value) is Fraction else exact(value)
+    return value if type(value) is Fraction else read_exact(value)
 
 
-def turning(value: object) -> Literal["cell"] | Fraction:
+def read_turning(value: object) -> Literal["cell"] | Fraction:
     """Return a turning time."""
     if isinstance(value, str) and value == "cell":
         return "cell"
     try:
-        return number(value)
+        return read_number(value)
     except ValueError as error:
         raise ValueError(f"{error}; 'cell' is possible too") from None
 
 
-def whole_number(value: object) -> int:
+def read_whole_number(value: object) -> int:
     """Return a whole number."""
     if isinstance(value, Integral) and not isinstance(value, bool):
         return int(value)
     raise ValueError(f"{quote(value)} is no whole number (give 1 or more)")
 
 
-def word_of(words: Sequence[str]) -> Callable[[object], str]:
+def make_word_reader(words: Sequence[str]) -> Callable[[object], str]:
     """Return a reader of one of these words."""
 
     def read(value: object) -> str:
@@ -143,7 +143,7 @@ def word_of(words: Sequence[str]) -> Callable[[object], str]:
     return read
 
 
-def names(value: object) -> frozenset[str]:
+def read_names(value: object) -> frozenset[str]:
     """Return a set of names."""
     if isinstance(value, list | tuple | set | frozenset) and all(
         isinstance(name, str) for name in value
@@ -152,21 +152,21 @@ def names(value: object) -> frozenset[str]:
     raise ValueError(f"{quote(value)} are no names (give a list of texts)")
 
 
-def text(value: object) -> str:
+def read_label(value: object) -> str:
     """Return a name."""
     if isinstance(value, str):
         return value
     raise ValueError(f"{quote(value)} is no name (give text)")
 
 
-def truth(value: object) -> bool:
+def read_truth(value: object) -> bool:
     """Return a truth value."""
     if isinstance(value, bool):
         return value
     raise ValueError(f"{quote(value)} is neither true nor false (give True or False)")
 
 
-def one_of(kind: type[T], fault: str, remedy: str) -> Callable[[object], T]:
+def make_class_reader(kind: type[T], fault: str, remedy: str) -> Callable[[object], T]:
     """Return a reader of values of a class; ``fault`` is said of others, as in "no plan"."""
 
     def read(value: object) -> T:
@@ -183,12 +183,12 @@ def list_of(read: Callable[[object], T]) -> Callable[[object], tuple[T, ...]]:
     def read_each(values: object) -> tuple[T, ...]:
         if not isinstance(values, Iterable) or isinstance(values, str | bytes | Mapping):
             raise ValueError(f"{quote(values)} is no list (give a list)")  # noqa: TRY004 (readers raise it)
-        return tuple(at(index, read, value) for index, value in enumerate(values))
+        return tuple(read_at(index, read, value) for index, value in enumerate(values))
 
     return read_each
 
 
-def at(where: Where, read: Callable[[object], T], value: object) -> T:
+def read_at(where: Where, read: Callable[[object], T], value: object) -> T:
     """Return what a reader makes of a value.
 
     Raises
@@ -209,14 +209,14 @@ def _faults_at(where: Where, error: ValueError) -> list[InputFault]:
     return [InputFault(where, str(error))]
 
 
-def function(value: object) -> Callable[..., Any]:
+def read_function(value: object) -> Callable[..., Any]:
     """Return a function."""
     if callable(value):
         return value
     raise ValueError(f"{quote(value)} is no function (give one that takes one argument, or None)")
 
 
-def between(least: float, most: float) -> Callable[[object], float]:
+def make_range_reader(least: float, most: float) -> Callable[[object], float]:
     """Return a reader of a number from ``least`` to ``most``, both included."""
 
     def read(value: object) -> float:
@@ -228,7 +228,7 @@ def between(least: float, most: float) -> Callable[[object], float]:
     return read
 
 
-def length(value: object, where: Where) -> Fraction:
+def read_length(value: object, where: Where) -> Fraction:
     """Return a length.
 
     Raises
@@ -236,7 +236,7 @@ def length(value: object, where: Where) -> Fraction:
     InputError
         If it is no number, or not positive.
     """
-    checked = at(where, number, value)
+    checked = read_at(where, read_number, value)
     if checked <= 0:
         raise InputError.at(where, f"{quote(value)} is not positive (give a length above 0)")
     return checked

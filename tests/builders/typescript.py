@@ -15,7 +15,7 @@ from typing import Any
 from pydantic import TypeAdapter
 
 from rightofway.model.robot import ROBOT_ATTRIBUTES
-from rightofway.values import written
+from rightofway.values import format_number
 from rightofway.viz.page.schema import InspectionPayload, Payload
 from tests.builders.api_types import api_types
 
@@ -37,7 +37,7 @@ def robot_attributes() -> str:
     """Return the attributes of robots, for the columns of the studio."""
     rows = []
     for it in ROBOT_ATTRIBUTES:
-        usual = str(written(it.default)) if it.default else "\N{EN DASH}"
+        usual = str(format_number(it.default)) if it.default else "\N{EN DASH}"
         parts = {"isText": it.is_text, "title": it.title, "hint": it.hint, "usual": usual}
         lines = (
             f"    {key}: {json.dumps(value, ensure_ascii=False)},\n" for key, value in parts.items()

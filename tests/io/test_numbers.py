@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from rightofway.io.text import decimal, whole
-from rightofway.values import COORDINATE_DIGITS, exact, written
+from rightofway.values import COORDINATE_DIGITS, format_number, read_exact
 
 
 @pytest.mark.parametrize(
@@ -32,7 +32,7 @@ from rightofway.values import COORDINATE_DIGITS, exact, written
     ],
 )
 def test_a_number_is_what_was_written(value: object, number: Fraction) -> None:
-    assert exact(value) == number
+    assert read_exact(value) == number
 
 
 @pytest.mark.parametrize(
@@ -63,19 +63,24 @@ def test_a_number_is_what_was_written(value: object, number: Fraction) -> None:
 )
 def test_anything_else_is_refused_with_the_reason(value: object, reason: str) -> None:
     with pytest.raises(ValueError) as caught:  # noqa: PT011 - its text is looked at
-        exact(value)
+        read_exact(value)
     assert reason in str(caught.value)
     assert len(str(caught.value)) < 200
 
 
 def test_a_coordinate_may_have_the_digits_of_any_float() -> None:
     assert (
-        float(exact("1.2246467991473532e-16", digits=COORDINATE_DIGITS)) == 1.2246467991473532e-16
+        float(read_exact("1.2246467991473532e-16", digits=COORDINATE_DIGITS))
+        == 1.2246467991473532e-16
     )
 
 
 def test_fractions_are_written_as_they_are_read() -> None:
-    assert [written(Fraction(number)) for number in ("2", "1/3", "-0.5")] == [2, "1/3", "-1/2"]
+    assert [format_number(Fraction(number)) for number in ("2", "1/3", "-0.5")] == [
+        2,
+        "1/3",
+        "-1/2",
+    ]
 
 
 def test_numbers_too_large_to_hold_stay_text() -> None:

@@ -43,7 +43,7 @@ from rightofway.model.attributes import Attribute
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
 from rightofway.phrases import Phrase, to_parts
 from rightofway.site import Edge, Roadmap, VertexId, make_grid_roadmap, make_roadmap
-from rightofway.values import exact, written
+from rightofway.values import format_number, read_exact
 from tests.builders.any_fleet import any_fleet
 from tests.builders.laws import law, leave
 
@@ -194,7 +194,7 @@ def repeating(draw: st.DrawFn, tracks: Sequence[Track]) -> tuple[SteadyState, ..
 
 @law(st.fractions(-1000, 1000, max_denominator=10**15))
 def test_fractions(number: Fraction) -> None:
-    assert exact(written(number)) == number
+    assert read_exact(format_number(number)) == number
 
 
 @law(scenarios())

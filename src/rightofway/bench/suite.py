@@ -21,7 +21,7 @@ from rightofway.io.text import parse_toml, read_text
 from rightofway.model import Rules, Scenario
 from rightofway.model.robot import RULE_ATTRIBUTES
 from rightofway.planners import find
-from rightofway.values import written
+from rightofway.values import format_number
 
 if TYPE_CHECKING:
     from rightofway.io.suite import (
@@ -265,14 +265,16 @@ def _fleet(document: SuiteFleetDocument) -> _Fleet:
     """Return the name and the data of a fleet."""
     given = document.own(Rules)
     rules = {
-        attribute.key: written(own) if isinstance(own := given[attribute.name], Fraction) else own
+        attribute.key: format_number(own)
+        if isinstance(own := given[attribute.name], Fraction)
+        else own
         for attribute in sorted(RULE_ATTRIBUTES, key=lambda attribute: attribute.key)
         if attribute.name in given
     }
     speeds = tuple(document.speeds or (Fraction(1),))
     _try_out(speeds, rules)
     return document.name, {
-        "speeds": [written(speed) for speed in speeds],
+        "speeds": [format_number(speed) for speed in speeds],
         "by_seed": document.deal == "by seed",
         "work": document.work,
         "rules": rules,

@@ -15,7 +15,7 @@ from rightofway.check.zones import judge_zones
 from rightofway.model import Plan
 from rightofway.model.given import checked_plan, require_number
 from rightofway.quantities import Quantities
-from rightofway.values import at, one_of
+from rightofway.values import make_class_reader, read_at
 
 __all__ = ["Fault", "FaultKind", "Report", "check"]
 
@@ -58,8 +58,8 @@ def check(plan: Plan, *, limit: int = 1000, quantities: Quantities | None = None
     visits = lay_out_visits(checked_plan(plan))
     limit = require_number("limit", limit, 0, 2**31 - 1)
     if quantities is not None:
-        read = one_of(Quantities, "no quantities", "give Quantities, or None")
-        at("quantities", read, quantities)
+        read = make_class_reader(Quantities, "no quantities", "give Quantities, or None")
+        read_at("quantities", read, quantities)
     names = Names(plan.scenario, quantities or plan.scenario.quantities)
     collector = FaultCollector(limit, names)
     judge_drives(visits, names, collector)

@@ -74,10 +74,10 @@ class Time(NumberType):
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
     ) -> Fraction:
         """Return the number, exactly."""
-        from rightofway.values import exact
+        from rightofway.values import read_exact
 
         try:
-            number = exact(value)
+            number = read_exact(value)
         except ValueError as error:
             self.fail(str(error), param, ctx)
         if number < 0:

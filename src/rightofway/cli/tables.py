@@ -25,7 +25,7 @@ from rightofway.errors import InputError
 from rightofway.languages import translate
 from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import Phrase, chain_items
-from rightofway.values import written
+from rightofway.values import format_number
 
 if TYPE_CHECKING:
     from rightofway.model import Decision, Plan
@@ -243,7 +243,7 @@ def describe_clock(quantities: Quantities) -> dict[str, Any]:
     """Return what the times of a report for programs are measured in."""
     units = quantities.units
     return {
-        "tick": written(quantities.tick),
+        "tick": format_number(quantities.tick),
         "units": {"length": units.length, "time": units.time},
     }
 

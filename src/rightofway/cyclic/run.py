@@ -23,7 +23,7 @@ from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import Phrase
 from rightofway.planners import Deadline
 from rightofway.planners.conflict_resolution import describe_deadlock
-from rightofway.values import at, word_of
+from rightofway.values import make_word_reader, read_at
 
 Simulation = CyclicSimulator | RollingHorizon
 """The simulation of a group under a lap rule."""
@@ -78,8 +78,8 @@ def run_laps(
     """
     checked_scenario(scenario)
     require_functions(report=report)
-    at("rule", word_of(tuple(RULES)), rule)
-    at("routes", word_of(ROUTES), routes)
+    read_at("rule", make_word_reader(tuple(RULES)), rule)
+    read_at("routes", make_word_reader(ROUTES), routes)
     deadline = Deadline.after(checked_time_limit(time_limit))
     scenario = take_out_closed_places(scenario)
     groups = split_groups(scenario, cyclic_routes(scenario, routes))

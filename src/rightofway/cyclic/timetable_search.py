@@ -36,7 +36,7 @@ from rightofway.phrases import Phrase
 from rightofway.planners import Deadline
 from rightofway.precedence import unroll_schedule
 from rightofway.search import Distances, RoundTrip
-from rightofway.values import at, list_of, number
+from rightofway.values import list_of, read_at, read_number
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -117,7 +117,7 @@ def best_timetable(
     n_robots, seed = len(checked_scenario(scenario).robots), require_seed(seed)
     require_functions(report=report)
     weights = _checked_weights(weights, n_robots)
-    least_fairness = at("least_fairness", number, least_fairness)
+    least_fairness = read_at("least_fairness", read_number, least_fairness)
     if not 0 <= least_fairness <= 1:
         raise InputError.at("least_fairness", f"{least_fairness} is not from 0 to 1")
     if rounds is not None:
@@ -157,7 +157,7 @@ def _checked_weights(weights: Sequence[Fraction] | None, n_robots: int) -> tuple
     """Return the weight of each robot; 1 by default."""
     if weights is None:
         return (Fraction(1),) * n_robots
-    weights = at("weights", list_of(number), weights)
+    weights = read_at("weights", list_of(read_number), weights)
     if len(weights) != n_robots:
         raise InputError.at("weights", f"{len(weights)} for {n_robots} robots (give one for each)")
     for index, weight in enumerate(weights):

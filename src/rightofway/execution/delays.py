@@ -12,7 +12,7 @@ from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.model import NEVER, Scenario
 from rightofway.precedence import DelayModel, Stoppage
-from rightofway.values import at, exact, list_of, text
+from rightofway.values import list_of, read_at, read_exact, read_label
 
 DEFAULT_DELAYS = "exponential:0.2"
 """The default delays."""
@@ -110,7 +110,7 @@ def read_delays(given: str | Iterable[str], scenario: Scenario) -> tuple[Delay, 
     InputError
         If a cause cannot be read; names the cause and the remedy.
     """
-    several = [given] if isinstance(given, str) else at("delays", list_of(text), given)
+    several = [given] if isinstance(given, str) else read_at("delays", list_of(read_label), given)
     causes = chain.from_iterable(map(_BETWEEN.split, several))
     return tuple(_delay(cause.strip(), scenario) for cause in causes)
 
@@ -128,7 +128,7 @@ def _delay(text: str, scenario: Scenario) -> Delay:
         raise wrong(f"{rest!r} cannot be read (write it like {example})")
     robot, *written = match.groups()
     try:
-        first, second = (exact(number.strip()) if number else None for number in written)
+        first, second = (read_exact(number.strip()) if number else None for number in written)
     except ValueError as error:
         raise wrong(str(error)) from None
     assert first is not None  # every form has a first number

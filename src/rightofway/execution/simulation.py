@@ -26,7 +26,7 @@ from rightofway.model.given import require_number, require_seed, require_truths
 from rightofway.phrases import Phrase
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, RunBatch
-from rightofway.values import at, function
+from rightofway.values import read_at, read_function
 
 CHUNK = 1 << 20
 """Visits per call of the kernel; time limit and Ctrl-C are checked between calls."""
@@ -95,7 +95,7 @@ def simulate(
     has no deadlock. Collisions and deadlocks are counted nevertheless.
     """
     time_limit = checked_time_limit(time_limit)
-    at("report", function, report)
+    read_at("report", read_function, report)
     require_truths(switch=switch, replan=replan, keep_runs=keep_runs)
     judged = check(plan)
     if not judged.ok:

@@ -16,7 +16,7 @@ from rightofway.errors import InputError, quote
 from rightofway.model import NEVER, ExecutionTrace, Plan
 from rightofway.precedence import ActionDependencyGraph, RunBatch
 from rightofway.site import VertexId
-from rightofway.values import written
+from rightofway.values import format_number
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -370,5 +370,5 @@ class SimulationResult:
             "won": asdict(self.gain) if self.gain else None,
             "seed": self.seed,
             "delays": list(self.delays),
-            "tick": written(self.plan.scenario.problem.clock.tick),
+            "tick": format_number(self.plan.scenario.problem.clock.tick),
         }

@@ -31,8 +31,8 @@ from rightofway.site import Roadmap, VertexId, make_grid_roadmap
 from rightofway.site.layout import Layout, LevelRoadmap, build_roadmap_of_level
 from rightofway.site.places import as_place, find_vertex_at
 from rightofway.site.zones import NamedZone
-from rightofway.values import Number, at, list_of, optional, text, word_of
-from rightofway.values import length as exact_length
+from rightofway.values import Number, allow_none, list_of, make_word_reader, read_at, read_label
+from rightofway.values import read_length as exact_length
 
 
 class FleetBuilder:
@@ -116,9 +116,9 @@ class FleetBuilder:
         maps = [name for name, value in given.items() if value is not None]
         if len(maps) > 1:
             raise InputError.at("", f"{' and '.join(maps)} are given (give one map)")
-        at("y", word_of(("down", "up")), y)
-        at("level", optional(text), level)
-        at("vehicle_type", optional(text), vehicle_type)
+        read_at("y", make_word_reader(("down", "up")), y)
+        read_at("level", allow_none(read_label), level)
+        read_at("vehicle_type", allow_none(read_label), vehicle_type)
         if origin is not None and not (grid or map_file):
             raise InputError.at("origin", "is for a grid or a map file (take it out)")
         if spacing is not None and (grid or map_file):
@@ -263,12 +263,12 @@ class FleetBuilder:
         self._refuse_fixed_map(f"zone {quote(name)}")
         place = f"zone {quote(name)}"
         with locate_faults(place):
-            at("name", text, name)
-            named = at("vertices", list_of(text), vertices)
-            listed = at("edges", list_of(lambda ends: ends), edges)
+            read_at("name", read_label, name)
+            named = read_at("vertices", list_of(read_label), vertices)
+            listed = read_at("edges", list_of(lambda ends: ends), edges)
             pairs = tuple(read_ends(("edges", k), ends) for k, ends in enumerate(listed))
             for k, ends in enumerate(pairs):
-                at(("edges", k), list_of(text), ends)
+                read_at(("edges", k), list_of(read_label), ends)
         self._drawn.zones.append(NamedZone(name=name, vertices=named, edges=pairs))
         return self
 
@@ -333,7 +333,7 @@ class FleetBuilder:
         trip: list[tuple[Where, Any, Number]] = [("target", target, work)]
         if stops is not None:
             with name_file(source):
-                given = at("stops", list_of(lambda stop: stop), stops)
+                given = read_at("stops", list_of(lambda stop: stop), stops)
             trip = [(("stops", k), *place_and_work(stop)) for k, stop in enumerate(given)]
         try:
             robot = Robot(

@@ -21,7 +21,7 @@ from rightofway.site import (
 from rightofway.site.spacing import SplitLanes, split_lanes
 from rightofway.site.zones import NamedZone
 from rightofway.values import Number
-from rightofway.values import length as exact_length
+from rightofway.values import read_length as exact_length
 
 
 @dataclass

@@ -10,7 +10,7 @@ from rightofway.errors import InputError, find_nearest, locate_faults, quote
 from rightofway.model import Plan, PlannerRun, Scenario, Track
 from rightofway.model.given import checked_scenario
 from rightofway.site.places import as_place, find_vertex_at
-from rightofway.values import at, list_of
+from rightofway.values import list_of, read_at
 
 __all__ = ["plan_of_paths"]
 
@@ -58,7 +58,9 @@ def plan_of_paths(scenario: Scenario, paths: Mapping[str, Sequence[Any]]) -> Pla
     missing = [name for name in names if _is_missing(paths.get(name))]
     if missing:
         raise InputError.at("paths", f"{missing[0]} has no path (give at least its home)")
-    read = {name: at(("paths", name), list_of(lambda item: item), paths[name]) for name in names}
+    read = {
+        name: read_at(("paths", name), list_of(lambda item: item), paths[name]) for name in names
+    }
     tracks = [_track(scenario, name, read[name]) for name in names]
     return Plan(scenario=scenario, tracks=tuple(tracks), run=PlannerRun())
 

@@ -13,7 +13,7 @@ from rightofway.model.resources import circumscribe
 from rightofway.quantities import Units
 from rightofway.site import Point
 from rightofway.site.places import is_cell
-from rightofway.values import Number, at, coordinate, length, names, number
+from rightofway.values import Number, read_at, read_coordinate, read_length, read_names, read_number
 
 
 def read_rules(given: dict[str, Any]) -> Rules:
@@ -47,7 +47,7 @@ def read_units(given: Units | Mapping[str, Any] | None) -> Units:
 def read_types(place: Where, given: Iterable[str]) -> frozenset[str]:
     """Return types of robots; a text alone is no list of them."""
     try:
-        return names(given if isinstance(given, str) else list(given))
+        return read_names(given if isinstance(given, str) else list(given))
     except (TypeError, ValueError):
         message = f"{quote(given)} are no types of robots (give a list of texts)"
         raise InputError.at(place, message) from None
@@ -55,7 +55,7 @@ def read_types(place: Where, given: Iterable[str]) -> frozenset[str]:
 
 def read_surcharge(place: Where, given: Number) -> Fraction:
     """Return a surcharge, which is not negative [time unit]."""
-    surcharge = at(place, number, given)
+    surcharge = read_at(place, read_number, given)
     if surcharge < 0:
         raise InputError.at(place, f"{quote(given)} is negative (give 0 or more)")
     return surcharge
@@ -77,14 +77,14 @@ def read_ends(place: Where, given: Any) -> tuple[Any, Any]:
 
 def read_point(place: Where, x: Number, y: Number) -> Point:
     """Return a point, exactly [length unit]."""
-    return at(place, coordinate, x), at(place, coordinate, y)
+    return read_at(place, read_coordinate, x), read_at(place, read_coordinate, y)
 
 
 def read_radius(radius: Number | None, size: tuple[Number, Number] | None) -> Fraction:
     """Return the radius of a robot, or of the circle around its sides [length unit]."""
     if size is None:
         return Fraction(0) if radius is None else radius  # type: ignore[return-value]
-    long, wide = (length(side, ("size", k)) for k, side in enumerate(size))
+    long, wide = (read_length(side, ("size", k)) for k, side in enumerate(size))
     return circumscribe(long, wide)
 
 

@@ -28,7 +28,7 @@ from rightofway.errors import is_printable, quote
 from rightofway.model.attributes import list_attributes
 from rightofway.phrases import join_parts
 from rightofway.site import VertexId
-from rightofway.values import COORDINATE_DIGITS, PATTERN, coordinate, exact
+from rightofway.values import COORDINATE_DIGITS, PATTERN, read_coordinate, read_exact
 
 MAX_TICK = 2**53 - 1
 """Times in a plan lie within this, so that every reader holds them exactly; JavaScript too."""
@@ -100,14 +100,14 @@ def exactly_one_of(document: Document, kinds: tuple[str, ...]) -> str:
 
 def positive(value: object) -> Fraction:
     """Return a number above 0; ValueError for any other value."""
-    number = exact(value)
+    number = read_exact(value)
     if number <= 0:
         raise ValueError(f"{quote(value)} is not positive (give a number above 0)")
     return number
 
 
 def _not_negative(value: object) -> Fraction:
-    number = exact(value)
+    number = read_exact(value)
     if number < 0 or str(value).startswith("-"):
         raise ValueError(f"{quote(value)} is negative (give 0 or more)")
     return number
@@ -132,8 +132,8 @@ _POSITIVE = _number_schema(exclusiveMinimum=0)
 Positive = Annotated[Fraction, Kind(positive, _POSITIVE)]
 NotNegative = Annotated[Fraction, Kind(_not_negative, _NOT_NEGATIVE)]
 Share = Annotated[Fraction, Kind(_share, _number_schema(minimum=0, maximum=1))]
-Angle = Annotated[Fraction, Kind(exact, _ANY)]
-TickLength = Annotated[Fraction, Kind(partial(exact, digits=COORDINATE_DIGITS), _ANY)]
+Angle = Annotated[Fraction, Kind(read_exact, _ANY)]
+TickLength = Annotated[Fraction, Kind(partial(read_exact, digits=COORDINATE_DIGITS), _ANY)]
 Count = Annotated[int, Field(ge=1)]
 Ticks = Annotated[int, Field(ge=-MAX_TICK, le=MAX_TICK)]
 
@@ -174,12 +174,12 @@ def _list_of(count: int, numbers: str, number: Callable[[object], Fraction]) -> 
 _Pair = tuple[Fraction, Fraction]
 _Four = tuple[Fraction, Fraction, Fraction, Fraction]
 
-POSITION = _list_of(2, "[x, y]", coordinate)
+POSITION = _list_of(2, "[x, y]", read_coordinate)
 
 Position = Annotated[_Pair, POSITION]
-Size = Annotated[_Pair, _list_of(2, "[width, height]", exact)]
-RobotSize = Annotated[_Pair, _list_of(2, "[length, width]", exact)]
-Rectangle = Annotated[_Four, _list_of(4, "[x, y, width, height]", exact)]
+Size = Annotated[_Pair, _list_of(2, "[width, height]", read_exact)]
+RobotSize = Annotated[_Pair, _list_of(2, "[length, width]", read_exact)]
+Rectangle = Annotated[_Four, _list_of(4, "[x, y, width, height]", read_exact)]
 
 
 def _name(value: str) -> str:

@@ -13,7 +13,7 @@ from functools import lru_cache
 from typing import Any
 
 from rightofway.errors import InputError, Location, Steps, is_printable, quote
-from rightofway.values import DIGITS, coordinate
+from rightofway.values import DIGITS, read_coordinate
 
 BILLION = 10**9
 
@@ -119,7 +119,7 @@ class Source:
 
 @lru_cache(maxsize=2**16, typed=True)  # the numbers of a site repeat
 def _number(value: Hashable) -> Fraction:
-    number = coordinate(value.strip() if isinstance(value, str) else value)
+    number = read_coordinate(value.strip() if isinstance(value, str) else value)
     if abs(number) > 10 ** (DIGITS // 2):
         raise ValueError(f"{quote(value)} is out of range (check the unit)")
     return (

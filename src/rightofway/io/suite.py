@@ -19,7 +19,7 @@ from rightofway.io.fields import (
     optional,
 )
 from rightofway.io.scenario.shape import RulesDocument
-from rightofway.values import exact
+from rightofway.values import read_exact
 
 MAX_SEED = 2**32 - 1
 MAX_SIDE = 10_000
@@ -54,7 +54,7 @@ def _pair(least: int, most: int, numbers: str, *, in_order: bool = False) -> Kin
 
 
 def _share(value: object) -> float:
-    share = exact(value)
+    share = read_exact(value)
     if not 0 <= share < 1:
         raise ValueError(f"{quote(value)} is no share (give 0 or more, below 1)")
     return float(share)

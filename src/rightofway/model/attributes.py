@@ -13,25 +13,25 @@ from functools import cache
 from typing import Any, Literal, get_args
 
 from rightofway.values import (
-    number,
-    optional,
-    text,
-    truth,
-    turning,
-    whole_number,
-    word_of,
-    written,
+    allow_none,
+    format_number,
+    make_word_reader,
+    read_label,
+    read_number,
+    read_truth,
+    read_turning,
+    read_whole_number,
 )
 
 Kind = Literal["positive", "not negative", "turning", "count", "name", "truth"]
 
 READERS: dict[Kind, Callable[[object], object]] = {
-    "positive": number,
-    "not negative": number,
-    "turning": turning,
-    "count": whole_number,
-    "name": text,
-    "truth": truth,
+    "positive": read_number,
+    "not negative": read_number,
+    "turning": read_turning,
+    "count": read_whole_number,
+    "name": read_label,
+    "truth": read_truth,
 }
 """How a value of each kind is checked in Python; `Scenario` checks the ranges."""
 
@@ -119,12 +119,12 @@ def list_readers(owner: Any) -> dict[str, Callable[[object], object]]:
     readers = {}
     for attribute_of_owner in list_attributes(owner):
         read = (
-            word_of(words)
+            make_word_reader(words)
             if (words := get_args(attribute_of_owner.kind))
             else READERS[attribute_of_owner.kind]
         )
         readers[attribute_of_owner.name] = (
-            optional(read) if attribute_of_owner.default is None else read
+            allow_none(read) if attribute_of_owner.default is None else read
         )
     return readers
 
@@ -133,7 +133,7 @@ def list_plain_attributes(value: Any) -> dict[str, Any]:
     """Return the attributes of a robot or of rules by their keys in files, as plain data."""
     owner: Any = type(value)
     return {
-        own_attribute.key: written(own) if isinstance(own, Fraction) else own
+        own_attribute.key: format_number(own) if isinstance(own, Fraction) else own
         for own_attribute in list_attributes(owner)
         if (own := getattr(value, own_attribute.name)) is not None
         and (own_attribute.is_always_written or own != own_attribute.default)

@@ -21,7 +21,7 @@ from rightofway.errors import InputFault
 from rightofway.model.resources import read_exact_positions
 from rightofway.model.units import NEVER, Clock, Tick
 from rightofway.site import Point, Roadmap, VertexId, measure_squared_distance
-from rightofway.values import coerced, number, optional, vertex
+from rightofway.values import allow_none, coerce_fields, read_number, read_vertex
 
 Ends = tuple[VertexId, VertexId]
 """The two ends of an edge or a lane, whichever way it is driven."""
@@ -65,20 +65,20 @@ class Closure:
     radius: Fraction | None = None
 
     def __post_init__(self) -> None:
-        coerced(
+        coerce_fields(
             self,
             "closure",
-            at=optional(vertex),
-            edge=optional(_ends),
-            from_=number,
-            until=optional(number),
-            radius=optional(number),
+            at=allow_none(read_vertex),
+            edge=allow_none(_ends),
+            from_=read_number,
+            until=allow_none(read_number),
+            radius=allow_none(read_number),
         )
 
 
 def _ends(value: object) -> Ends:
     if isinstance(value, list | tuple) and len(value) == 2:  # noqa: PLR2004 (two ends)
-        return VertexId(vertex(value[0])), VertexId(vertex(value[1]))
+        return VertexId(read_vertex(value[0])), VertexId(read_vertex(value[1]))
     raise ValueError(f"{value!r} is no edge (give the vertices at both ends)")
 
 

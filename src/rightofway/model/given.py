@@ -9,7 +9,7 @@ from typing import Any
 from rightofway.errors import InputError, Where, quote
 from rightofway.model.plan import Plan
 from rightofway.model.scenario import Scenario
-from rightofway.values import at, function, one_of, optional, truth
+from rightofway.values import allow_none, make_class_reader, read_at, read_function, read_truth
 
 LARGEST_SEED = 2**32 - 1
 """Planners draw from this many streams."""
@@ -24,24 +24,26 @@ def checked_scenario(scenario: Scenario, place: Where = "scenario") -> Scenario:
         If it is none.
     """
     remedy = "load a file with rightofway.load, or build a fleet with FleetBuilder"
-    return at(place, one_of(Scenario, "no scenario", remedy), scenario)
+    return read_at(place, make_class_reader(Scenario, "no scenario", remedy), scenario)
 
 
 def checked_plan(plan: Plan, place: Where = "plan") -> Plan:
     """Return what a caller gave as a plan; parameters and errors as for `checked_scenario`."""
-    return at(place, one_of(Plan, "no plan", "load a file with rightofway.load_plan"), plan)
+    return read_at(
+        place, make_class_reader(Plan, "no plan", "load a file with rightofway.load_plan"), plan
+    )
 
 
 def require_functions(**functions: Callable[..., Any] | None) -> None:
     """Refuse what callers gave as functions by the names of the arguments; None is no fault."""
     for place, given in functions.items():
-        at(place, optional(function), given)
+        read_at(place, allow_none(read_function), given)
 
 
 def require_truths(**truths: bool) -> None:
     """Refuse what callers gave as true or false by the names of the arguments."""
     for place, given in truths.items():
-        at(place, truth, given)
+        read_at(place, read_truth, given)
 
 
 def require_seed(seed: int) -> int:

@@ -19,7 +19,14 @@ from rightofway.model.stays import Stays, stays_of
 from rightofway.model.steady_state import SteadyState, refuse_unknown_robots
 from rightofway.model.units import Tick
 from rightofway.site import VertexId
-from rightofway.values import at, coerced, list_of, one_of, optional, word_of
+from rightofway.values import (
+    allow_none,
+    coerce_fields,
+    list_of,
+    make_class_reader,
+    make_word_reader,
+    read_at,
+)
 
 T = TypeVar("T")
 
@@ -267,12 +274,16 @@ class Plan:
 
     def __post_init__(self) -> None:
         read = {
-            "scenario": one_of(Scenario, "no scenario", "load one with rightofway.load"),
-            "tracks": list_of(one_of(Track, "no track", "make it with Track.of(vertices, enter)")),
-            "run": one_of(PlannerRun, "no run of a planner", "give PlannerRun()"),
-            "steady": list_of(one_of(SteadyState, "no steady state", "give SteadyState")),
+            "scenario": make_class_reader(Scenario, "no scenario", "load one with rightofway.load"),
+            "tracks": list_of(
+                make_class_reader(Track, "no track", "make it with Track.of(vertices, enter)")
+            ),
+            "run": make_class_reader(PlannerRun, "no run of a planner", "give PlannerRun()"),
+            "steady": list_of(
+                make_class_reader(SteadyState, "no steady state", "give SteadyState")
+            ),
         }
-        coerced(self, "", **read)
+        coerce_fields(self, "", **read)
         robots, tracks = len(self.scenario.robots), len(self.tracks)
         if robots != tracks:
             raise InputError.at(
@@ -407,7 +418,7 @@ class Plan:
             If the library is not installed, or another one is named.
         """
         wanted = FRAME_LIBRARIES if library is None else (library,)
-        at("library", optional(word_of(FRAME_LIBRARIES)), library)
+        read_at("library", allow_none(make_word_reader(FRAME_LIBRARIES)), library)
         for name in wanted:
             try:
                 module = import_module(name)

@@ -10,7 +10,7 @@ from rightofway.errors import quote
 from rightofway.model.attributes import attribute, list_attributes, list_readers
 from rightofway.phrases import Phrase
 from rightofway.site import VertexId
-from rightofway.values import coerced, number, text, vertex
+from rightofway.values import coerce_fields, read_label, read_number, read_vertex
 
 Turn = Literal["cell"] | Fraction
 """Turning time at a stop: one cell's crossing time of the robot, or a time [time unit]."""
@@ -51,7 +51,7 @@ class Stop:
     work: Fraction = Fraction(0)
 
     def __post_init__(self) -> None:
-        coerced(self, "stop", at=vertex, work=number)
+        coerce_fields(self, "stop", at=read_vertex, work=read_number)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -173,11 +173,11 @@ class Robot:
     )
 
     def __post_init__(self) -> None:
-        coerced(
+        coerce_fields(
             self,
             f"robot {quote(self.name)}",
-            name=text,
-            home=vertex,
+            name=read_label,
+            home=read_vertex,
             stops=_stops,
             **list_readers(Robot),
         )
@@ -287,7 +287,7 @@ class Rules:
     )
 
     def __post_init__(self) -> None:
-        coerced(self, "rules", **list_readers(Rules))
+        coerce_fields(self, "rules", **list_readers(Rules))
 
 
 ROBOT_ATTRIBUTES = list_attributes(Robot)

@@ -19,7 +19,7 @@ from rightofway.errors import InputError, quote
 from rightofway.model.problem import Itinerary, Stage, least_dwell
 from rightofway.model.units import NEVER, Tick
 from rightofway.site import Roadmap, VertexId
-from rightofway.values import at, coerced
+from rightofway.values import coerce_fields, read_at
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -39,7 +39,7 @@ class Track:
     enter: NDArray[np.int64]
 
     def __post_init__(self) -> None:
-        coerced(self, "", vertices=_whole_numbers, enter=_whole_numbers)
+        coerce_fields(self, "", vertices=_whole_numbers, enter=_whole_numbers)
         if len(self.vertices) != len(self.enter) or not len(self.vertices):
             counts = f"{len(self.vertices)} vertices and {len(self.enter)} times"
             raise InputError.at("", f"{counts} (give as many of both, at least one)")
@@ -67,8 +67,8 @@ class Track:
     def of(cls, vertices: Sequence[int], enter: Sequence[int]) -> Track:
         """Make a track from any sequences."""
         return cls(
-            vertices=at("vertices", _array_of(np.int32), vertices),
-            enter=at("enter", _array_of(np.int64), enter),
+            vertices=read_at("vertices", _array_of(np.int32), vertices),
+            enter=read_at("enter", _array_of(np.int64), enter),
         )
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from rightofway.errors import InputError, quote
 from rightofway.model.units import Tick
-from rightofway.values import coerced, list_of, whole_number
+from rightofway.values import coerce_fields, list_of, read_whole_number
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,8 +39,10 @@ class SteadyState:
     critical: tuple[tuple[int, int], ...] = ()
 
     def __post_init__(self) -> None:
-        whole = {"start": whole_number, "period": whole_number}
-        coerced(self, "", robots=list_of(whole_number), critical=list_of(_visit), **whole)
+        whole = {"start": read_whole_number, "period": read_whole_number}
+        coerce_fields(
+            self, "", robots=list_of(read_whole_number), critical=list_of(_visit), **whole
+        )
         if self.period < 1:
             raise InputError.at("period", f"{self.period} is not positive (give 1 tick or more)")
         if self.start < 0:
@@ -55,7 +57,7 @@ def _visit(value: object) -> tuple[int, int]:
     """Return a visit: a robot and an index in its track."""
     if not isinstance(value, list | tuple) or len(value) != 2:  # noqa: PLR2004 (robot and visit)
         raise ValueError(f"{quote(value)} is no visit (give a robot and the index of its visit)")
-    robot, visit = map(whole_number, value)
+    robot, visit = map(read_whole_number, value)
     return robot, visit
 
 

@@ -12,7 +12,7 @@ from fractions import Fraction
 from typing import Annotated, Any, Literal, Self, get_args, get_origin, get_type_hints
 
 from rightofway.errors import InputError, find_nearest
-from rightofway.values import exact
+from rightofway.values import read_exact
 
 Value = str | int | Fraction
 """The value of an option."""
@@ -88,7 +88,7 @@ class Option:
         if self.is_whole:
             return int(text) if text.isascii() and text.isdecimal() else None
         try:
-            return exact(given)
+            return read_exact(given)
         except ValueError:
             return None
 

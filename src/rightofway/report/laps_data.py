@@ -21,7 +21,7 @@ from rightofway.model import Scenario
 from rightofway.phrases import Phrase
 from rightofway.report.circuits import list_circuit_steps
 from rightofway.report.plan_data import describe_measures
-from rightofway.values import written
+from rightofway.values import format_number
 
 HOUR = 3600
 """Seconds in an hour; where the time unit is not known, laps are counted in as many time units."""
@@ -45,7 +45,7 @@ def make_laps_data(run: CyclicResult, *, by_visit: bool = True) -> dict[str, Any
         "rule": run.rule,
         "routes": run.routes,
         **describe_measures(run.scenario),
-        "throughput_per_hour": written(compute_hour(run.scenario) * run.throughput()),
+        "throughput_per_hour": format_number(compute_hour(run.scenario) * run.throughput()),
         "groups": [_group_data(run.scenario, group, by_visit=by_visit) for group in run.groups],
     }
 
@@ -68,12 +68,14 @@ def is_long(group: GroupResult) -> bool:
 def _group_data(scenario: Scenario, group: GroupResult, *, by_visit: bool) -> dict[str, Any]:
     robots, place, clock = scenario.robots, scenario.roadmap.name, scenario.problem.clock
     names, pattern, measured, time = list_names(scenario, group), group.pattern, None, clock.time
-    means = [None if mean is None else written(mean * clock.tick) for mean in group.mean_laps()]
-    shares = [None if share is None else written(share) for share in group.waiting_shares()]
+    means = [
+        None if mean is None else format_number(mean * clock.tick) for mean in group.mean_laps()
+    ]
+    shares = [None if share is None else format_number(share) for share in group.waiting_shares()]
     if pattern is None:
         measurement = group.measured()
         laps = dict(zip(names, measurement.laps, strict=True))
-        measured = {"from": written(time(measurement.warm_up)), "laps": laps}
+        measured = {"from": format_number(time(measurement.warm_up)), "laps": laps}
 
     def waits_data(waits: Sequence[LapWait], when: str) -> list[dict[str, Any]]:
         return [
@@ -82,8 +84,8 @@ def _group_data(scenario: Scenario, group: GroupResult, *, by_visit: bool) -> di
                 **({} if wait.beside is None else {"beside": place(wait.beside)}),
                 "robots": [robots[robot].name for robot in wait.pair],
                 "waits": robots[wait.waits].name,
-                when: written(time(wait.tick)),
-                "for": written(time(wait.ticks)),
+                when: format_number(time(wait.tick)),
+                "for": format_number(time(wait.ticks)),
             }
             for wait in waits
         ]
@@ -92,9 +94,9 @@ def _group_data(scenario: Scenario, group: GroupResult, *, by_visit: bool) -> di
         "robots": names,
         "ends": group.ends,
         "why": group.why,
-        "transient": written(time(pattern.transient)) if pattern else None,
-        "begins": written(time(pattern.begins)) if pattern else None,
-        "period": written(time(pattern.period)) if pattern else None,
+        "transient": format_number(time(pattern.transient)) if pattern else None,
+        "begins": format_number(time(pattern.begins)) if pattern else None,
+        "period": format_number(time(pattern.period)) if pattern else None,
         "laps_per_period": dict(zip(names, pattern.counts, strict=True)) if pattern else None,
         "laps_made": dict(zip(names, group.laps_made(), strict=True)),
         "mean_lap": dict(zip(names, means, strict=True)),
@@ -115,11 +117,11 @@ def _group_data(scenario: Scenario, group: GroupResult, *, by_visit: bool) -> di
     if group.comparison is not None:
         hour = compute_hour(scenario) / clock.tick
         data |= {
-            "throughput_per_hour": written(group.comparison.throughput * hour),
-            "fairness": written(group.comparison.fairness),
+            "throughput_per_hour": format_number(group.comparison.throughput * hour),
+            "fairness": format_number(group.comparison.fairness),
             "first_come": {
                 "ends": group.comparison.baseline_ends,
-                "throughput_per_hour": written(group.comparison.baseline * hour),
+                "throughput_per_hour": format_number(group.comparison.baseline * hour),
             },
         }
     return data
@@ -134,11 +136,11 @@ def _sensitivity_data(scenario: Scenario, group: GroupResult) -> list[dict[str, 
             "kind": parameter.kind,
             "robot": None if parameter.robot is None else scenario.robots[parameter.robot].name,
             "stop": parameter.stop,
-            "gain": written(parameter.effect.gain * tick),
-            "loss": written(parameter.effect.loss * tick),
-            "until": written(parameter.effect.until),
-            "at_best": written(parameter.effect.at_best * tick),
-            "ten_per_cent": written(parameter.ten_per_cent * tick),
+            "gain": format_number(parameter.effect.gain * tick),
+            "loss": format_number(parameter.effect.loss * tick),
+            "until": format_number(parameter.effect.until),
+            "at_best": format_number(parameter.effect.at_best * tick),
+            "ten_per_cent": format_number(parameter.ten_per_cent * tick),
         }
         for parameter in parameter_effects(scenario, graph)
     ]
@@ -151,7 +153,7 @@ def _steps_data(scenario: Scenario, bottleneck: Bottleneck | None) -> list[dict[
             "kind": step.kind,
             "robot": scenario.robots[step.robot].name,
             "vertices": [place(vertex) for vertex in step.places],
-            "for": written(clock.time(step.ticks)),
+            "for": format_number(clock.time(step.ticks)),
             "text": Phrase(
                 "{robot} {steps}", robot=scenario.robots[step.robot].name, steps=step.text
             ),
@@ -179,13 +181,13 @@ def _curves_data(scenario: Scenario, group: GroupResult) -> dict[str, Any] | Non
             "kind": curve.kind,
             "robot": None if curve.robot is None else scenario.robots[curve.robot].name,
             "stop": curve.stop,
-            "value": written(curve.value),
+            "value": format_number(curve.value),
             "pieces": [
                 {
-                    "from": written(piece.start),
-                    "to": written(piece.until),
-                    "fixed": written(piece.fixed),
-                    "slope": written(piece.slope),
+                    "from": format_number(piece.start),
+                    "to": format_number(piece.until),
+                    "fixed": format_number(piece.fixed),
+                    "slope": format_number(piece.slope),
                     "circuit": circuits.setdefault(tuple(piece.arcs.tolist()), len(circuits)),
                 }
                 for piece in curve.pieces

@@ -11,12 +11,12 @@ from rightofway.metrics import compute_lost_time, derive_outcome, measure, waits
 from rightofway.model import Plan, Scenario
 from rightofway.model.outcome import classify_error
 from rightofway.report.sentences import list_forced_losses
-from rightofway.values import written
+from rightofway.values import format_number
 
 
 def describe_measures(scenario: Scenario) -> dict[str, Any]:
     """Return what the numbers of a report for programs are measured in."""
-    tick = written(scenario.problem.clock.tick)
+    tick = format_number(scenario.problem.clock.tick)
     return {"tick": tick, "units": asdict(scenario.units)}
 
 

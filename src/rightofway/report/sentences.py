@@ -25,7 +25,7 @@ from rightofway.model import (
 from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import Phrase, chain_items, join_items, say_count
 from rightofway.quantities import Quantities
-from rightofway.values import written
+from rightofway.values import format_number
 
 OBJECTIVES: Mapping[Objective, Phrase] = {
     Objective.FLOWTIME: Phrase("flowtime"),
@@ -99,7 +99,7 @@ def describe_proof(plan: Plan) -> str:
         objective = OBJECTIVES[outcome.objective]
         return Phrase("optimal, no plan has a smaller {objective}", objective=objective)
     if outcome.kind is OutcomeKind.BOUNDED and outcome.factor is not None:
-        factor, objective = str(written(outcome.factor)), OBJECTIVES[outcome.objective]
+        factor, objective = str(format_number(outcome.factor)), OBJECTIVES[outcome.objective]
         return Phrase(
             "at most {factor} times the least {objective}", factor=factor, objective=objective
         )

@@ -14,7 +14,7 @@ from rightofway.errors import InputError
 from rightofway.site.geometry import Frame, VertexId
 from rightofway.site.roadmap import EdgeClass, Lane, Roadmap
 from rightofway.site.zones import NamedZone, number_zones
-from rightofway.values import coerced, names, number, optional
+from rightofway.values import allow_none, coerce_fields, read_names, read_number
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,8 +44,13 @@ class Edge:
 
     def __post_init__(self) -> None:
         source = f"edge {self.tail!r} to {self.head!r}"
-        coerced(
-            self, source, length=number, max_speed=optional(number), barred=names, surcharge=number
+        coerce_fields(
+            self,
+            source,
+            length=read_number,
+            max_speed=allow_none(read_number),
+            barred=read_names,
+            surcharge=read_number,
         )
 
     def make_piece(self, tail: str, head: str, length: Fraction, surcharge: Fraction) -> Edge:

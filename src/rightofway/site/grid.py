@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, quote
 from rightofway.site.geometry import Frame, Point
-from rightofway.values import Number, length
+from rightofway.values import Number, read_length
 
 if TYPE_CHECKING:
     pass
@@ -57,7 +57,7 @@ def make_grid_roadmap(
         For an empty or ragged grid, one without a free cell, or a cell size that is not positive.
     """
     _check_lines(lines)
-    size = length(cell_size, "cell_size")
+    size = read_length(cell_size, "cell_size")
     free = np.array([[character in FREE for character in line] for line in lines])
     if not free.any():
         raise InputError.at("", f"no free cell in {free.size} ({_meant_by(lines)})")

@@ -15,7 +15,7 @@ from rightofway.errors import InputError, InputFault, is_printable, quote
 from rightofway.quantities import Units, format_decimal
 from rightofway.site.geometry import Point, VertexId, measure_squared_distance
 from rightofway.site.roadmap import Grid, Roadmap, UnknownVertex
-from rightofway.values import coordinate, exact
+from rightofway.values import read_coordinate, read_exact
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +84,7 @@ def _spot(value: Mapping[object, object]) -> Spot:
             faults.append(InputFault(key, "is missing (give {x: 1.2, y: 0.8})"))
             continue
         try:
-            coordinates[key] = coordinate(value[key])
+            coordinates[key] = read_coordinate(value[key])
         except ValueError as error:
             faults.append(InputFault(key, str(error)))
     if faults:
@@ -101,7 +101,7 @@ def _meant(value: object, roadmap: Roadmap | None) -> str:
         return f"did you mean N{value}?"
     if isinstance(value, list | tuple) and len(value) == 2:  # noqa: PLR2004 - x and y
         try:
-            return f"for a point write {Spot(*map(exact, value))}"
+            return f"for a point write {Spot(*map(read_exact, value))}"
         except ValueError:
             pass
     return f"give {list_kinds_of_places(roadmap)}"

@@ -16,7 +16,7 @@ from rightofway.io.text import json_text
 from rightofway.model import Decision, ForcedLoss, Outcome, Plan, PlannerRun, Scenario, SteadyState
 from rightofway.model.given import checked_plan, require_truths
 from rightofway.phrases import to_parts
-from rightofway.values import written
+from rightofway.values import format_number
 
 
 @checks_arguments
@@ -46,7 +46,7 @@ def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:
     document = {
         "format": PLAN_FORMAT,
         "scenario": dump_scenario(scenario),
-        "tick": written(scenario.problem.clock.tick),
+        "tick": format_number(scenario.problem.clock.tick),
         "planner": _planner(plan.run, scenario, seconds=seconds),
         "metrics": _metrics(plan),
         "robots": [
@@ -133,7 +133,7 @@ def outcome_document(outcome: Outcome) -> dict[str, Any]:
         "kind": str(outcome.kind),
         "objective": str(outcome.objective),
         "bound": outcome.bound,
-        **({} if factor is None else {"factor": written(factor)}),
+        **({} if factor is None else {"factor": format_number(factor)}),
     }
 
 

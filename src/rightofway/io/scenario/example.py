@@ -22,7 +22,7 @@ from rightofway.quantities import Units
 from rightofway.site import make_grid_roadmap
 from rightofway.site.layout import Layout, Level
 from rightofway.site.occupancy import Occupancy
-from rightofway.values import written
+from rightofway.values import format_number
 
 ROBOTS = 6
 """Robots of the example, at most."""
@@ -130,7 +130,7 @@ def _robots(loaded: LoadedMap, level: Level | None, radius: Fraction) -> list[di
     targets = _choose(list(stations), part[shift:] + part[:shift], count, homes)
     assert inside.issuperset((*homes, *targets))
     ends = list(zip(homes, targets, strict=True)) or [(0, 0)]
-    size = {"radius": written(radius)} if radius else {}
+    size = {"radius": format_number(radius)} if radius else {}
     return [
         {
             "name": f"R{number}",

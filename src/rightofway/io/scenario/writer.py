@@ -17,7 +17,7 @@ from rightofway.model.given import checked_scenario
 from rightofway.quantities import Units
 from rightofway.site import EdgeClass, Roadmap, VertexId
 from rightofway.site.drawing import Picture
-from rightofway.values import written
+from rightofway.values import format_number
 
 
 @checks_arguments
@@ -138,33 +138,36 @@ def _picture(picture: Picture | None) -> dict[str, Any]:
         return {}
     data: dict[str, Any] = {"file": picture.name}
     if picture.pixel is not None:
-        data["scale"] = written(picture.pixel)
+        data["scale"] = format_number(picture.pixel)
     if picture.origin is not None:
-        data["origin"] = [written(part) for part in picture.origin]
+        data["origin"] = [format_number(part) for part in picture.origin]
     if picture.yaw:
-        data["yaw"] = written(picture.yaw)
+        data["yaw"] = format_number(picture.yaw)
     if picture.opacity is not None:
-        data["opacity"] = written(picture.opacity)
+        data["opacity"] = format_number(picture.opacity)
     return {"picture": data}
 
 
 def _shape(roadmap: Roadmap) -> dict[str, Any]:
     grid, frame = roadmap.grid, roadmap.frame
     y = {"y": "up"} if frame.y_up else {}
-    yaw = {"yaw": written(frame.yaw)} if frame.yaw else {}
+    yaw = {"yaw": format_number(frame.yaw)} if frame.yaw else {}
     if grid is None:
-        pivot = {"origin": [written(frame.x), written(frame.y)]} if frame.yaw else {}
+        pivot = {"origin": [format_number(frame.x), format_number(frame.y)]} if frame.yaw else {}
         return {"roadmap": _roadmap(roadmap), **y, **pivot, **yaw}
     size = grid.cell_size
     left, bottom = frame.to_site((-size / 2, grid.rows * size - size / 2))
     usual = (Fraction(0), Fraction(0) if frame.y_up else grid.rows * size)
-    origin = {} if (left, bottom) == usual else {"origin": [written(left), written(bottom)]}
-    shape = {"grid": list(grid.as_lines()), "cell_size": written(size), **y, **origin, **yaw}
+    origin = (
+        {} if (left, bottom) == usual else {"origin": [format_number(left), format_number(bottom)]}
+    )
+    shape = {"grid": list(grid.as_lines()), "cell_size": format_number(size), **y, **origin, **yaw}
     named = [
         {
             "name": obstacle.name,
             "rect": [
-                written(part) for part in (obstacle.x, obstacle.y, obstacle.width, obstacle.height)
+                format_number(part)
+                for part in (obstacle.x, obstacle.y, obstacle.width, obstacle.height)
             ],
         }
         for obstacle in roadmap.obstacles
@@ -181,14 +184,14 @@ def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
     for vertex, types in roadmap.barred_vertices.items():
         vertices[name(vertex)] = {"at": positions[vertex], "barred": sorted(types)}
     curves = {
-        (tail, head): {"curve": [[written(part) for part in point] for point in points]}
+        (tail, head): {"curve": [[format_number(part) for part in point] for point in points]}
         for tail, head, points in roadmap.drawing.controls
     }
     edges = [
         {
             "from": name(tail),
             "to": name(int(roadmap.heads[edge])),
-            "length": written(roadmap.get_edge_class(edge).length),
+            "length": format_number(roadmap.get_edge_class(edge).length),
             "both_ways": False,
             **_of_class(roadmap.get_edge_class(edge)),
             **curves.get((VertexId(tail), VertexId(int(roadmap.heads[edge]))), {}),
@@ -221,11 +224,11 @@ def _of_class(edge_class: EdgeClass) -> dict[str, Any]:
     """Return what edges of a class have beside their length."""
     data: dict[str, Any] = {}
     if edge_class.max_speed is not None:
-        data["max_speed"] = written(edge_class.max_speed)
+        data["max_speed"] = format_number(edge_class.max_speed)
     if edge_class.barred:
         data["barred"] = sorted(edge_class.barred)
     if edge_class.surcharge:
-        data["surcharge"] = written(edge_class.surcharge)
+        data["surcharge"] = format_number(edge_class.surcharge)
     return data
 
 
@@ -239,13 +242,15 @@ def _closures(scenario: Scenario) -> dict[str, Any]:
             if closure.edge is None and closure.at is not None
             else {"edge": [name(end) for end in closure.edge or ()]}
         )
-        known = {key: written(value) for key, value in times.items() if value is not None}
+        known = {key: format_number(value) for key, value in times.items() if value is not None}
         lanes.append({**place, **known})
     return {"closures": lanes} if lanes else {}
 
 
 def _robot(robot: Robot, roadmap: Roadmap) -> dict[str, Any]:
-    stops = [{"at": roadmap.name(stop.at), "work": written(stop.work)} for stop in robot.stops]
+    stops = [
+        {"at": roadmap.name(stop.at), "work": format_number(stop.work)} for stop in robot.stops
+    ]
     trip = (
         {"target": stops[0]["at"], "work": stops[0]["work"]}
         if len(stops) == 1

@@ -11,7 +11,7 @@ from rightofway.planners import DEFAULT_PLANNER, IMPROVER, find_all
 from rightofway.studio.routes.models import (
     InStudio,
 )
-from rightofway.values import written
+from rightofway.values import format_number
 
 router = APIRouter()
 
@@ -47,7 +47,7 @@ def list_planners() -> dict[str, Any]:
 
 def _plain(value: str | int | Fraction) -> str | int:
     """Return the value of an option as JSON has it."""
-    return written(value) if isinstance(value, Fraction) else value
+    return format_number(value) if isinstance(value, Fraction) else value
 
 
 @router.get("/choices", tags=["planners"])

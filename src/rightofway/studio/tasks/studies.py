@@ -21,7 +21,7 @@ from rightofway.report.plan_data import describe_measures
 from rightofway.studio.messages import Blobs, Emit
 from rightofway.studio.tasks.documents import compute_digest, compute_figures, load_document
 from rightofway.studio.tasks.planning import PlanningProgress
-from rightofway.values import exact
+from rightofway.values import read_exact
 from rightofway.viz.page.document import as_compact_json
 from rightofway.viz.page.payload import make_payload
 
@@ -108,7 +108,7 @@ def make_laps_if(
     """
     scenario = load_document(document, folder).scenario
     try:
-        wanted = exact(value)
+        wanted = read_exact(value)
     except ValueError as error:
         raise InputError.at("value", str(error)) from None
     run = _repeated(_changed(scenario, kind, robot, stop, wanted), emit, **settings)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, cast
 from rightofway.errors import InputError, quote
 from rightofway.site import Roadmap
 from rightofway.site.drawing import Picture
-from rightofway.values import at, coordinate, list_of, one_of, optional
+from rightofway.values import allow_none, list_of, make_class_reader, read_at, read_coordinate
 from rightofway.viz.page.schema import BackgroundData, PlaceData
 from rightofway.viz.placement import lay_out_roadmap
 
@@ -62,11 +62,11 @@ class Background:
         if not isinstance(self.picture, str | os.PathLike):
             fault = f"{quote(self.picture)} is no file (give text or a Path)"
             raise InputError.at(("background", "picture"), fault)
-        at(("background", "scale"), optional(coordinate), self.scale)
+        read_at(("background", "scale"), allow_none(read_coordinate), self.scale)
         for place, number in (("yaw", self.yaw), ("opacity", self.opacity)):
-            at(("background", place), coordinate, number)
+            read_at(("background", place), read_coordinate, number)
         for place, point in (("origin", self.origin), ("corner", self.corner)):
-            read = at(("background", place), optional(list_of(coordinate)), point)
+            read = read_at(("background", place), allow_none(list_of(read_coordinate)), point)
             if read is not None and len(read) != 2:  # noqa: PLR2004 (x and y)
                 fault = f"{quote(point)} is no point (give (x, y))"
                 raise InputError.at(("background", place), fault)
@@ -82,9 +82,9 @@ class Background:
     @classmethod
     def of(cls, picture: Picture) -> Background:
         """Return the picture of a map where its scenario or layout says that it lies."""
-        at(
+        read_at(
             "picture",
-            one_of(Picture, "no picture of a map", "give Background(picture=file)"),
+            make_class_reader(Picture, "no picture of a map", "give Background(picture=file)"),
             picture,
         )
         origin, corner = picture.origin, picture.corner

@@ -19,7 +19,7 @@ from rightofway.errors import NoPlanExists
 from rightofway.files import write_whole
 from rightofway.model import ExecutionTrace, Plan, SteadyState
 from rightofway.model.given import checked_plan
-from rightofway.values import at, text
+from rightofway.values import read_at, read_label
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.payload import make_payload
 from rightofway.viz.page.scripts import make_classic_script, order_scripts, read_asset
@@ -76,7 +76,7 @@ def make_page(
         plans cannot be compared: too many, or times in a unit and in none.
     """
     count = len(checked_plan(plan).scenario.robots)
-    title = at("title", text, title)
+    title = read_at("title", read_label, title)
     robots = f"{count} robot{'s' * (count != 1)}"
     about = f"{title}: {robots}" if title else f"{robots}, planned by {plan.run.name}"
     payload = make_payload(

@@ -56,7 +56,7 @@ from rightofway.report.sentences import (
     read_closed_ticks,
     summarize_decision,
 )
-from rightofway.values import at, list_of, one_of, optional, text
+from rightofway.values import allow_none, list_of, make_class_reader, read_at, read_label
 from rightofway.viz.motion import Trip, end_of, make_trips
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.map_data import compute_differences, map_data
@@ -210,20 +210,22 @@ def _refuse_other_kinds(
     steady: object, actual: object, no_plan: object, background: object, others: object
 ) -> None:
     """Refuse what is shown beside a plan and is of another kind."""
-    groups = one_of(SteadyState, "no steady state", "give SteadyState")
-    trace = one_of(ExecutionTrace, "no execution", "give a trace of rightofway.simulate")
-    reasons = one_of(NoPlanExists, "no such error", "give the NoPlanExists that was raised")
-    picture = one_of(Background, "no background", "give a rightofway.Background")
-    at("steady", list_of(groups), steady)
-    at("actual", optional(trace), actual)
-    at("no_plan", optional(reasons), no_plan)
-    at("background", optional(picture), background)
-    for index, other in enumerate(at("others", list_of(lambda pair: pair), others)):
+    groups = make_class_reader(SteadyState, "no steady state", "give SteadyState")
+    trace = make_class_reader(ExecutionTrace, "no execution", "give a trace of rightofway.simulate")
+    reasons = make_class_reader(
+        NoPlanExists, "no such error", "give the NoPlanExists that was raised"
+    )
+    picture = make_class_reader(Background, "no background", "give a rightofway.Background")
+    read_at("steady", list_of(groups), steady)
+    read_at("actual", allow_none(trace), actual)
+    read_at("no_plan", allow_none(reasons), no_plan)
+    read_at("background", allow_none(picture), background)
+    for index, other in enumerate(read_at("others", list_of(lambda pair: pair), others)):
         if not isinstance(other, list | tuple) or len(other) != 2:  # noqa: PLR2004 (plan, title)
             message = f"{quote(other)} is no plan with a title (give (plan, title))"
             raise InputError.at(("others", index), message)
         checked_plan(other[0], ("others", index, 0))
-        at(("others", index, 1), text, other[1])
+        read_at(("others", index, 1), read_label, other[1])
 
 
 def _blockages(scenario: Scenario, no_plan: NoPlanExists, book: PhraseBook) -> FaultsData:

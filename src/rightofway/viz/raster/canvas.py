@@ -13,7 +13,7 @@ from rightofway.model import Plan
 from rightofway.model.given import checked_plan
 from rightofway.model.place_names import PlaceNames
 from rightofway.site import Roadmap
-from rightofway.values import at, one_of
+from rightofway.values import make_class_reader, read_at
 from rightofway.viz.motion import end_of, make_trips
 from rightofway.viz.page.schema import PlaceData
 from rightofway.viz.palette import Theme, choose_colours, mix
@@ -52,7 +52,7 @@ class Scene(Ground):
     """A plan prepared for drawing; from its tick `end` on nothing happens any more."""
 
     def __init__(self, plan: Plan, theme: Theme) -> None:
-        at("theme", one_of(Theme, "no theme", "give a rightofway.Theme"), theme)
+        read_at("theme", make_class_reader(Theme, "no theme", "give a rightofway.Theme"), theme)
         super().__init__(checked_plan(plan).scenario.roadmap, theme)
         self.plan = plan
         self.where = PlaceNames(plan.scenario).where

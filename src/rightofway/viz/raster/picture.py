@@ -16,7 +16,7 @@ from rightofway.errors import InputError
 from rightofway.files import write_whole
 from rightofway.model import Plan
 from rightofway.model.given import require_truths
-from rightofway.values import at, between, optional, whole_number
+from rightofway.values import allow_none, make_range_reader, read_at, read_whole_number
 from rightofway.viz.palette import LIGHT, Theme
 from rightofway.viz.raster.canvas import Pen, Point, Scene
 from rightofway.viz.raster.diagram import Diagram
@@ -69,7 +69,7 @@ def make_png(
         For a tick below 0, or a scale that makes the picture empty or too large to draw.
     """
     require_truths(diagram=diagram)
-    tick = at("tick", optional(whole_number), tick)
+    tick = read_at("tick", allow_none(read_whole_number), tick)
     if tick is not None and tick < 0:
         raise InputError.at("tick", f"{tick} is negative (give 0 or more)")
     _refuse_scale(scale)
@@ -175,7 +175,7 @@ def write_gif(
         For fewer than two frames, a scale that makes pictures empty or too large to draw, or a file
         that cannot be written.
     """
-    max_frames = at("max_frames", whole_number, max_frames)
+    max_frames = read_at("max_frames", read_whole_number, max_frames)
     if max_frames <= 1:
         raise InputError.at("max_frames", f"{max_frames} is less than a film (give 2 or more)")
     _refuse_scale(scale)
@@ -223,7 +223,7 @@ def _pictures(scene: Scene, scale: float, ticks: Sequence[float]) -> Iterator[Im
 
 def _refuse_scale(scale: float | None) -> None:
     if scale is not None:
-        at("scale", between(0, MOST_PIXELS), scale)
+        read_at("scale", make_range_reader(0, MOST_PIXELS), scale)
 
 
 def _fitting_scale(scene: Scene, width: int, largest: float) -> float:
