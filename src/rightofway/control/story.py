@@ -112,8 +112,10 @@ class Story:
         is_at_end = own.arrived == own.released and own.finished.issuperset(
             own.route.get_jobs(own.arrived)
         )
+        if not is_at_end or chapter.waits_for is not None:
+            return
         missing = self._ledger.graph.list_missing(Part(robot, next_part), self._ledger.arrived)
-        if is_at_end and missing and chapter.waits_for is None:
+        if missing:
             chapter.waits_for = next_part
             self.waits[robot] += 1
             others = [
