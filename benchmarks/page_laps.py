@@ -146,7 +146,10 @@ def paper_table() -> str:
         pattern = group.pattern
         assert pattern is not None, "every case repeats"
         means = (
-            ["never home" if mean is None else str(mean) for mean in one.groups[0].mean_laps()]
+            [
+                "never home" if mean is None else str(mean)
+                for mean in one.groups[0].compute_mean_laps()
+            ]
             for one in runs
         )
         lines.append(
@@ -156,7 +159,7 @@ def paper_table() -> str:
                 str(pattern.transient),
                 str(pattern.period),
                 ", ".join(map(str, pattern.counts)),
-                _waits(run, group.first_waits()),
+                _waits(run, group.list_first_waits()),
                 _waits(run, group.waits()),
                 *map(", ".join, means),
             )
@@ -214,7 +217,7 @@ def _first_laps(name: str) -> Figure:
         label = run.scenario.robots[route.robot].name
         axes.step(enter, places, where="post", label=label, color=colour)
         for visit, (begins, leaves) in enumerate(pairwise(enter)):
-            ready = begins + route.least(visit)
+            ready = begins + route.compute_least(visit)
             axes.plot([ready, leaves], [places[visit]] * 2, color=colour, linewidth=4)
     for tick in (pattern.begins, pattern.begins + pattern.period, until):
         axes.axvline(tick, color="#888888", linestyle=":")

@@ -100,7 +100,7 @@ GOOD: dict[str, Callable[[], tuple[Callable[..., Any], dict[str, Any]]]] = {
     "Track": lambda: (rw.Track, fields_of(plan().tracks[0])),
     "Track.of": lambda: (rw.Track.of, {"vertices": [0, 1], "enter": [0, 1]}),
     "TwoLevelOptions": lambda: (rw.TwoLevelOptions, {}),
-    "best_timetable": lambda: (rw.best_timetable, {"scenario": DOOR, "rounds": 0}),
+    "find_best_timetable": lambda: (rw.find_best_timetable, {"scenario": DOOR, "rounds": 0}),
     "check": lambda: (rw.check, {"plan": plan()}),
     "improve": lambda: (rw.improve, {"plan": plan(), "time_limit": 0.01}),
     "Layout.get_level": lambda: (SITE.get_level, {}),
@@ -212,7 +212,7 @@ def test_an_argument_of_another_kind_is_accepted_or_refused_with_a_reason(
 
 
 CALLBACKS: dict[str, Callable[[Callable[..., Any]], Any]] = {
-    "best_timetable": lambda call: rw.best_timetable(DOOR, rounds=1, report=call),
+    "find_best_timetable": lambda call: rw.find_best_timetable(DOOR, rounds=1, report=call),
     "improve": lambda call: rw.improve(plan(), time_limit=None, on_plan=call, iterations=5),
     "run_laps": lambda call: rw.run_laps(DOOR, report=call),
     "simulate": lambda call: rw.simulate(plan(), runs=2, report=call),

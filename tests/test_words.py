@@ -141,7 +141,6 @@ ESTABLISHED = {
 """Published names of methods, names that asyncio and uvicorn call, and a program's entry point."""
 
 NOUNS = {
-    "cyclic": 48,
     "io": 73,
     "model": 45,
 }

@@ -11,7 +11,7 @@ from docutils.parsers.rst import directives
 from sphinx.util.docutils import SphinxDirective
 
 import rightofway
-from rightofway.cyclic import excerpt, run_laps
+from rightofway.cyclic import make_excerpt, run_laps
 from rightofway.execution import simulate
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ class PlanPage(SphinxDirective):
     def write(self, scenario: rightofway.Scenario, target: Path) -> None:
         """Write the page."""
         if "laps" in self.options:
-            plan, steady = excerpt(run_laps(scenario))
+            plan, steady = make_excerpt(run_laps(scenario))
             rightofway.write_page(plan, target, steady=steady)
             return
         plan, actual = rightofway.solve(scenario), None

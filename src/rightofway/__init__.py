@@ -32,7 +32,7 @@ if _TYPE_CHECKING:
     )
     from rightofway.cyclic import (
         CyclicResult,
-        best_timetable,
+        find_best_timetable,
         plan_of_laps,
         run_laps,
     )
@@ -125,7 +125,7 @@ _ROOMS = {
     ),
     "cyclic": (
         "CyclicResult",
-        "best_timetable",
+        "find_best_timetable",
         "plan_of_laps",
         "run_laps",
     ),
@@ -246,9 +246,9 @@ __all__ = [
     "Track",
     "TwoLevelOptions",
     "Wait",
-    "best_timetable",
     "check",
     "compute_lost_time",
+    "find_best_timetable",
     "improve",
     "layout_of_graph",
     "load",
@@ -268,7 +268,11 @@ __all__ = [
 ]
 
 
-_EARLIER = {"lost_time": "compute_lost_time", "save_plan": "write_plan"}
+_EARLIER = {
+    "best_timetable": "find_best_timetable",
+    "lost_time": "compute_lost_time",
+    "save_plan": "write_plan",
+}
 """Earlier names, which work until the next major version and warn (docs/promises.md)."""
 
 

@@ -33,7 +33,7 @@ from rightofway.control import (
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.fleet_control import LONG_ORDER
 from rightofway.control.laps import LapsToDrive
-from rightofway.cyclic import excerpt, plan_of_laps, run_laps
+from rightofway.cyclic import make_excerpt, plan_of_laps, run_laps
 from rightofway.cyclic.result import CyclicResult
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Plan, Rules, Scenario
@@ -191,7 +191,7 @@ def laps_plan(fleet: Scenario, maker: Callable[[Scenario], CyclicResult] = first
     result = maker(fleet)
     if any(group.ends != "repeats" for group in result.groups):
         raise GaveUp("robots wait for each other")
-    plan, steady = plan_of_laps(result), excerpt(result)[1]
+    plan, steady = plan_of_laps(result), make_excerpt(result)[1]
     plan = replace(plan, steady=within(steady, list(map(len, plan.tracks))))
     LapsToDrive(plan)
     return plan

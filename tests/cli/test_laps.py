@@ -10,7 +10,7 @@ from types import SimpleNamespace
 import pytest
 
 from rightofway import load
-from rightofway.cyclic import best_timetable
+from rightofway.cyclic import find_best_timetable
 from rightofway.report.laps import report_comparison
 from tests.cli.conftest import EXAMPLES, Cli
 
@@ -164,7 +164,7 @@ def test_a_chosen_timetable_reports_its_gain_and_its_fairness(cli: Cli, slower: 
 
 
 def test_a_timetable_below_its_baseline_says_so(slower: Path) -> None:
-    [group] = best_timetable(load(slower), time_limit=None, rounds=2).groups
+    [group] = find_best_timetable(load(slower), time_limit=None, rounds=2).groups
     assert group.comparison is not None
     found = group.comparison
     worse = replace(found, baseline_ends="open", baseline=found.throughput * 2)

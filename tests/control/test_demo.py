@@ -11,7 +11,7 @@ from rightofway.control.demo import DemoResult, drive_demo
 from rightofway.control.endpoints import Letter
 from rightofway.control.identities import VERSIONS
 from rightofway.control.report import report
-from rightofway.cyclic import best_timetable
+from rightofway.cyclic import find_best_timetable
 from rightofway.errors import InputError
 from rightofway.io import scenario_of
 from rightofway.model import Tick
@@ -137,7 +137,7 @@ def test_the_report_names_jobs_and_messages() -> None:
 def test_laps_are_driven_until_each_robot_has_made_as_many_as_wanted() -> None:
     """The period is 10 ticks by the plan. Robots set out only when others have arrived, at the two
     doors of the lap 2 ticks later each: 14 ticks, and some for the first lap."""
-    plan = laps_plan(door().scenario, best_timetable)
+    plan = laps_plan(door().scenario, find_best_timetable)
     result = drive_demo(plan, laps=20)
     assert min(result.laps) == 20
     assert result.as_dict()["ticks"] == result.now

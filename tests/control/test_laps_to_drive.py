@@ -12,7 +12,7 @@ from rightofway.control import FleetControl, RobotLedger, SqliteJournal
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.laps import LapsToDrive, build_graph_behind_released
 from rightofway.control.routes import make_routes_to_drive
-from rightofway.cyclic import best_timetable
+from rightofway.cyclic import find_best_timetable
 from rightofway.errors import InputError
 from rightofway.model import Plan
 from rightofway.precedence import ReleaseGraph
@@ -23,7 +23,7 @@ from tests.builders.plans import door
 
 def chosen_timetable() -> Plan:
     """Return whole laps of the door with the period of a chosen timetable, 10 ticks."""
-    return laps_plan(door().scenario, best_timetable)
+    return laps_plan(door().scenario, find_best_timetable)
 
 
 def begun(plan: Plan, journal: MemoryJournal | SqliteJournal) -> Dispatcher:

@@ -9,9 +9,9 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 
-from rightofway.cyclic.bottleneck import bottleneck_of
-from rightofway.cyclic.route import cyclic_routes
-from rightofway.cyclic.sensitivity import ParameterEffect, find_stages_at, parameter_effects
+from rightofway.cyclic.bottleneck import find_bottleneck
+from rightofway.cyclic.route import make_cyclic_routes
+from rightofway.cyclic.sensitivity import ParameterEffect, compute_parameter_effects, find_stages_at
 from rightofway.model import BookingRules, Lap, Rules, Scenario, Tick
 from rightofway.precedence import TimedEventGraph
 from rightofway.site import VertexId
@@ -52,7 +52,7 @@ def build_graph_of_plan(scenario: Scenario) -> TimedEventGraph:
 
 
 def test_a_bottleneck_is_work_ways_and_rights_of_way() -> None:
-    found = bottleneck_of(build_graph_of_plan(crossing()))
+    found = find_bottleneck(build_graph_of_plan(crossing()))
     assert [piece.kind for piece in found.pieces] == 2 * ["way", "work", "way", "right of way"]
     assert found.cycle_time == 12
     assert found.periods == 1
@@ -66,7 +66,7 @@ def test_a_way_ends_at_home() -> None:
     timetable = timetable_of(
         laps_of(scenario), [[44, 101, 102, 143], [40, 110, 120, 130]], period=100
     )
-    found = bottleneck_of(TimedEventGraph(timetable, rules=BookingRules()))
+    found = find_bottleneck(TimedEventGraph(timetable, rules=BookingRules()))
     name = scenario.roadmap.name
     ways = [[name(at) for at in piece.places] for piece in found.pieces if piece.kind == "way"]
     assert ways == [["N3", "N4", "N1"], ["N1", "N4", "N3"]]
@@ -88,7 +88,7 @@ def told(lever: ParameterEffect) -> tuple[str, int | None, int | None, float, fl
 
 def test_what_helps_is_what_is_on_the_bottleneck_the_best_first() -> None:
     scenario = crossing()
-    sensitivity = parameter_effects(scenario, build_graph_of_plan(scenario))
+    sensitivity = compute_parameter_effects(scenario, build_graph_of_plan(scenario))
     # R1 drives 3 of its 4 edges between entering the door and leaving it for home, and works for 4.
     assert [told(lever) for lever in sensitivity] == [
         ("work", 0, 0, 4.0, 1.0, 8.0),
@@ -107,7 +107,7 @@ def test_turning_and_headway_are_levers_of_their_own() -> None:
     scenario = crossing(rules=Rules(turn=Fraction(5), headway=Fraction(2)))
     sensitivity = {
         (lever.kind, lever.robot): lever
-        for lever in parameter_effects(scenario, build_graph_of_plan(scenario), most=9)
+        for lever in compute_parameter_effects(scenario, build_graph_of_plan(scenario), most=9)
     }
     # Each turns once beyond the door; the door changes hands twice.
     assert float(sensitivity["turn", 0].effect.gain) == 5
@@ -119,7 +119,7 @@ def test_driving_into_a_place_booked_ahead_counts_as_driving() -> None:
     scenario = crossing(rules=Rules(turn=Fraction(0), occupancy="both"))
     sensitivity = {
         (lever.kind, lever.robot): lever
-        for lever in parameter_effects(scenario, build_graph_of_plan(scenario), most=9)
+        for lever in compute_parameter_effects(scenario, build_graph_of_plan(scenario), most=9)
     }
     assert float(sensitivity["speed", 0].effect.gain) == 4
     assert sensitivity["speed", 0].effect.cycle_time == 14
@@ -144,7 +144,7 @@ def test_a_first_stop_at_home_and_the_end_of_a_lap_are_served_in_one_visit() -> 
     )
     itinerary = scenario.problem.itineraries[0]
     first, north, end = itinerary.stages
-    lap = next(route.lap for route in cyclic_routes(scenario) if route.robot == 0)
+    lap = next(route.lap for route in make_cyclic_routes(scenario) if route.robot == 0)
     tick = scenario.problem.clock.tick
     assert lap.dwell[0] * tick == 3 + 5  # it turns once, after its work at home
     assert find_stages_at(scenario.roadmap, itinerary, lap) == [

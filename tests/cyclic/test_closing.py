@@ -12,11 +12,11 @@ from hypothesis import reject
 from hypothesis import strategies as st
 
 from rightofway.cyclic import run_laps
-from rightofway.cyclic.closing import Stretch, close_stretch, close_windows, stretches
+from rightofway.cyclic.closing import Stretch, close_stretch, close_windows, find_stretches
 from rightofway.cyclic.pattern import Pattern
 from rightofway.cyclic.problem import CyclicProblem
 from rightofway.cyclic.result import GroupResult
-from rightofway.cyclic.route import GroupContext, cyclic_routes, split_groups
+from rightofway.cyclic.route import GroupContext, make_cyclic_routes, split_groups
 from rightofway.cyclic.run import advance
 from rightofway.cyclic.simulator import CyclicSimulator
 from rightofway.errors import InputError, NoPlanExists
@@ -86,7 +86,7 @@ def test_closed_windows_keep_every_rule_across_the_seam(scenario: Scenario) -> N
     # the oracle compares every two visits
     short = (window for window in close_windows(problem, run) if window.n_visits <= 150)
     for window in islice(short, 4):
-        timetable = problem.timetable(problem.booked(window)[1], window.period)
+        timetable = problem.join_cycles(problem.book(window)[1], window.period)
         ahead = context.booking_rules.books_ahead
         assert (
             oracle.faults(timetable, headway=context.booking_rules.headway, books_ahead=ahead) == []
@@ -97,7 +97,7 @@ def test_closed_windows_keep_every_rule_across_the_seam(scenario: Scenario) -> N
 def test_the_best_window_is_not_below_the_run_in_the_long_run(scenario: Scenario) -> None:
     run, pattern = open_run(scenario)
     problem = bind_problem(run)
-    best = max(map(problem.value, close_windows(problem, run)), default=Fraction(0))
+    best = max(map(problem.compute_value, close_windows(problem, run)), default=Fraction(0))
     assert best >= Fraction(sum(pattern.counts), pattern.period)
 
 
@@ -106,7 +106,7 @@ def long_run_of(
 ) -> GroupResult | None:
     """Return a run of the largest group, None where a robot is alone or makes no laps."""
     try:
-        routes = cyclic_routes(scenario, connections)
+        routes = make_cyclic_routes(scenario, connections)
     except (InputError, NoPlanExists):
         return None
     group = max(split_groups(scenario, routes), key=len)
@@ -116,7 +116,7 @@ def long_run_of(
     while run.ends == "repeats" and max(past[-1] for past in run.history) < LAPS * context.longest:
         simulation.reset_states()
         run = advance(simulation, Deadline())
-    makes_laps = len(group) > 1 and run.ends == "repeats" and all(run.mean_laps())
+    makes_laps = len(group) > 1 and run.ends == "repeats" and all(run.compute_mean_laps())
     return run if makes_laps else None
 
 
@@ -146,7 +146,7 @@ def test_a_closed_stretch_keeps_every_rule_across_the_seam(
         leave("a stretch that cannot be closed")
     timetable = closed.timetable
     assert timetable.period == stretch.period
-    graph = problem.graph(timetable)
+    graph = problem.build_graph(timetable)
     assert graph.compute_slack().min() >= 0
     assert not graph.has_swaps()
     if sum(map(len, timetable.enter)) <= 400:  # the oracle compares every two visits
@@ -159,10 +159,10 @@ def test_a_closed_stretch_keeps_every_rule_across_the_seam(
 @law(long_runs())
 def test_the_value_of_a_stretch_is_a_bound(run: GroupResult) -> None:
     problem = bind_problem(run)
-    for value, stretch in stretches(problem, run)[:2]:
+    for value, stretch in find_stretches(problem, run)[:2]:
         closed = close_stretch(problem, run, stretch)
         if closed is not None:
-            assert float(problem.value(closed)) <= value + 1e-9
+            assert float(problem.compute_value(closed)) <= value + 1e-9
             assert value <= problem.bound + Fraction(1, 10**9)
 
 
@@ -177,7 +177,7 @@ def test_closings_of_any_fleet_keep_every_rule_across_the_seam(run: GroupResult)
     problem = bind_problem(run)
     short = (window for window in close_windows(problem, run) if window.n_visits <= 150)
     closed = [
-        problem.timetable(problem.booked(window)[1], window.period) for window in islice(short, 3)
+        problem.join_cycles(problem.book(window)[1], window.period) for window in islice(short, 3)
     ]
     for laps in (5, 9):
         stretch = Stretch(begins=context.longest, period=laps * context.longest)
@@ -185,6 +185,6 @@ def test_closings_of_any_fleet_keep_every_rule_across_the_seam(run: GroupResult)
             found = close_stretch(problem, run, stretch)
             closed += [] if found is None else [found.timetable]
     for timetable in closed:
-        assert problem.graph(timetable).compute_slack().min() >= 0
+        assert problem.build_graph(timetable).compute_slack().min() >= 0
         cycles = periodic_space.cycles_of(timetable)
         assert not periodic_space.conflicts(context.scenario, cycles, int(timetable.period))

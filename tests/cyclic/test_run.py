@@ -8,8 +8,8 @@ from typing import cast
 import pytest
 
 from rightofway import GaveUp, InputError, check, plan_of_laps, run_laps
-from rightofway.cyclic import cyclic_routes
-from rightofway.cyclic.pattern import pattern_of
+from rightofway.cyclic import make_cyclic_routes
+from rightofway.cyclic.pattern import find_pattern
 from rightofway.cyclic.result import GroupResult
 from rightofway.cyclic.route import GroupContext, split_groups
 from rightofway.cyclic.run import share_time
@@ -33,7 +33,7 @@ def told(name: str, rule: str) -> tuple[set[tuple[str, int]], set[tuple[str, int
     run = run_laps(scenario, rule, routes="shortest")
     first, steady = (
         {(scenario.roadmap.name(one.vertex), one.waits) for one in found}
-        for found in (run.groups[0].first_waits(), run.groups[0].waits())
+        for found in (run.groups[0].list_first_waits(), run.groups[0].waits())
     )
     return first, steady
 
@@ -51,7 +51,7 @@ def test_a_faster_robot_waits_for_the_slower_one_elsewhere_than_at_first() -> No
     group = only_group("door-2", "first-come")
     assert group.pattern is not None
     assert (group.pattern.period, group.pattern.counts) == (30, (1, 1))
-    assert group.waiting_shares() == (Fraction(1, 3), Fraction(0))
+    assert group.compute_waiting_shares() == (Fraction(1, 3), Fraction(0))
     assert told("door-2", "first-come") == (
         {("N1", 1), ("N7", 0)},
         {("N1", 0), ("N7", 0)},
@@ -63,7 +63,7 @@ def test_in_a_fixed_order_the_second_robot_may_wait_for_ever() -> None:
     group = only_group("door-2", "fixed-order")
     assert group.pattern is not None
     assert group.pattern.counts == (1, 0)
-    assert group.mean_laps() == (Fraction(20), None)
+    assert group.compute_mean_laps() == (Fraction(20), None)
     assert group.timetable is None
 
 
@@ -72,7 +72,7 @@ def test_laps_of_16_and_14_ticks_meet_in_the_rhythm_of_both() -> None:
     group = only_group("cross-1", "first-come")
     assert group.pattern is not None
     assert (group.pattern.period, group.pattern.counts) == (128, (8, 9))
-    assert group.mean_laps() == (Fraction(16), Fraction(128, 9))
+    assert group.compute_mean_laps() == (Fraction(16), Fraction(128, 9))
 
 
 @pytest.mark.parametrize("rule", ["first-come", "fixed-order", "two-level"])
@@ -91,7 +91,7 @@ def test_robots_that_share_no_place_have_no_common_period() -> None:
 
 def test_a_robot_between_two_others_joins_them_in_one_group() -> None:
     scenario = grid_fleet(["...."], [("N0", "N1"), ("N3", "N2"), ("N1", "N2")])
-    groups = split_groups(scenario, cyclic_routes(scenario, "shortest"))
+    groups = split_groups(scenario, make_cyclic_routes(scenario, "shortest"))
     assert [[endless.robot for endless in group] for group in groups] == [[0, 1, 2]]
 
 
@@ -115,7 +115,7 @@ class Restless:
 def test_time_that_others_leave_over_goes_to_a_group_that_is_open() -> None:
     """One robot of three may take a third of the time at first; the other two are soon done."""
     scenario = CASES["door-1"]
-    routes = cyclic_routes(scenario, "shortest")
+    routes = make_cyclic_routes(scenario, "shortest")
     two, one = (
         GroupContext(scenario=scenario, routes=tuple(group)) for group in (routes, routes[:1])
     )
@@ -151,7 +151,7 @@ def test_work_and_turn_at_home_are_part_of_a_lap() -> None:
     scenario = Scenario(
         roadmap=roadmap, robots=(Robot(name="R1", home=roadmap.get_vertex("N0"), stops=stops),)
     )
-    [endless] = cyclic_routes(scenario)
+    [endless] = make_cyclic_routes(scenario)
     assert endless.lap.duration == 9
     assert endless.lap.dwell == (4, 0, 1, 0)
     assert check(plan_of_laps(run_laps(scenario), laps=4)).ok
@@ -160,7 +160,7 @@ def test_work_and_turn_at_home_are_part_of_a_lap() -> None:
 def test_the_period_is_the_least_one_and_the_transient_too() -> None:
     """Known to repeat from 10 to 22; in fact every 4 ticks, from the visit at 3 on."""
     history = [[0, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21]]
-    pattern = pattern_of(history, [2], (10, 22))
+    pattern = find_pattern(history, [2], (10, 22))
     assert (pattern.period, pattern.counts) == (4, (1,))
     assert (pattern.transient, pattern.begins) == (1, 5)
     assert pattern.enter(0, 12) == 25

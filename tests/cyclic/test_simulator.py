@@ -5,10 +5,10 @@ import random
 import pytest
 from hypothesis import strategies as st
 
-from rightofway.cyclic.pattern import pattern_of
-from rightofway.cyclic.route import ROUTES, GroupContext, cyclic_routes, split_groups
+from rightofway.cyclic.pattern import find_pattern
+from rightofway.cyclic.route import ROUTES, GroupContext, make_cyclic_routes, split_groups
 from rightofway.cyclic.rules import NATIVE_RULES, RULES
-from rightofway.cyclic.run import Simulation, simulation_of
+from rightofway.cyclic.run import Simulation, make_simulation
 from rightofway.cyclic.simulator import Deadlock
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Rules, Scenario
@@ -40,7 +40,7 @@ def groups_of(
         scenario: Scenario = fleet_on(
             grid, draw, robots=min(robots, most), rules=rules, apart=most > 1
         )
-        groups = split_groups(scenario, cyclic_routes(scenario, draw.choice(ROUTES)))
+        groups = split_groups(scenario, make_cyclic_routes(scenario, draw.choice(ROUTES)))
     except (InputError, NoPlanExists, ValueError):
         leave("a robot has nowhere to go")
     return [GroupContext(scenario=scenario, routes=tuple(group)) for group in groups]
@@ -72,7 +72,7 @@ def test_the_kernel_decides_as_one_window_after_the_other_does(
 
 def check_decisions(context: GroupContext, rule: str) -> None:
     """Compare the kernel with windows, tick by tick, and their deadlocks."""
-    slow, fast = rolling(context, rule), simulation_of(context, rule)
+    slow, fast = rolling(context, rule), make_simulation(context, rule)
     expected, found = outcome(slow), outcome(fast)
     if expected is None or found is None:
         return
@@ -93,7 +93,7 @@ def test_the_kernel_decides_as_windows_do_for_any_fleet(
     scenario: Scenario, rule: str, routed: str
 ) -> None:
     try:
-        routes = cyclic_routes(scenario, routed)
+        routes = make_cyclic_routes(scenario, routed)
     except NoPlanExists:
         leave("no laps exist")
     for group in split_groups(scenario, routes):
@@ -109,10 +109,12 @@ def test_what_follows_a_recurrence_is_the_pattern(rule: str, seed: int, rules: R
         draw, size=draw.randint(4, 7), robots=draw.randint(2, 5), walls=0.15, rules=rules
     )
     for context in groups:
-        simulation = simulation_of(context, rule)
+        simulation = make_simulation(context, rule)
         try:
             recurrence = simulation.advance(Deadline.after(2))
-            pattern = pattern_of(simulation.history, [len(lap) for lap in context.laps], recurrence)
+            pattern = find_pattern(
+                simulation.history, [len(lap) for lap in context.laps], recurrence
+            )
             simulation.reset_states()
             simulation.advance(Deadline.after(2))
         except (Deadlock, GaveUp):

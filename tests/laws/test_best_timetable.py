@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from rightofway.cyclic import (
     BaselineComparison,
     CyclicResult,
-    best_timetable,
+    find_best_timetable,
     plan_of_laps,
     run_laps,
 )
@@ -29,7 +29,7 @@ RULES = [Rules(), Rules(headway=Fraction(2)), Rules(occupancy="both"), Rules(rot
 def chosen(scenario: Scenario, *, rounds: int = 6) -> CyclicResult:
     """Choose where that is possible; how well is not the point here."""
     try:
-        return best_timetable(scenario, time_limit=None, rounds=rounds, seed=3)
+        return find_best_timetable(scenario, time_limit=None, rounds=rounds, seed=3)
     except (GaveUp, InputError, NoPlanExists) as reason:
         leave(type(reason).__name__)
 
@@ -64,7 +64,7 @@ def test_three_periods_of_a_chosen_timetable_have_no_fault(scenario: Scenario) -
         graph = TimedEventGraph(timetable, rules=BookingRules(headway=headway, books_ahead=ahead))
         found = graph.find_critical_circuit()
         assert found.cycle_time == period or found.cycle_time > period - 1
-        assert comparison.throughput == group.rate()
+        assert comparison.throughput == group.compute_rate()
         assert min(timetable.counts) >= 1
         assert 0 < comparison.fairness <= 1
     robots = sorted(robot for group in result.groups for robot in group.robots)
@@ -83,10 +83,10 @@ def test_it_is_never_below_first_come_first_served(scenario: Scenario) -> None:
     if [group.robots for group in result.groups] != [group.robots for group in baseline.groups]:
         leave("on other routes, other robots have to do with each other")
     for own, other in zip(own_groups, baseline.groups, strict=True):
-        starves = other.ends == "repeats" and not all(other.mean_laps())
+        starves = other.ends == "repeats" and not all(other.compute_mean_laps())
         assert own.baseline_ends == ("starves" if starves else other.ends)
         if other.ends == "repeats":
-            means = [mean for mean in other.mean_laps() if mean]
+            means = [mean for mean in other.compute_mean_laps() if mean]
             assert own.baseline == sum((1 / mean for mean in means), Fraction(0))
             assert starves or own.throughput >= own.baseline
 
@@ -113,29 +113,29 @@ def test_the_judge_passes_its_laps_as_a_plan(scenario: Scenario) -> None:
 
 def test_nobody_starves_below_the_bound() -> None:
     scenario = random_fleet(1, size=8, robots=8)
-    result = best_timetable(
+    result = find_best_timetable(
         scenario, least_fairness=Fraction(1, 2), time_limit=None, rounds=20, seed=1
     )
     assert min(one.fairness for one in comparisons(result)) >= Fraction(1, 2)
     with pytest.raises(GaveUp, match="fair enough"):
-        best_timetable(scenario, least_fairness=Fraction(1), time_limit=None, rounds=3)
+        find_best_timetable(scenario, least_fairness=Fraction(1), time_limit=None, rounds=3)
 
 
 def test_weights_shift_laps_to_who_is_worth_more() -> None:
     scenario = random_fleet(1, size=8, robots=8)
-    plain = best_timetable(scenario, time_limit=None, rounds=20, seed=1)
+    plain = find_best_timetable(scenario, time_limit=None, rounds=20, seed=1)
 
     def part(result: CyclicResult, robot: int) -> Fraction:
         """How many of its laps alone a robot makes."""
         group = next(group for group in result.groups if robot in group.robots)
         place = group.robots.index(robot)
-        mean = group.mean_laps()[place]
+        mean = group.compute_mean_laps()[place]
         assert mean is not None
         return group.context.laps[place].duration / mean
 
     least = min(range(8), key=lambda robot: part(plain, robot))
     weights = [Fraction(100 if robot == least else 1) for robot in range(8)]
-    heavy = best_timetable(scenario, weights=weights, time_limit=None, rounds=20, seed=1)
+    heavy = find_best_timetable(scenario, weights=weights, time_limit=None, rounds=20, seed=1)
     assert part(heavy, least) > part(plain, least)
 
 
@@ -151,19 +151,19 @@ def test_weights_shift_laps_to_who_is_worth_more() -> None:
 def test_what_does_not_fit_is_refused(options: dict[str, object], message: str) -> None:
     scenario = random_fleet(3, size=5, robots=2)
     with pytest.raises(InputError, match=message):
-        best_timetable(scenario, **options)  # type: ignore[arg-type]
+        find_best_timetable(scenario, **options)  # type: ignore[arg-type]
 
 
 def test_a_proof_that_no_plan_exists_is_not_reported_as_given_up() -> None:
     """Three cells in a row: each robot would have to pass the other one."""
     scenario = grid_fleet(["..."], [("N0", "N2"), ("N2", "N0")])
     with pytest.raises(NoPlanExists):
-        best_timetable(scenario, time_limit=None, rounds=3)
+        find_best_timetable(scenario, time_limit=None, rounds=3)
 
 
 @pytest.mark.parametrize("time_limit", [-5, math.nan])
 def test_a_time_limit_that_is_no_time_is_refused(time_limit: float) -> None:
     scenario = grid_fleet(["..."], [("N0", "N2")])
-    for call in (run_laps, best_timetable):
+    for call in (run_laps, find_best_timetable):
         with pytest.raises(InputError, match=r"time_limit: (-5|nan) is no number of seconds"):
             call(scenario, time_limit=time_limit)

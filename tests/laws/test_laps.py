@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 import rightofway
 from rightofway.check import check
-from rightofway.cyclic import RULES, CyclicResult, best_timetable, plan_of_laps, run_laps
-from rightofway.cyclic.sensitivity import parameter_effects
+from rightofway.cyclic import RULES, CyclicResult, find_best_timetable, plan_of_laps, run_laps
+from rightofway.cyclic.sensitivity import compute_parameter_effects
 from rightofway.cyclic.to_plan import unroll_laps
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Closure, Plan, Scenario, Tick
@@ -61,7 +61,7 @@ def without_values(refused: InputError) -> str:
 def check_periods(run: CyclicResult) -> None:
     """Check each period against the oracle, and the bottleneck against the period."""
     for group in run.groups:
-        graph, timetable = group.graph(), group.timetable
+        graph, timetable = group.build_graph(), group.timetable
         if graph is None or timetable is None or sum(map(len, timetable.enter)) > SLOW:
             continue
         cycles, period = oracle.cycles_of(timetable), int(timetable.period)
@@ -79,7 +79,7 @@ def check_periods(run: CyclicResult) -> None:
 def stands_still(run: CyclicResult) -> bool:
     """Tell whether a robot makes no lap, so that no plan of whole laps has all robots."""
     return any(
-        0 in (group.pattern.counts if group.pattern else group.laps_made()) for group in run.groups
+        0 in (group.pattern.counts if group.pattern else group.count_laps()) for group in run.groups
     )
 
 
@@ -150,7 +150,7 @@ def test_the_period_by_theory_is_that_of_the_simulation_and_waits_add_up(
 def check_waits(run: CyclicResult) -> None:
     """Check bottlenecks and waits against the pattern that repeats."""
     for group in run.groups:
-        bottleneck = group.bottleneck()
+        bottleneck = group.find_bottleneck()
         assert bottleneck is None or (
             group.pattern is not None and bottleneck.cycle_time == group.pattern.period
         )
@@ -166,7 +166,7 @@ def test_a_chosen_timetable_has_no_fault_and_is_not_below_first_come_first_serve
     scenario: Scenario,
 ) -> None:
     try:
-        run = best_timetable(scenario, time_limit=None, rounds=2)
+        run = find_best_timetable(scenario, time_limit=None, rounds=2)
     except (GaveUp, NoPlanExists) as reason:
         leave(type(reason).__name__)
     except InputError as refused:
@@ -236,7 +236,7 @@ def test_a_place_that_is_closed_for_ever_is_driven_round_in_each_lap() -> None:
     """From N0 to N2 round N1: 4 edges there and 4 back, and a turn of a cell at both ends."""
     scenario = grid_fleet(["...", "..."], [("N0", "N2")])
     closed = replace(scenario, closures=(Closure(at=VertexId(1)),))
-    for result in (run_laps(closed), best_timetable(closed, time_limit=1)):
+    for result in (run_laps(closed), find_best_timetable(closed, time_limit=1)):
         (group,) = result.groups
         assert group.pattern is not None
         assert group.pattern.period == 10
@@ -247,7 +247,7 @@ def test_a_robot_with_a_turn_rate_turns_in_each_visit_of_its_lap_and_at_home_bet
     """From N0 round the corner N2 to N5 and back: turns of 90, 180, 90 degrees, 180 at home."""
     scenario = grid_fleet(["...", "@@."], [("N0", "N5")])
     scenario = replace(scenario, rules=replace(scenario.rules, turn=None, turn_rate=Fraction(45)))
-    for result in (run_laps(scenario), best_timetable(scenario, time_limit=1)):
+    for result in (run_laps(scenario), find_best_timetable(scenario, time_limit=1)):
         (group,) = result.groups
         assert group.pattern is not None
         assert group.context.laps[0].dwell == (4, 0, 2, 4, 2, 0)
@@ -255,9 +255,11 @@ def test_a_robot_with_a_turn_rate_turns_in_each_visit_of_its_lap_and_at_home_bet
         plan = plan_of_laps(result, 2)
         assert check(plan).ok
         assert judge.faults(plan) == set()
-        graph = group.graph()
+        graph = group.build_graph()
         assert graph is not None
-        turning = {one.kind: one.effect for one in parameter_effects(scenario, graph)}["turn"]
+        turning = {one.kind: one.effect for one in compute_parameter_effects(scenario, graph)}[
+            "turn"
+        ]
         assert turning.gain == 12  # ticks of the period that turning takes
     first = run_laps(scenario).groups[0].pattern
     assert first is not None

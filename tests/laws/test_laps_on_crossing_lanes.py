@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from hypothesis import strategies as st
 
-from rightofway.cyclic import CyclicResult, best_timetable, run_laps
-from rightofway.cyclic.route import CyclicRoute, GroupContext, cyclic_routes, split_groups
+from rightofway.cyclic import CyclicResult, find_best_timetable, run_laps
+from rightofway.cyclic.route import CyclicRoute, GroupContext, make_cyclic_routes, split_groups
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import BookingRules, Lap, Robot, Rules, Scenario, Stop, Tick
 from rightofway.precedence import CyclicSchedule
@@ -27,7 +27,7 @@ from tests.oracles import periodic_space as oracle
 def check_result(run: CyclicResult) -> None:
     """Check each period against the oracle, and the bottleneck against the period."""
     for group in run.groups:
-        graph, timetable = group.graph(), group.timetable
+        graph, timetable = group.build_graph(), group.timetable
         if graph is None or timetable is None:
             continue
         cycles, period = oracle.cycles_of(timetable), int(timetable.period)
@@ -44,7 +44,7 @@ def check_result(run: CyclicResult) -> None:
 
 
 def laps_of(scenario: Scenario) -> list[Lap]:
-    return [route.lap for route in cyclic_routes(scenario, "shortest")]
+    return [route.lap for route in make_cyclic_routes(scenario, "shortest")]
 
 
 def crossing_lanes(draw: random.Random, ends_of_r1: str = "BE") -> Scenario:
@@ -116,11 +116,11 @@ def test_crossing_lanes_get_the_least_period_of_one_lap_each(seed: int) -> None:
     least = oracle.least_period(scenario, laps, most=sum(lap.duration for lap in laps) + 4)
     if least is None:  # each robot is in the other one's way wherever it is
         with pytest.raises((GaveUp, NoPlanExists)):
-            best_timetable(scenario, time_limit=None, rounds=10)
+            find_best_timetable(scenario, time_limit=None, rounds=10)
         return
-    run = best_timetable(scenario, time_limit=None, rounds=10)
+    run = find_best_timetable(scenario, time_limit=None, rounds=10)
     check_result(run)
-    assert sum((group.rate() for group in run.groups), Fraction(0)) >= Fraction(2, least)
+    assert sum((group.compute_rate() for group in run.groups), Fraction(0)) >= Fraction(2, least)
 
 
 def test_lanes_that_cross_are_used_in_turn() -> None:
@@ -130,12 +130,12 @@ def test_lanes_that_cross_are_used_in_turn() -> None:
         robots=tuple(replace(robot, ends="home") for robot in crossing().robots),
     )
     assert [lap.duration for lap in laps_of(scenario)] == [9, 9]
-    run = best_timetable(scenario, time_limit=None, rounds=10)
+    run = find_best_timetable(scenario, time_limit=None, rounds=10)
     [group] = run.groups
-    assert group.rate() == Fraction(1, 8)
+    assert group.compute_rate() == Fraction(1, 8)
     run = run_laps(scenario, "first-come")
     [group] = run.groups
-    assert (group.ends, group.rate()) == ("repeats", Fraction(1, 8))
+    assert (group.ends, group.compute_rate()) == ("repeats", Fraction(1, 8))
 
 
 def test_waits_and_the_bottleneck_name_both_places() -> None:
@@ -148,7 +148,7 @@ def test_waits_and_the_bottleneck_name_both_places() -> None:
     beside = {(name(wait.vertex), name(wait.beside)) for wait in group.waits() if wait.beside}
     assert beside
     assert all({one, other} & set("AB") and {one, other} & set("CD") for one, other in beside)
-    bottleneck = group.bottleneck()
+    bottleneck = group.find_bottleneck()
     assert bottleneck is not None
     text = describe_circuit(bottleneck.pieces, scenario)
     assert re.search(r"enters (\w) once R\d has left (?!\1)", text)
@@ -173,7 +173,7 @@ def test_groups_are_connected_by_what_excludes_each_other() -> None:
             for name, home, target in [("R1", "A", "B"), ("R2", "D", "C")]
         )
         scenario = Scenario(roadmap=roadmap, robots=robots)
-        return split_groups(scenario, cyclic_routes(scenario))
+        return split_groups(scenario, make_cyclic_routes(scenario))
 
     assert [len(groups(radius)) for radius in ("0.9", "1.1")] == [2, 1]
 
@@ -193,8 +193,10 @@ def test_rights_of_way_are_those_of_some_periods_laid_out_one_by_one() -> None:
         # R1 drives 0..4 to B and 8..12 to A, R2 4..8 to D and 12..16 to C.
         enter=(np.array([12, 20]), np.array([0, 8])),
     )
-    context = GroupContext(scenario=scenario, routes=tuple(cyclic_routes(scenario, "shortest")))
-    graph = context.graph(timetable)
+    context = GroupContext(
+        scenario=scenario, routes=tuple(make_cyclic_routes(scenario, "shortest"))
+    )
+    graph = context.build_graph(timetable)
     rights = graph.arcs.choose(graph.arcs.first >= 0)
     assert graph.compute_slack().min() == 0
     assert graph.find_critical_circuit().cycle_time == 16

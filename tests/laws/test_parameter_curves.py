@@ -12,7 +12,7 @@ from fractions import Fraction
 
 import pytest
 
-from rightofway.cyclic import GroupResult, ParameterCurve, parameter_curves, run_laps
+from rightofway.cyclic import GroupResult, ParameterCurve, compute_parameter_curves, run_laps
 from rightofway.cyclic.sensitivity import find_stages_at
 from rightofway.errors import InputError
 from rightofway.io import scenario_of
@@ -89,15 +89,15 @@ def check_curves(scenario: Scenario, draw: random.Random) -> int:
     """Compare the curves of all groups that repeat; return the number of breakpoints."""
     breakpoints = 0
     for group in run_laps(scenario, draw.choice(["first-come", "two-level"]), time_limit=2).groups:
-        graph = group.graph()
+        graph = group.build_graph()
         if graph is None or not scenario.problem.clock.exact:
             continue
-        curves = parameter_curves(scenario, graph, most_visits=MOST_CURVES * len(graph))
+        curves = compute_parameter_curves(scenario, graph, most_visits=MOST_CURVES * len(graph))
         assert len(curves) <= MOST_CURVES
         period = graph.find_critical_circuit().cycle_time * scenario.problem.clock.tick
         for curve in curves:
             breakpoints += len(curve.pieces) - 1
-            assert curve.period(curve.value) == period
+            assert curve.compute_period(curve.value) == period
             for one, then in zip(curve.pieces, curve.pieces[1:], strict=False):
                 assert one.until == then.start > one.start
             if curve.pieces[0].start == curve.pieces[-1].until:
@@ -108,7 +108,7 @@ def check_curves(scenario: Scenario, draw: random.Random) -> int:
             for value in values_of(curve, draw):
                 other = changed(scenario, curve, value)
                 if other.problem.clock.exact:
-                    assert curve.period(value) == period_by_hand(group, other)
+                    assert curve.compute_period(value) == period_by_hand(group, other)
     return breakpoints
 
 

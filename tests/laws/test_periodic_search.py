@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from hypothesis import strategies as st
 
-from rightofway.cyclic.route import cyclic_routes
+from rightofway.cyclic.route import make_cyclic_routes
 from rightofway.model import BookingRules, Itinerary, Lap, Rules, Scenario, Tick, drives_along
 from rightofway.model.lap import compute_turns_of_lap
 from rightofway.planners import make_planning_problem
@@ -34,7 +34,7 @@ def crowd(
     scenario: Scenario, draw: random.Random
 ) -> tuple[PeriodicBookings, CyclicSchedule, list[Lap]]:
     """Put robots on a circle, all but the first, as far as they find a place; return all laps."""
-    laps = [one.lap for one in cyclic_routes(scenario, draw.choice(("clear", "shortest")))]
+    laps = [one.lap for one in make_cyclic_routes(scenario, draw.choice(("clear", "shortest")))]
     period = Tick(int(laps[0].duration) + draw.randrange(25))
     circle = PeriodicBookings(
         scenario.roadmap.n_vertices,

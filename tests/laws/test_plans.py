@@ -12,7 +12,7 @@ import pytest
 from hypothesis import strategies as st
 
 import rightofway
-from rightofway.cyclic import best_timetable, plan_of_laps, run_laps
+from rightofway.cyclic import find_best_timetable, plan_of_laps, run_laps
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Plan, PlannerRun, Scenario, Track
 from rightofway.planners.routing import find_shortest_routes
@@ -119,7 +119,7 @@ def test_laps_of_a_robot_alone_are_as_short_as_the_second_judge_allows(fleet: Sc
         leave("no laps")
     except InputError:  # its only way has length 0: it stays at home
         leave("the robot does not drive")
-    assert faults(plan) == faults(plan_of_laps(best_timetable(fleet, rounds=5))) == set()
+    assert faults(plan) == faults(plan_of_laps(find_best_timetable(fleet, rounds=5))) == set()
     [track] = plan.tracks
     for visit in range(1, len(track)):
         sooner = track.enter.copy()

@@ -18,7 +18,7 @@ import pytest
 
 import rightofway
 from rightofway import _core
-from rightofway.cyclic import best_timetable
+from rightofway.cyclic import find_best_timetable
 from rightofway.errors import NoPlanExists, RightOfWayError
 from rightofway.model import BookingRules, Lap, Plan, Scenario, Tick
 from rightofway.planners import find_all
@@ -232,7 +232,7 @@ def test_what_follows_a_plan_ends_when_its_limit_is_over() -> None:
         with in_time(limit):
             rightofway.improve(some, time_limit=limit)
         with in_time(limit):
-            best_timetable(some.scenario, time_limit=limit)
+            find_best_timetable(some.scenario, time_limit=limit)
         with in_time(limit):
             rightofway.simulate(some, runs=10**6, switch=True, time_limit=limit)
         with in_time(limit):

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from rightofway.cyclic import Piece, excerpt, list_pieces_of_plan, run_laps
+from rightofway.cyclic import Piece, list_pieces_of_plan, make_excerpt, run_laps
 from rightofway.io import load
 from rightofway.model import Rules, Scenario, Tick
 from rightofway.report.circuits import describe_circuit, list_circuit_steps, summarize_circuit
@@ -129,12 +129,12 @@ def lanes() -> Scenario:
 def test_a_plan_of_laps_has_the_sentence_of_its_report(scenario: Scenario) -> None:
     """The page has only the plan and its critical visits, the report has the graph."""
     run = run_laps(scenario, "first-come")
-    plan, steady = excerpt(run)
+    plan, steady = make_excerpt(run)
     repeating = [group for group in run.groups if group.pattern]
     assert len(repeating) == len(steady)
     compared = 0
     for group, state in zip(repeating, steady, strict=True):
-        bottleneck = group.bottleneck()
+        bottleneck = group.find_bottleneck()
         if bottleneck is None or not state.critical:
             continue
         compared += 1

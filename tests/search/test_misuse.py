@@ -25,7 +25,7 @@ MISUSE: list[tuple[Callable[[], Any], str]] = [
     (lambda: rightofway.compute_lost_time([]), "is no plan"),  # type: ignore[arg-type]
     (lambda: rightofway.simulate(None), "plan: nothing is no plan"),  # type: ignore[arg-type]
     (lambda: rightofway.run_laps(None), "scenario: nothing is no scenario"),  # type: ignore[arg-type]
-    (lambda: rightofway.best_timetable(3), "scenario: 3 is no scenario"),  # type: ignore[arg-type]
+    (lambda: rightofway.find_best_timetable(3), "scenario: 3 is no scenario"),  # type: ignore[arg-type]
     (lambda: rightofway.plan_of_laps(3), "result: 3 is no result of laps"),  # type: ignore[arg-type]
     (lambda: bind_native(DOOR), "problem: .* is no problem"),  # type: ignore[arg-type]
     (lambda: search.FleetSearch(PROBLEM, seed=-1), "seed: -1 is no seed"),

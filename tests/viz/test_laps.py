@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rightofway.cyclic import excerpt, run_laps
+from rightofway.cyclic import make_excerpt, run_laps
 from rightofway.errors import InputError
 from rightofway.model import SteadyState, Tick
 from rightofway.phrases import list_names
@@ -132,7 +132,7 @@ def test_an_excerpt_of_laps_has_no_faults_and_a_plan_of_whole_laps_has() -> None
     """R2 of the second door of the paper never gets the right of way: it is stuck, not faulty."""
     trips = [("N0", "N6"), ("N2", "N8")]
     scenario = grid_fleet(["...", "@.@", "..."], trips, speeds=[Fraction(1, 2), Fraction(1, 3)])
-    plan, steady = excerpt(run_laps(scenario, "fixed-order", routes="shortest"))
+    plan, steady = make_excerpt(run_laps(scenario, "fixed-order", routes="shortest"))
     assert make_payload(plan, steady=steady)["faults"]["count"] == 0
     whole = replace(plan, run=replace(plan.run, status="whole laps"))
     payload = make_payload(whole, steady=steady)

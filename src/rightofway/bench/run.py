@@ -86,18 +86,18 @@ def _judged(plan: Plan) -> dict[str, Any]:
 
 def _laps(case: Case, scenario: Scenario) -> dict[str, Any]:
     """Let a fleet repeat its work; it is solved if the pattern of each group is known."""
-    from rightofway.cyclic import TIMETABLE, best_timetable, run_laps
+    from rightofway.cyclic import TIMETABLE, find_best_timetable, run_laps
 
     limit = float(case.limit)
     if case.options["rule"] == TIMETABLE:
-        result = best_timetable(scenario, time_limit=limit, seed=case.seed)
+        result = find_best_timetable(scenario, time_limit=limit, seed=case.seed)
     else:
         result = run_laps(scenario, **case.options, time_limit=limit)
     groups = [_group(group) for group in result.groups]
     ends = Counter(group.ends for group in result.groups)
     status = "solved" if set(ends) == {"repeats"} else ", ".join(sorted(set(ends) - {"repeats"}))
     count = ", ".join(f"{number} {end}" for end, number in sorted(ends.items()))
-    figures = {"throughput": float(result.throughput()), "groups": groups}
+    figures = {"throughput": float(result.compute_throughput()), "groups": groups}
     return {
         **_ended(status, f"groups: {count}", valid=None),
         "tick": str(scenario.problem.clock.tick),
@@ -108,7 +108,7 @@ def _laps(case: Case, scenario: Scenario) -> dict[str, Any]:
 def _group(group: GroupResult) -> dict[str, Any]:
     """Return the figures of a group of robots; times in ticks."""
     alone = [lap.duration for lap in group.context.laps]
-    means = group.mean_laps()
+    means = group.compute_mean_laps()
     figures = {
         "robots": len(group.robots),
         "ends": group.ends,
@@ -122,9 +122,9 @@ def _group(group: GroupResult) -> dict[str, Any]:
         return figures
     first, steady = (
         {(wait.vertex, wait.pair) for wait in waits}
-        for waits in (group.first_waits(), group.waits())
+        for waits in (group.list_first_waits(), group.waits())
     )
-    shares = [float(share) for share in group.waiting_shares() if share is not None]
+    shares = [float(share) for share in group.compute_waiting_shares() if share is not None]
     return figures | {
         "transient": group.pattern.transient,
         "period": group.pattern.period,

@@ -104,7 +104,14 @@ def laps(
     Where a scenario names no unit of time, throughput_per_hour of --json is laps in 3600 time
     units.
     """
-    from rightofway.cyclic import RULES, TIMETABLE, best_timetable, excerpt, plan_of_laps, run_laps
+    from rightofway.cyclic import (
+        RULES,
+        TIMETABLE,
+        find_best_timetable,
+        make_excerpt,
+        plan_of_laps,
+        run_laps,
+    )
     from rightofway.deadline import limit_work
     from rightofway.model.steady_state import within
     from rightofway.report.laps import report_laps
@@ -122,7 +129,7 @@ def laps(
     time_limit = deadline.measure_seconds_left()
     with show_progress(time_limit) as report:
         if rule == TIMETABLE:
-            run = best_timetable(
+            run = find_best_timetable(
                 problem,
                 least_fairness=least_fairness,
                 time_limit=time_limit,
@@ -140,11 +147,11 @@ def laps(
     if page:
         from rightofway.viz import write_page
 
-        plan, steady = excerpt(run)
+        plan, steady = make_excerpt(run)
         write_page(plan, page, steady=steady, title=make_title(scenario))
         say_written(page)
     if output:
-        plan, steady = plan_of_laps(run), excerpt(run)[1]
+        plan, steady = plan_of_laps(run), make_excerpt(run)[1]
         write(replace(plan, steady=within(steady, list(map(len, plan.tracks)))), output)
     ends = {group.ends for group in run.groups}
     return 1 if "deadlock" in ends else 3 if "open" in ends else 0

@@ -31,7 +31,7 @@ class LapDecision:
     rights: tuple[NumberedRight, ...]
     others: tuple[NumberedRight, ...]
 
-    def beyond(self, window: Window) -> LapDecision:
+    def keep_beyond(self, window: Window) -> LapDecision:
         """Return the part of a decision with visits after the cut of a window."""
 
         def inside(rights: Iterable[NumberedRight]) -> tuple[NumberedRight, ...]:
@@ -108,7 +108,7 @@ class RightOfWaySearch:
 
     def _push(self, decision: LapDecision, *, is_reversed: bool, culprits: set[int]) -> bool:
         """Take a decision; return false and change nothing if it is impossible."""
-        graph, visit, mark = self.window.graph, self.window.visit, self.window.graph.checkpoint()
+        graph, visit, mark = self.window.graph, self.window.get_node, self.window.graph.checkpoint()
         rights = [(visit(*first), visit(*second)) for first, second in decision.rights]
         if not graph.give_all(rights):
             return False

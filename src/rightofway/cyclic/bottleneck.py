@@ -67,7 +67,7 @@ class Bottleneck:
 
 
 @checks_arguments
-def bottleneck_of(graph: TimedEventGraph, *, time_limit: float | None = None) -> Bottleneck:
+def find_bottleneck(graph: TimedEventGraph, *, time_limit: float | None = None) -> Bottleneck:
     """Return a critical circuit of a timed event graph, in pieces.
 
     Parameters

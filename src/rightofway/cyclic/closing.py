@@ -77,7 +77,7 @@ def close_windows(
 ) -> Iterator[Candidate]:
     """Yield timetables of windows of a simulation, until all are tried or time is over."""
     closing = _WindowClosing(problem, run, params)
-    for window in closing.promising():
+    for window in closing.list_promising():
         if problem.is_out_of_time:
             return
         closed = closing.close(window)
@@ -93,7 +93,7 @@ class _WindowClosing:
         self.homes = find_homes(run.context.routes, run.history)
         self.known = min(int(home[-1]) for home in self.homes)
 
-    def promising(self) -> list[Stretch]:
+    def list_promising(self) -> list[Stretch]:
         """Return windows of all lengths: the best of each length, then the second best, ..."""
         params, longest = self.params, max(self.problem.alone)
         ranked: list[list[Stretch]] = []
@@ -102,7 +102,7 @@ class _WindowClosing:
             if latest <= longest:
                 break
             ticks = np.linspace(longest, latest, params.window_begins).astype(np.int64).tolist()
-            best = [ends for tick in ticks if (ends := self.best_ends(tick, least, most))]
+            best = [ends for tick in ticks if (ends := self.list_best_ends(tick, least, most))]
             for score, n_closed in enumerate((params.most_by_value, params.most_by_calm)):
                 in_order = sorted((ends[score] for ends in best), key=lambda scored: -scored[0])
                 ranked.append(list(dict.fromkeys(window for _, window in in_order))[:n_closed])
@@ -114,7 +114,7 @@ class _WindowClosing:
         )
         return list(dict.fromkeys(in_turn))
 
-    def best_ends(self, begins: int, least: int, most: int) -> list[tuple[float, Stretch]]:
+    def list_best_ends(self, begins: int, least: int, most: int) -> list[tuple[float, Stretch]]:
         """Return the best windows from a tick to an arrival at home, with their scores.
 
         The first window has the largest value of laps per tick, the second the least waiting at
@@ -150,21 +150,21 @@ class _WindowClosing:
             parts.append((lap, np.array(visits, np.int64) - window.begins))
         for early in (True, False):
             cycles = [_cycle(lap, enter, period, early=early) for lap, enter in parts]
-            in_order = problem.candidate_of_orders(problem.timetable(cycles, period))
+            in_order = problem.make_candidate_of_orders(problem.join_cycles(cycles, period))
             if in_order is not None:
                 return in_order
         bookings, placed = problem.empty_bookings(period), dict[int, RobotCycle]()
         # Robots with busy homes have least freedom to wait: placed first.
         users = Counter(vertex for lap in laps for vertex in set(lap.vertices))
         for robot in sorted(range(len(laps)), key=lambda number: -users[laps[number].vertices[0]]):
-            cycle = self.without_overlap(bookings, robot, *parts[robot])
+            cycle = self.book_without_overlap(bookings, robot, *parts[robot])
             if cycle is None:
                 return None
             placed[robot] = cycle
         cycles = [placed[robot] for robot in range(len(laps))]
-        return problem.candidate_of_orders(problem.timetable(cycles, period))
+        return problem.make_candidate_of_orders(problem.join_cycles(cycles, period))
 
-    def without_overlap(
+    def book_without_overlap(
         self, bookings: PeriodicBookings, robot: int, lap: Lap, enter: Enters
     ) -> RobotCycle | None:
         """Leave out laps at the seam until a robot has no conflict, and book its visits."""
@@ -186,7 +186,7 @@ def _cycle(lap: Lap, enter: Enters, period: int, *, early: bool) -> RobotCycle:
     return RobotCycle(lap, len(visits) // len(lap), visits - visits[0] // period * period)
 
 
-def stretches(
+def find_stretches(
     problem: CyclicProblem, run: GroupResult, params: ClosingParams = DEFAULT
 ) -> list[tuple[float, Stretch]]:
     """Return long stretches of a simulation with upper bounds on their values, best first."""
@@ -240,10 +240,10 @@ def close_stretch(
     if not closing.connect_all():
         return None
     closing.add_laps()
-    cycles = [closing.cycle(robot) for robot in range(len(run.context))]
+    cycles = [closing.make_cycle(robot) for robot in range(len(run.context))]
     if not all(cycle.count for cycle in cycles):
         return None
-    return Candidate.as_it_is(problem.timetable(cycles, stretch.period))
+    return Candidate.as_it_is(problem.join_cycles(cycles, stretch.period))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -333,7 +333,7 @@ class _SeamClosing:
                 robot, (choice for choice in choices if choice[0].n_kept + choice[1] > n_laps)
             )
 
-    def cycle(self, robot: int) -> RobotCycle:
+    def make_cycle(self, robot: int) -> RobotCycle:
         """Return the cycle of a robot."""
         stretch, n = self._kept[robot], len(self._kept[robot].lap)
         assert stretch.through is not None, "all robots are connected"

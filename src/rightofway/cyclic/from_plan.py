@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rightofway.cyclic.problem import Candidate, CyclicProblem, RobotCycle
-from rightofway.cyclic.route import rows_of
+from rightofway.cyclic.route import make_lap_rows
 from rightofway.errors import GaveUp
 from rightofway.model import Itinerary, Scenario, Track, lap_of, route_of
 from rightofway.planners import Task
@@ -54,7 +54,7 @@ def repeat_plan(problem: CyclicProblem) -> Candidate | None:
         once, enter = take_one_lap(scenario, robot), track.enter * factor.numerator
         route = route_of(scenario.roadmap, once, Track(vertices=track.vertices, enter=enter))
         laps.append((lap_of(scenario.roadmap, once, route), enter))
-        if not problem.forbidden.isdisjoint(rows_of(scenario, robot, laps[-1][0]).booked):
+        if not problem.forbidden.isdisjoint(make_lap_rows(scenario, robot, laps[-1][0]).booked):
             return None
     apart = context.booking_rules.end(0) + max(max(lap.drive) + lap.dwell[0] for lap, _ in laps)
     period = max(int(enter[-1]) for _, enter in laps) + apart
@@ -62,10 +62,10 @@ def repeat_plan(problem: CyclicProblem) -> Candidate | None:
         visits = enter[:-1].copy()
         visits[0] = enter[-1] - period
         cycles.append(RobotCycle(lap, 1, visits + (period if visits[0] < 0 else 0)))
-    timetable = problem.timetable(cycles, period)
+    timetable = problem.join_cycles(cycles, period)
     return (
-        problem.candidate(timetable)
-        if problem.graph(timetable).compute_slack().min() >= 0
+        problem.make_candidate(timetable)
+        if problem.build_graph(timetable).compute_slack().min() >= 0
         else None
     )
 

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from rightofway.cyclic.closing import Stretch, close_stretch, stretches
+from rightofway.cyclic.closing import Stretch, close_stretch, find_stretches
 from rightofway.cyclic.problem import Candidate, CyclicProblem
 from rightofway.cyclic.result import GroupResult
 from rightofway.cyclic.route import GroupContext
@@ -91,11 +91,11 @@ class SimulatedRun:
         """The value of laps per tick; 0 if a robot makes no lap, or an unfair number."""
         if self._value is None:
             self._value, problem, result = Fraction(0), self._problem, self.result
-            means = result.mean_laps() if result.ends != "deadlock" else (None,)
+            means = result.compute_mean_laps() if result.ends != "deadlock" else (None,)
             if None not in means:
                 rows = zip(problem.alone, means, strict=True)
                 if min(alone / mean for alone, mean in rows if mean) >= problem.least_fairness:
-                    self._value = result.rate(problem.weights)
+                    self._value = result.compute_rate(problem.weights)
         return self._value
 
 
@@ -114,7 +114,7 @@ def choose_runs(
     )
     rest = iter(((direct, "least-loss"), (direct, "first-come"), (context, "least-loss")))
     tried, enough = [baseline], params.good * baseline.value
-    loss = params.seam * float(problem.worth([1] * len(problem)))
+    loss = params.seam * float(problem.compute_worth([1] * len(problem)))
     reserve = (1 - params.continuing_share) * (deadline.measure_seconds_left() or 0)
 
     def best() -> SimulatedRun:
@@ -131,7 +131,7 @@ def choose_runs(
             tried.append(SimulatedRun(problem, *another, params))
             run = best()
         run.advance(max((deadline.measure_seconds_left() or 0) - reserve, 0) / left)
-    return [run.result for run in tried if all(run.result.laps_made())]
+    return [run.result for run in tried if all(run.result.count_laps())]
 
 
 def extract_cycle(
@@ -144,7 +144,7 @@ def extract_cycle(
     """
     candidates: list[tuple[float, Stretch, int]] = []
     for number, run in enumerate(runs):
-        some = stretches(problem, run)[: params.stretches_each]
+        some = find_stretches(problem, run)[: params.stretches_each]
         candidates += [(value, stretch, number) for value, stretch in some]
     candidates.sort(key=lambda candidate: candidate[:2], reverse=True)
     failed = set[int]()

@@ -112,7 +112,7 @@ def fill(problem: CyclicProblem, bookings: PeriodicBookings, cycles: list[RobotC
         bookings.add(robot, cycle.lap, cycle.count, cycle.enter)
         if cycle.count > before:
             heappush(turns, (cycle.count * alone, robot))
-    return problem.candidate(problem.timetable(cycles, int(bookings.period)))
+    return problem.make_candidate(problem.join_cycles(cycles, int(bookings.period)))
 
 
 def _more_laps(
@@ -157,14 +157,14 @@ def improve(
 ) -> Candidate:
     """Return the best timetable after ``steps`` steps, or at the deadline of the problem."""
     best, in_vain, step = candidate, 0, 0
-    while (steps is None or step < steps) and problem.value(best) < problem.bound:
+    while (steps is None or step < steps) and problem.compute_value(best) < problem.bound:
         if problem.is_out_of_time:
             break
         step, in_vain = step + 1, in_vain + 1
         inserts = step % params.insert_every == 0 or candidate.n_visits > params.most_visits
         changed = (insert_laps if inserts else _step)(problem, candidate, params)
         if changed is not None and problem.accepts(changed):
-            if problem.value(changed) > problem.value(candidate):
+            if problem.compute_value(changed) > problem.compute_value(candidate):
                 best, in_vain = changed, 0
             candidate = changed
         if in_vain >= params.patience:
@@ -181,7 +181,7 @@ def insert_laps(problem: CyclicProblem, candidate: Candidate, params: LnsParams)
     Each move removes and places again a robot, with one more or as many laps, and some robots that
     share its vertices. If one of these robots does not fit, the move is undone.
     """
-    draw, (bookings, cycles) = problem.draw, problem.booked(candidate)
+    draw, (bookings, cycles) = problem.draw, problem.book(candidate)
     for _ in range(params.insertions_per_robot * len(cycles)):
         if problem.is_out_of_time:
             break
@@ -192,7 +192,7 @@ def insert_laps(problem: CyclicProblem, candidate: Candidate, params: LnsParams)
             others = draw.sample(near, min(len(near), draw.choice(params.neighbours_moved)))
             counts = {robot: count, **{number: cycles[number].count for number in others}}
             _move(problem, bookings, cycles, counts)
-    return problem.candidate(problem.timetable(cycles, candidate.period))
+    return problem.make_candidate(problem.join_cycles(cycles, candidate.period))
 
 
 def _move(
@@ -229,7 +229,7 @@ def _step(problem: CyclicProblem, candidate: Candidate, params: LnsParams) -> Ca
     if change != 0 and counts[robot] + change >= 1:
         counts[robot] += change
         removed = [robot]
-    longest = problem.worth(counts) / problem.value(candidate)
+    longest = problem.compute_worth(counts) / problem.compute_value(candidate)
     most = longest.numerator // longest.denominator  # longest period that keeps the objective
     rest = _removed(problem, candidate, removed, most, params)
     if rest is None:
@@ -259,7 +259,7 @@ def _removed(
         left = [robot for robot in range(len(problem)) if robot not in removed]
         if not left:
             return removed, 1
-        graph = problem.graph(_part(candidate.timetable, left))
+        graph = problem.build_graph(_part(candidate.timetable, left))
         circuit = graph.find_critical_circuit()
         on = sorted({left[robot] for robot in graph.robot[graph.arcs.head[circuit.arcs]].tolist()})
         if removed and circuit.cycle_time <= most:
@@ -292,7 +292,7 @@ def _reinserted(
     bookings, cycles = problem.empty_bookings(period), dict[int, RobotCycle]()
     left = [robot for robot in range(len(problem)) if robot not in removed]
     if left:
-        rest = problem.graph(_part(candidate.timetable, left)).compute_earliest(Tick(period))
+        rest = problem.build_graph(_part(candidate.timetable, left)).compute_earliest(Tick(period))
         rows = zip(left, rest.laps, rest.counts, rest.enter, strict=True)
         cycles = {robot: RobotCycle(lap, n, enter) for robot, lap, n, enter in rows}
     for robot, cycle in cycles.items():
@@ -304,4 +304,4 @@ def _reinserted(
         bookings.add(robot, placed.lap, placed.count, placed.enter)
         cycles[robot] = placed
     joined = [cycles[robot] for robot in range(len(problem))]
-    return problem.candidate(problem.timetable(joined, period))
+    return problem.make_candidate(problem.join_cycles(joined, period))

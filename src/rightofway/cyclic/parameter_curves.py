@@ -82,14 +82,14 @@ class ParameterCurve:
     value: Fraction
     pieces: tuple[CurvePiece, ...]
 
-    def period(self, value: Fraction) -> Fraction:
+    def compute_period(self, value: Fraction) -> Fraction:
         """Return the period for a value [time unit]."""
         piece = next(later for later in self.pieces if value <= later.until)
         return piece.fixed + piece.slope * (1 / value if self.kind == "speed" else value)
 
 
 @checks_arguments
-def parameter_curves(
+def compute_parameter_curves(
     scenario: Scenario,
     graph: TimedEventGraph,
     *,

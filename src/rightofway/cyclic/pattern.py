@@ -64,11 +64,11 @@ class VisitTimes(Sequence[int]):
         if visits.step != 1:
             numbers = np.arange(visits.start, visits.stop, visits.step)
             waits = np.searchsorted(self._late, numbers, side="right")
-            return self._route.undelayed(visits) + self._waited[waits]
+            return self._route.compute_undelayed(visits) + self._waited[waits]
         first, stop = np.searchsorted(self._late, (visits.start, visits.stop - 1), side="right")
         sizes = np.diff(self._late[first:stop], prepend=visits.start, append=visits.stop)
         waited: Enters = np.repeat(self._waited[first : stop + 1], sizes)
-        return self._route.undelayed(visits) + waited
+        return self._route.compute_undelayed(visits) + waited
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -127,12 +127,12 @@ class Pattern:
         enters: Enters = past[numbers - periods * shift] + periods * self.period
         return enters
 
-    def visits(self, robot: int) -> range:
+    def list_visits(self, robot: int) -> range:
         """Return the numbers of a robot's visits in the first period, from home on."""
         home = self._home(robot, self.begins)
         return range(home, home + self.counts[robot] * self.lengths[robot])
 
-    def timetable(self, context: GroupContext) -> CyclicSchedule | None:
+    def make_timetable(self, context: GroupContext) -> CyclicSchedule | None:
         """Return one period, counted from `begins`; None if a robot stands still for ever."""
         if not all(self.counts):
             return None
@@ -142,7 +142,7 @@ class Pattern:
             counts=self.counts,
             period=self.period,
             enter=tuple(
-                self.enters(robot, self.visits(robot)) - self.begins
+                self.enters(robot, self.list_visits(robot)) - self.begins
                 for robot in range(len(context))
             ),
         )
@@ -154,7 +154,7 @@ class Pattern:
         return -(-visit // length) * length
 
 
-def pattern_of(history: History, lengths: Sequence[int], recurrence: tuple[int, int]) -> Pattern:
+def find_pattern(history: History, lengths: Sequence[int], recurrence: tuple[int, int]) -> Pattern:
     """Return the pattern with the least period in a history that ends at a recurrence.
 
     ``recurrence``: the ticks of two equal states; visits after the first tick repeat after the

@@ -78,7 +78,7 @@ class CyclicProblem:
         alone = zip(self.weights, self.alone, strict=True)
         return sum((weight / ticks for weight, ticks in alone), Fraction(0))
 
-    def sooner(self, share: float) -> Self:
+    def shorten(self, share: float) -> Self:
         """Return the same problem with a share of the time left."""
         return replace(self, deadline=self.deadline.shorten(share))
 
@@ -87,28 +87,28 @@ class CyclicProblem:
         """Whether the deadline has passed."""
         return self.deadline.measure_seconds_left() == 0
 
-    def with_ways(self, laps: Sequence[Lap]) -> Self:
+    def add_ways(self, laps: Sequence[Lap]) -> Self:
         """Return the same problem with one more candidate lap for each robot."""
         ways = zip(self.ways, laps, strict=True)
         return replace(self, ways=tuple(tuple(dict.fromkeys((*own, lap))) for own, lap in ways))
 
-    def worth(self, counts: Sequence[int]) -> Fraction:
+    def compute_worth(self, counts: Sequence[int]) -> Fraction:
         """Return the value of all laps of a period."""
         rows = zip(self.weights, counts, strict=True)
         return sum((weight * count for weight, count in rows), Fraction(0))
 
-    def value(self, candidate: Candidate) -> Fraction:
+    def compute_value(self, candidate: Candidate) -> Fraction:
         """Return the value of laps per tick: the objective to be maximized."""
-        return self.worth(candidate.timetable.counts) / candidate.cycle_time
+        return self.compute_worth(candidate.timetable.counts) / candidate.cycle_time
 
-    def fairness(self, counts: Sequence[int], period: Fraction | int) -> Fraction:
+    def compute_fairness(self, counts: Sequence[int], period: Fraction | int) -> Fraction:
         """Return the least ratio of laps made to laps possible alone, over all robots."""
         rows = zip(counts, self.alone, strict=True)
         return min(Fraction(count * alone) / period for count, alone in rows)
 
     def is_fair(self, counts: Sequence[int], period: Fraction | int) -> bool:
         """Tell whether every robot reaches the least fairness."""
-        return self.fairness(counts, period) >= self.least_fairness
+        return self.compute_fairness(counts, period) >= self.least_fairness
 
     def accepts(self, candidate: Candidate) -> bool:
         """Tell whether a candidate is fair."""
@@ -128,11 +128,11 @@ class CyclicProblem:
             rows=rows,
         )
 
-    def graph(self, timetable: CyclicSchedule) -> TimedEventGraph:
+    def build_graph(self, timetable: CyclicSchedule) -> TimedEventGraph:
         """Return the timed event graph of a timetable under the rules of the scenario."""
-        return self.context.graph(timetable)
+        return self.context.build_graph(timetable)
 
-    def timetable(self, cycles: Sequence[RobotCycle], period: int) -> CyclicSchedule:
+    def join_cycles(self, cycles: Sequence[RobotCycle], period: int) -> CyclicSchedule:
         """Join the cycles of all robots to a timetable."""
         return CyclicSchedule(
             robots=self.context.robots,
@@ -142,22 +142,22 @@ class CyclicProblem:
             enter=tuple(cycle.enter for cycle in cycles),
         )
 
-    def candidate(self, timetable: CyclicSchedule) -> Candidate:
+    def make_candidate(self, timetable: CyclicSchedule) -> Candidate:
         """Return a candidate of a conflict-free timetable, with the cycle time of its orders."""
-        return Candidate(timetable, self.graph(timetable).find_critical_circuit().cycle_time)
+        return Candidate(timetable, self.build_graph(timetable).find_critical_circuit().cycle_time)
 
-    def candidate_of_orders(self, timetable: CyclicSchedule) -> Candidate | None:
+    def make_candidate_of_orders(self, timetable: CyclicSchedule) -> Candidate | None:
         """Return a candidate of the orders at the vertices of a timetable, ignoring its times.
 
         None if these orders cause a deadlock or a swap.
         """
-        graph = self.graph(timetable)
+        graph = self.build_graph(timetable)
         circuit = None if graph.has_swaps() else graph.find_critical_circuit_if_live()
         return None if circuit is None else Candidate(timetable, circuit.cycle_time)
 
-    def booked(self, candidate: Candidate) -> tuple[PeriodicBookings, list[RobotCycle]]:
+    def book(self, candidate: Candidate) -> tuple[PeriodicBookings, list[RobotCycle]]:
         """Return the earliest timetable of a candidate's orders, as bookings and cycles."""
-        timetable = self.graph(candidate.timetable).compute_earliest(
+        timetable = self.build_graph(candidate.timetable).compute_earliest(
             Tick(candidate.period), cycle_time=candidate.cycle_time
         )
         rows = zip(timetable.laps, timetable.counts, timetable.enter, strict=True)

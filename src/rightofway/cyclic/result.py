@@ -12,7 +12,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.cyclic.bottleneck import Bottleneck, bottleneck_of
+from rightofway.arguments import EarlierName
+from rightofway.cyclic.bottleneck import Bottleneck, find_bottleneck
 from rightofway.cyclic.pattern import History, Pattern
 from rightofway.cyclic.route import GroupContext
 from rightofway.cyclic.warmup import MeasuredLaps, measure
@@ -117,63 +118,74 @@ class GroupResult:
     @property
     def timetable(self) -> CyclicSchedule | None:
         """One period of the pattern; None without one, or if a robot stands still for ever."""
-        return self.pattern.timetable(self.context) if self.pattern else None
+        return self.pattern.make_timetable(self.context) if self.pattern else None
 
-    def laps_made(self) -> tuple[int, ...]:
+    def count_laps(self) -> tuple[int, ...]:
         """Return the number of laps that each robot completed in the history."""
         rows = zip(self.context.routes, self.history, strict=True)
         return tuple((len(past) - 1) // len(route) for route, past in rows)
 
-    def mean_laps(self) -> tuple[Fraction | None, ...]:
+    def compute_mean_laps(self) -> tuple[Fraction | None, ...]:
         """Return the mean lap time of each robot [ticks]; None if it makes no lap.
 
-        Exact if a pattern repeats; otherwise as `measured`.
+        Exact if a pattern repeats; otherwise as `measure_laps`.
         """
         if self.pattern:
             period = self.pattern.period
             return tuple(Fraction(period, n) if n else None for n in self.pattern.counts)
-        return self.measured().means
+        return self.measure_laps().means
 
-    def rate(self, weights: Sequence[Fraction] | None = None) -> Fraction:
+    def compute_rate(self, weights: Sequence[Fraction] | None = None) -> Fraction:
         """Return the number of laps per tick of all robots, each multiplied by its weight.
 
         Exact if a pattern repeats. A measured rate has twelve digits: exact sums of a thousand
         fractions have thousands of digits.
         """
-        means = zip(weights or [Fraction(1)] * len(self.context), self.mean_laps(), strict=True)
+        means = zip(
+            weights or [Fraction(1)] * len(self.context), self.compute_mean_laps(), strict=True
+        )
         rates = [weight / mean for weight, mean in means if mean]
         if self.pattern:
             return sum(rates, Fraction(0))
         return Fraction(f"{math.fsum(map(float, rates)):.12g}")
 
-    def measured(self) -> MeasuredLaps:
+    def measure_laps(self) -> MeasuredLaps:
         """Return the mean lap times of the history, without its warm-up."""
         return measure(self.context.routes, self.history)
 
-    def waiting_shares(self) -> tuple[Fraction | None, ...]:
+    def compute_waiting_shares(self) -> tuple[Fraction | None, ...]:
         """Return the share of its time that each robot waits; None if it makes no lap."""
         return tuple(
             None if mean is None else max(1 - lap.duration / mean, Fraction(0))
-            for lap, mean in zip(self.context.laps, self.mean_laps(), strict=True)
+            for lap, mean in zip(self.context.laps, self.compute_mean_laps(), strict=True)
         )
 
     def waits(self) -> tuple[LapWait, ...]:
         """Return the waits of each period, by offset from `Pattern.begins`; none without one."""
         return waits_in_period(self.context, self.pattern) if self.pattern else ()
 
-    def first_waits(self) -> tuple[LapWait, ...]:
+    def list_first_waits(self) -> tuple[LapWait, ...]:
         """Return the waits in the first lap of each robot, by tick."""
         return waits_in_first_laps(self.context, self.history)
 
-    def graph(self) -> TimedEventGraph | None:
+    def build_graph(self) -> TimedEventGraph | None:
         """Return the timed event graph of `timetable`; None without one."""
         timetable = self.timetable
-        return None if timetable is None else self.context.graph(timetable)
+        return None if timetable is None else self.context.build_graph(timetable)
 
-    def bottleneck(self) -> Bottleneck | None:
-        """Return the critical circuit of `graph`; None without one."""
-        graph = self.graph()
-        return None if graph is None else bottleneck_of(graph)
+    def find_bottleneck(self) -> Bottleneck | None:
+        """Return the critical circuit of `build_graph`; None without one."""
+        graph = self.build_graph()
+        return None if graph is None else find_bottleneck(graph)
+
+    laps_made = EarlierName("count_laps")
+    mean_laps = EarlierName("compute_mean_laps")
+    rate = EarlierName("compute_rate")
+    measured = EarlierName("measure_laps")
+    waiting_shares = EarlierName("compute_waiting_shares")
+    first_waits = EarlierName("list_first_waits")
+    graph = EarlierName("build_graph")
+    bottleneck = EarlierName("find_bottleneck")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -195,10 +207,12 @@ class CyclicResult:
     routes: str
     groups: tuple[GroupResult, ...]
 
-    def throughput(self) -> Fraction:
+    def compute_throughput(self) -> Fraction:
         """Return the laps of all robots per time unit of the scenario."""
         ticks = 1 / self.scenario.problem.clock.tick
-        return sum((group.rate() * ticks for group in self.groups), Fraction(0))
+        return sum((group.compute_rate() * ticks for group in self.groups), Fraction(0))
+
+    throughput = EarlierName("compute_throughput")
 
 
 def waits_in_first_laps(context: GroupContext, history: History) -> tuple[LapWait, ...]:
@@ -222,7 +236,7 @@ def waits_in_period(context: GroupContext, pattern: Pattern) -> tuple[LapWait, .
 
     A wait for a decision that the rule reversed later is a wait for no robot, and is left out.
     """
-    firsts = (pattern.visits(robot) for robot in range(len(context)))
+    firsts = (pattern.list_visits(robot) for robot in range(len(context)))
     # The second period: without first departures from home, which have no turn.
     visits = [range(first.stop, first.stop + len(first)) for first in firsts]
     when = {"begins": pattern.begins, "period": pattern.period}
@@ -245,7 +259,7 @@ def _waits(
             continue
         route, with_next = context.routes[robot], range(visits.start, visits.stop + 1)
         enter = enters(robot, with_next)
-        could = enter[:-1] + np.diff(route.undelayed(with_next))
+        could = enter[:-1] + np.diff(route.compute_undelayed(with_next))
         for index in np.flatnonzero(could < enter[1:]).tolist():
             visit, at = visits[index] + 1, int(enter[index + 1])
             booked = rules.start(at, int(route.drive(visit))) % period
@@ -257,15 +271,15 @@ def _waits(
             leave = enters(robot, range(visits.start + 1, visits.stop + 1))
             free = rules.end(leave) % period
             for index in np.flatnonzero(np.isin(free, ticks)).tolist():
-                vertex = context.routes[robot].vertex(visits[index])
-                for row in context.booked_at(robot, visits[index]):
+                vertex = context.routes[robot].get_vertex(visits[index])
+                for row in context.list_booked(robot, visits[index]):
                     freed_by[row, int(free[index])] = robot, vertex
     robots, waits = context.robots, []
     for robot, visit, soonest, at, booked in late:
-        rows = ((row, booked) for row in context.excluding(robot, visit))
+        rows = ((row, booked) for row in context.list_excluding(robot, visit))
         freed = (freed_by[row] for row in rows if row in freed_by)
         by, place = next((freeing for freeing in freed if freeing[0] != robot), (None, None))
-        vertex = context.routes[robot].vertex(visit)
+        vertex = context.routes[robot].get_vertex(visit)
         if by is not None:  # else a wait for a planned time, or for no robot
             wait = LapWait(
                 vertex=vertex,

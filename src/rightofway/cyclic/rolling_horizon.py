@@ -97,7 +97,7 @@ class RollingHorizon:
             if not in_trouble:
                 self._lag, self._taken_back = self._least_lag, 1
             window = self._window(self._first_ahead(), self._decisions)
-            beyond = (decision.beyond(window) for decision in self._decisions)
+            beyond = (decision.keep_beyond(window) for decision in self._decisions)
             self._decisions = tuple(decision for decision in beyond if decision.rights)
             lengths = tuple(len(past) for past in self.history)
             self._checkpoints.append((self._prefix.tick, lengths, self._decisions))
@@ -158,7 +158,7 @@ class RollingHorizon:
         self._freeze(window, search)
 
     def _resolve_all(self, window: Window, search: RightOfWaySearch) -> None:
-        graph, end = window.graph, window.ends().min()
+        graph, end = window.graph, window.compute_ends().min()
         while True:
             self._deadline.check("giving right of way")
             meeting = graph.find_next_meeting()
@@ -167,7 +167,7 @@ class RollingHorizon:
             limit = window.begins + graph.enter(self._home_in(window)) + self._lag
             tick = limit if meeting is None else min(limit, window.begins + meeting.tick)
             if tick >= end:
-                ends = window.ends()
+                ends = window.compute_ends()
                 end = ends.min()
                 if tick >= end:
                     raise TooShort(np.flatnonzero(ends <= tick).tolist())
@@ -178,7 +178,7 @@ class RollingHorizon:
     def _replace_pacemaker(self, window: Window) -> None:
         """Replace a pacemaker that seems to wait for ever by the robot that is home first."""
         enter = {
-            robot: window.graph.enter(window.visit(robot, self._next_home(robot)))
+            robot: window.graph.enter(window.get_node(robot, self._next_home(robot)))
             for robot in range(len(self.context))
             if self._next_home(robot) - window.starts[robot] < len(window.routes[robot]) - 1
         }
@@ -187,7 +187,7 @@ class RollingHorizon:
 
     def _home_in(self, window: Window) -> int:
         """Return the node of the pacemaker's next visit home."""
-        return window.visit(self._pacemaker, self._next_home(self._pacemaker))
+        return window.get_node(self._pacemaker, self._next_home(self._pacemaker))
 
     def _next_home(self, robot: int) -> int:
         length = len(self.context.routes[robot])
@@ -203,7 +203,7 @@ class RollingHorizon:
             )
             for decision in self._decisions
         )
-        return window.state(), decisions
+        return window.describe_state(), decisions
 
     def _freeze(self, window: Window, search: RightOfWaySearch) -> None:
         tick = window.begins + window.graph.enter(self._home_in(window))

@@ -29,7 +29,7 @@ from rightofway.site import VertexId
 NOTHING_REPEATS = "'none' leaves nothing to repeat (set return: home)"
 
 ROUTES = ("clear", "direct", "shortest")
-"""The choices of round trips; see `cyclic_routes`."""
+"""The choices of round trips; see `make_cyclic_routes`."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,7 +63,7 @@ class CyclicRoute:
         """The least duration of visit 0 with the drive that follows [ticks]."""
         return Tick(self.first_dwell + self.drive(1))
 
-    def vertex(self, visit: int) -> VertexId:
+    def get_vertex(self, visit: int) -> VertexId:
         """Return the vertex of a visit."""
         return self.lap.vertices[visit % len(self.lap)]
 
@@ -71,11 +71,11 @@ class CyclicRoute:
         """Return the duration of the drive into a visit [ticks]."""
         return self.lap.drive[visit % len(self.lap)]
 
-    def least(self, visit: int) -> Tick:
+    def compute_least(self, visit: int) -> Tick:
         """Return the least time from the enter of a visit to the enter of the next one [ticks]."""
         return self.lap.least(visit % len(self.lap)) if visit else self.first_least
 
-    def undelayed(self, visits: range) -> NDArray[np.int64]:
+    def compute_undelayed(self, visits: range) -> NDArray[np.int64]:
         """Return the enters of visits of a robot that never waits [ticks]."""
         within, length = np.array(self._within, np.int64), len(self.lap)
         if visits.step == 1:
@@ -91,7 +91,7 @@ class CyclicRoute:
             enter[:1] = 0
         return enter
 
-    def visits_lasting(self, visit: int, ticks: int) -> int:
+    def count_visits_lasting(self, visit: int, ticks: int) -> int:
         """Return the number of visits, from one after 0 on, that last ``ticks`` if unimpeded."""
         place = visit % len(self.lap)
         laps, rest = divmod(self._within[place] + ticks, self.lap.duration)
@@ -141,7 +141,7 @@ class GroupContext:
         """When visits book: the rules to plan with."""
         return self.scenario.problem.booking_rules.to_plan_with()
 
-    def graph(self, timetable: CyclicSchedule) -> TimedEventGraph:
+    def build_graph(self, timetable: CyclicSchedule) -> TimedEventGraph:
         """Return the timed event graph of laps of these robots."""
         return TimedEventGraph(
             timetable,
@@ -151,18 +151,18 @@ class GroupContext:
             ),
         )
 
-    def booked_at(self, index: int, visit: int) -> tuple[int, ...]:
+    def list_booked(self, index: int, visit: int) -> tuple[int, ...]:
         """Return the rows that a visit books until its end: its vertex and the edge driven out."""
         route, resources = self.routes[index], self.scenario.problem.resources
-        vertex, following = route.vertex(visit), route.vertex(visit + 1)
+        vertex, following = route.get_vertex(visit), route.get_vertex(visit + 1)
         edge = self.scenario.roadmap.find_edge(vertex, following)
         assert edge is not None, "laps lead along edges"
         return resources.vertex_row(route.robot, vertex), resources.edge_row(route.robot, edge)
 
-    def excluding(self, index: int, visit: int) -> tuple[int, ...]:
+    def list_excluding(self, index: int, visit: int) -> tuple[int, ...]:
         """Return the rows of other robots that keep a robot from the drive into a visit."""
         resources = self.scenario.problem.resources
-        row, edge = self.booked_at(index, visit)[0], self.booked_at(index, visit - 1)[1]
+        row, edge = self.list_booked(index, visit)[0], self.list_booked(index, visit - 1)[1]
         return (*list_excluded(resources, row), *list_excluded(resources, edge))
 
     @property
@@ -173,7 +173,7 @@ class GroupContext:
 
 
 @checks_arguments
-def cyclic_routes(scenario: Scenario, routes: str = "clear") -> list[CyclicRoute]:
+def make_cyclic_routes(scenario: Scenario, routes: str = "clear") -> list[CyclicRoute]:
     """Choose the round trip of each robot, for all its laps.
 
     Parameters
@@ -206,7 +206,7 @@ def cyclic_routes(scenario: Scenario, routes: str = "clear") -> list[CyclicRoute
 
 
 def clear_and_direct(scenario: Scenario) -> tuple[list[CyclicRoute], list[CyclicRoute]]:
-    """Choose a clear and a direct round trip for each robot; see `cyclic_routes`."""
+    """Choose a clear and a direct round trip for each robot; see `make_cyclic_routes`."""
     once, distances = _one_lap_each(scenario)
     clear = avoid_homes(once, clear_routes(once, distances))
     direct = avoid_homes(once, find_direct_routes(once, distances, clear))
@@ -362,7 +362,7 @@ def split_groups(scenario: Scenario, fleet: Sequence[CyclicRoute]) -> list[list[
         return index
 
     first_at: dict[int, int] = {}
-    laps = [rows_of(scenario, route.robot, route.lap) for route in fleet]
+    laps = [make_lap_rows(scenario, route.robot, route.lap) for route in fleet]
     booked = frozenset().union(*(lap.booked for lap in laps))
     excluded = frozenset().union(*(lap.excluded for lap in laps))
     for index, lap in enumerate(laps):
@@ -391,7 +391,7 @@ class LapRows:
     excluded: frozenset[int]
 
 
-def rows_of(scenario: Scenario, robot: int, lap: Lap) -> LapRows:
+def make_lap_rows(scenario: Scenario, robot: int, lap: Lap) -> LapRows:
     """Return what a lap of a robot books and excludes."""
     resources = scenario.problem.resources
     booked = frozenset(

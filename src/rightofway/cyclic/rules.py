@@ -14,4 +14,4 @@ NATIVE_RULES = ("first-come", "fixed-order", "least-loss")
 """Rules that consider two robots only, in the order of the native simulator's enum."""
 
 TIMETABLE = "timetable"
-"""The rule in results of `best_timetable`: all rights of way are chosen in advance."""
+"""The rule in results of `find_best_timetable`: all rights of way are chosen in advance."""

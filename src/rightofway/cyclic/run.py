@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from rightofway.cyclic.pattern import pattern_of
+from rightofway.cyclic.pattern import find_pattern
 from rightofway.cyclic.result import CyclicResult, GroupResult
 from rightofway.cyclic.rolling_horizon import RollingHorizon
 from rightofway.cyclic.route import (
     ROUTES,
     GroupContext,
-    cyclic_routes,
+    make_cyclic_routes,
     split_groups,
     take_out_closed_places,
 )
@@ -51,7 +51,7 @@ def run_laps(
         ``two-level`` (as in the paper).
     routes
         The choice of round trips, for all laps: ``clear``, ``direct`` or ``shortest``; see
-        `cyclic_routes`.
+        `make_cyclic_routes`.
     time_limit
         Time limit [s]; None for no limit. Groups get shares by their size; open groups continue in
         the time left.
@@ -82,16 +82,16 @@ def run_laps(
     read_at("routes", make_word_reader(ROUTES), routes)
     deadline = Deadline.after(checked_time_limit(time_limit))
     scenario = take_out_closed_places(scenario)
-    groups = split_groups(scenario, cyclic_routes(scenario, routes))
+    groups = split_groups(scenario, make_cyclic_routes(scenario, routes))
     simulations = [
-        simulation_of(GroupContext(scenario=scenario, routes=tuple(group)), rule)
+        make_simulation(GroupContext(scenario=scenario, routes=tuple(group)), rule)
         for group in groups
     ]
     results = share_time(simulations, deadline, report or (lambda _: None))
     return CyclicResult(scenario=scenario, rule=rule, routes=routes, groups=tuple(results))
 
 
-def simulation_of(context: GroupContext, rule: str) -> Simulation:
+def make_simulation(context: GroupContext, rule: str) -> Simulation:
     """Return a new simulation of a group."""
     return CyclicSimulator(context, rule) if rule in NATIVE_RULES else RollingHorizon(context)
 
@@ -150,7 +150,7 @@ def advance(simulation: Simulation, deadline: Deadline) -> GroupResult:
             why=Phrase("no state came again within the time limit"),
             history=tuple(simulation.history),
         )
-    pattern = pattern_of(simulation.history, [len(lap) for lap in context.laps], recurrence)
+    pattern = find_pattern(simulation.history, [len(lap) for lap in context.laps], recurrence)
     return GroupResult(context=context, ends="repeats", history=pattern.history, pattern=pattern)
 
 

@@ -62,7 +62,7 @@ class ParameterEffect:
 
 
 @checks_arguments
-def parameter_effects(
+def compute_parameter_effects(
     scenario: Scenario, graph: TimedEventGraph, *, most: int = 5, time_limit: float | None = None
 ) -> tuple[ParameterEffect, ...]:
     """Return the parameters on which the cycle time depends, most effective first.

@@ -21,13 +21,13 @@ from rightofway.cyclic.route import (
     CyclicRoute,
     GroupContext,
     clear_and_direct,
-    cyclic_routes,
-    rows_of,
+    make_cyclic_routes,
+    make_lap_rows,
     split_groups,
     take_out_closed_places,
 )
 from rightofway.cyclic.rules import TIMETABLE
-from rightofway.cyclic.run import advance, simulation_of
+from rightofway.cyclic.run import advance, make_simulation
 from rightofway.cyclic.startup import start
 from rightofway.errors import GaveUp, InputError, report_kernel_limits
 from rightofway.model import Scenario, Tick, checked_time_limit
@@ -64,7 +64,7 @@ class ChoiceParams:
 
 
 @report_kernel_limits()
-def best_timetable(
+def find_best_timetable(
     scenario: Scenario,
     *,
     weights: Sequence[Fraction] | None = None,
@@ -130,7 +130,7 @@ def best_timetable(
     if n_robots > params.large:
         usual, others = clear_and_direct(scenario)
     else:
-        usual, others = cyclic_routes(scenario), cyclic_routes(scenario, "shortest")
+        usual, others = make_cyclic_routes(scenario), make_cyclic_routes(scenario, "shortest")
     fleet = CyclicProblem(
         context=GroupContext(scenario=scenario, routes=tuple(usual)),
         ways=tuple((first.lap, second.lap) for first, second in zip(usual, others, strict=True)),
@@ -179,7 +179,7 @@ def _by_groups(
     scenario = fleet.context.scenario
 
     def excluded_by(routes: Sequence[CyclicRoute]) -> frozenset[int]:
-        rows = (rows_of(scenario, route.robot, route.lap).excluded for route in routes)
+        rows = (make_lap_rows(scenario, route.robot, route.lap).excluded for route in routes)
         return frozenset().union(*rows)
 
     excluded = [excluded_by(group) for group in groups]
@@ -201,7 +201,7 @@ def _by_groups(
         uses.subtract(excluded[index])
         taken.difference_update(row for row in excluded[index] if not uses[row])
         draw = random.Random(f"{seed} {index}")  # noqa: S311 (no secret depends on it)
-        problem = _part(fleet, group, taken, draw, params).sooner(len(group) / left)
+        problem = _part(fleet, group, taken, draw, params).shorten(len(group) / left)
         left -= len(group)
         results[index] = _choose(problem, rounds, params)
         after = excluded_by(results[index].context.routes)
@@ -228,7 +228,7 @@ def _part(
     ways = []
     for robot in robots:
         usual, other = fleet.ways[robot]
-        fits = other != usual and taken.isdisjoint(rows_of(scenario, robot, other).booked)
+        fits = other != usual and taken.isdisjoint(make_lap_rows(scenario, robot, other).booked)
         ways.append((usual, other) if fits else (usual,))
     return replace(
         fleet,
@@ -272,8 +272,8 @@ def _choose(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) ->
     if len(problem) == 1:
         lap = min(problem.ways[0], key=lambda lap: lap.duration)
         enter = np.cumsum([0, *(lap.least(visit) for visit in range(len(lap) - 1))])
-        alone = Candidate.as_it_is(problem.timetable([RobotCycle(lap, 1, enter)], lap.duration))
-        return _started(problem, alone, "repeats", problem.value(alone))
+        alone = Candidate.as_it_is(problem.join_cycles([RobotCycle(lap, 1, enter)], lap.duration))
+        return _started(problem, alone, "repeats", problem.compute_value(alone))
     if len(problem) > params.large and (closed := _closed_run(problem)):
         return closed
     problem.deadline.check("closing a stretch of a simulation")
@@ -286,9 +286,9 @@ def _choose(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) ->
         *_built(problem, rounds, params),
     ]
     if pattern is not None:
-        starts.append(problem.candidate(pattern.timetable))
+        starts.append(problem.make_candidate(pattern.timetable))
     if not starts and (together := repeat_plan(problem)):
-        problem = problem.with_ways(together.timetable.laps)
+        problem = problem.add_ways(together.timetable.laps)
         starts = [together]
     if not starts or not problem.accepts(starts[0]):
         robots = f"{len(problem)} robots that have to do with each other"
@@ -298,7 +298,7 @@ def _choose(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) ->
             why = f"for {robots} (give more time)"
         raise GaveUp(f"no timetable was found {why}")
     whole = _whole(problem, _improved(problem, starts, rounds, params), params)
-    if pattern is not None and worth > problem.value(whole):
+    if pattern is not None and worth > problem.compute_value(whole):
         whole = pattern
     return _started(problem, whole, ends, worth)
 
@@ -316,7 +316,9 @@ def _closed_run(problem: CyclicProblem) -> GroupResult | None:
     ]
     if not fair:
         return None
-    return _started(problem, max(fair, key=problem.value), *_baseline(problem, baseline.result))
+    return _started(
+        problem, max(fair, key=problem.compute_value), *_baseline(problem, baseline.result)
+    )
 
 
 def _fair_pattern(problem: CyclicProblem, run: GroupResult) -> Candidate | None:
@@ -327,7 +329,7 @@ def _fair_pattern(problem: CyclicProblem, run: GroupResult) -> Candidate | None:
 
 def _simulated(problem: CyclicProblem, rule: str, share: float) -> GroupResult:
     """Simulate the group on its usual routes for a share of the time."""
-    return advance(simulation_of(problem.context, rule), problem.deadline.shorten(share))
+    return advance(make_simulation(problem.context, rule), problem.deadline.shorten(share))
 
 
 def _baseline(problem: CyclicProblem, run: GroupResult) -> tuple[BaselineEnds, Fraction]:
@@ -335,7 +337,7 @@ def _baseline(problem: CyclicProblem, run: GroupResult) -> tuple[BaselineEnds, F
     if run.ends == "deadlock":
         return "deadlock", Fraction(0)
     starves = run.ends == "repeats" and run.timetable is None
-    return "starves" if starves else run.ends, run.rate(problem.weights)
+    return "starves" if starves else run.ends, run.compute_rate(problem.weights)
 
 
 def _by_other_rules(problem: CyclicProblem, params: ChoiceParams) -> Iterator[Candidate]:
@@ -345,27 +347,27 @@ def _by_other_rules(problem: CyclicProblem, params: ChoiceParams) -> Iterator[Ca
     for rule in ("two-level", "fixed-order"):
         pattern = _fair_pattern(problem, _simulated(problem, rule, params.other_rule_share))
         if pattern is not None:
-            yield problem.candidate(pattern.timetable)
+            yield problem.make_candidate(pattern.timetable)
 
 
 def _cut_out(problem: CyclicProblem, run: GroupResult, params: ChoiceParams) -> list[Candidate]:
     """Return the best timetables closed from a simulation, filled with further laps."""
-    if not all(run.mean_laps()):
+    if not all(run.compute_mean_laps()):
         return []
-    cutting = problem.sooner(params.cutting_share)
-    windows = close_windows(cutting.sooner(params.closing_share), run)
-    best = sorted(filter(problem.accepts, windows), key=problem.value, reverse=True)
+    cutting = problem.shorten(params.cutting_share)
+    windows = close_windows(cutting.shorten(params.closing_share), run)
+    best = sorted(filter(problem.accepts, windows), key=problem.compute_value, reverse=True)
     short = [candidate for candidate in best if candidate.n_visits <= params.short]
     cuts = dict.fromkeys((*best[:1], *short[: params.cuts_kept]))
-    filled = [fill(cutting, *cutting.booked(candidate)) for candidate in cuts]
-    return [max(pair, key=problem.value) for pair in zip(cuts, filled, strict=True)]
+    filled = [fill(cutting, *cutting.book(candidate)) for candidate in cuts]
+    return [max(pair, key=problem.compute_value) for pair in zip(cuts, filled, strict=True)]
 
 
 def _built(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) -> list[Candidate]:
     """Return the best of several timetables, built by insertion for random periods."""
     is_small = len(problem) <= params.many
-    building = problem.sooner(params.building_share if is_small else params.filling_share)
-    first = problem.sooner(params.placing_share)
+    building = problem.shorten(params.building_share if is_small else params.filling_share)
+    first = problem.shorten(params.placing_share)
     built: list[Candidate] = []
     for drawn in islice(count(), rounds):
         times = problem.draw.uniform(1, params.longest_period) if drawn else params.first_period
@@ -374,9 +376,9 @@ def _built(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) -> 
             built.append(insert_all(building if built else first, period, filling=building))
         except GaveUp:
             break
-        if problem.value(built[-1]) == problem.bound:
+        if problem.compute_value(built[-1]) == problem.bound:
             break
-    return sorted(filter(problem.accepts, built), key=problem.value, reverse=True)[
+    return sorted(filter(problem.accepts, built), key=problem.compute_value, reverse=True)[
         : params.improved
     ]
 
@@ -388,14 +390,14 @@ def _improved(
     params: ChoiceParams,
 ) -> Candidate:
     """Improve all short timetables, then the best of these, then the best of all."""
-    net = max(starts, key=problem.value)
+    net = max(starts, key=problem.compute_value)
     short = [candidate for candidate in starts if candidate.n_visits <= params.short] or [net]
-    trying, tried = problem.sooner(params.trying_share), []
+    trying, tried = problem.shorten(params.trying_share), []
     for index, candidate in enumerate(short):
-        tried.append(improve(trying.sooner(1 / (len(short) - index)), candidate, steps=rounds))
-    continuing = problem.sooner(params.continuing_share)
-    best = improve(continuing, max(tried, key=problem.value), steps=rounds)
-    return improve(problem, max(net, best, key=problem.value), steps=rounds)
+        tried.append(improve(trying.shorten(1 / (len(short) - index)), candidate, steps=rounds))
+    continuing = problem.shorten(params.continuing_share)
+    best = improve(continuing, max(tried, key=problem.compute_value), steps=rounds)
+    return improve(problem, max(net, best, key=problem.compute_value), steps=rounds)
 
 
 def _whole(problem: CyclicProblem, candidate: Candidate, params: ChoiceParams) -> Candidate:
@@ -406,7 +408,7 @@ def _whole(problem: CyclicProblem, candidate: Candidate, params: ChoiceParams) -
         cycle_time *= cycle_time.denominator
     period = Tick(Candidate(timetable, cycle_time).period)
     return Candidate.as_it_is(
-        problem.graph(timetable).compute_earliest(period, cycle_time=cycle_time)
+        problem.build_graph(timetable).compute_earliest(period, cycle_time=cycle_time)
     )
 
 
@@ -414,8 +416,8 @@ def _started(
     problem: CyclicProblem, chosen: Candidate, ends: BaselineEnds, baseline: Fraction
 ) -> GroupResult:
     comparison = BaselineComparison(
-        throughput=problem.value(chosen),
-        fairness=problem.fairness(chosen.timetable.counts, chosen.cycle_time),
+        throughput=problem.compute_value(chosen),
+        fairness=problem.compute_fairness(chosen.timetable.counts, chosen.cycle_time),
         baseline_ends=ends,
         baseline=baseline,
     )

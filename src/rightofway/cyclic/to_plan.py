@@ -30,7 +30,7 @@ def plan_of_laps(result: CyclicResult, laps: int | None = None) -> Plan:
     Parameters
     ----------
     result
-        The result of `run_laps` or `best_timetable`.
+        The result of `run_laps` or `find_best_timetable`.
     laps
         Laps of each robot. If None, laps completed by the end of one period after the transient of
         each group, or by the end of the history of an open group.
@@ -86,7 +86,7 @@ def unroll_laps(result: CyclicResult, laps: int | None = None) -> Plan:
 
 
 @checks_arguments
-def excerpt(
+def make_excerpt(
     result: CyclicResult, periods: int = 4, *, most_visits: int = 200_000
 ) -> tuple[Plan, tuple[SteadyState, ...]]:
     """Return some periods of a cyclic result for display on a page.
@@ -94,7 +94,7 @@ def excerpt(
     Parameters
     ----------
     result
-        The result of `run_laps` or `best_timetable`.
+        The result of `run_laps` or `find_best_timetable`.
     periods
         Number of periods (longest mean laps, if open) of the group with the longest time for them.
     most_visits
@@ -115,10 +115,10 @@ def excerpt(
     """
     until, visits_per_tick = 0, Fraction(0)
     for group in result.groups:
-        means, pattern = [mean or Fraction(1) for mean in group.mean_laps()], group.pattern
+        means, pattern = [mean or Fraction(1) for mean in group.compute_mean_laps()], group.pattern
         end = pattern.transient + periods * pattern.period if pattern else periods * max(means)
         until = max(until, ceil(end))
-        rows = zip(group.context.routes, group.mean_laps(), strict=True)
+        rows = zip(group.context.routes, group.compute_mean_laps(), strict=True)
         visits_per_tick += sum(Fraction(len(route)) / mean for route, mean in rows if mean)
     if visits_per_tick:
         until = min(until, int(most_visits / visits_per_tick))
@@ -164,7 +164,7 @@ def _plan(
     """Return a plan with some laps and visits of each robot, by group, index and laps made."""
     robots, tracks = list(result.scenario.robots), dict[int, Track]()
     for group in result.groups:
-        for index, (robot, n_laps) in enumerate(zip(group.robots, group.laps_made(), strict=True)):
+        for index, (robot, n_laps) in enumerate(zip(group.robots, group.count_laps(), strict=True)):
             laps, n_visits = laps_and_visits(group, index, n_laps)
             robots[robot] = replace(robots[robot], laps=laps)
             if group.pattern and _moves(group, index):
@@ -197,7 +197,7 @@ def _steady_state(group: GroupResult, pattern: Pattern, plan: Plan) -> SteadySta
 
 def _critical_visits(group: GroupResult, pattern: Pattern) -> tuple[tuple[int, int], ...]:
     """Return the visits of the critical circuit; none if the period exceeds the cycle time."""
-    graph = group.graph()
+    graph = group.build_graph()
     if graph is None:
         return ()
     circuit = graph.find_critical_circuit()
@@ -222,7 +222,8 @@ def list_visits_along(
     arcs = begin_with_longest_run(graph, list(circuit))
     visits = graph.arcs.tail[arcs].tolist()
     firsts = [
-        pattern.visits(robot).start - int(graph.first[robot]) for robot in range(len(group.robots))
+        pattern.list_visits(robot).start - int(graph.first[robot])
+        for robot in range(len(group.robots))
     ]
     return tuple(
         (group.robots[robot], firsts[robot] + visit)

@@ -80,7 +80,7 @@ class Window:
         self.fleet = PartialPlan(task, self.routes, graph=self.graph)
         self._ends = [visit - 1 for visit in first[1:]]
 
-    def visit(self, robot: int, number: int) -> int:
+    def get_node(self, robot: int, number: int) -> int:
         """Return the node of a robot's visit in the graph."""
         return self.graph.get_visit(robot, number - self.starts[robot])
 
@@ -93,12 +93,12 @@ class Window:
         """Return whether a visit began by the cut."""
         return number < len(self.prefix.history[robot])
 
-    def ends(self) -> NDArray[np.int64]:
+    def compute_ends(self) -> NDArray[np.int64]:
         """Return the tick at which each robot leaves the window [ticks]."""
         enter = self.graph.enter
         return np.array([enter(visit) for visit in self._ends], np.int64) + self.begins
 
-    def state(self) -> tuple[Hashable, ...]:
+    def describe_state(self) -> tuple[Hashable, ...]:
         """Return the state that determines later visits, except rights of way beyond the cut."""
         frozen = (
             (start % len(route), *stretch.dwell[: len(past) - start])
@@ -162,11 +162,11 @@ class Window:
         """Return the stretch of a robot's route that the window holds."""
         cyclic, past = self.context.routes[robot], self.prefix.history[robot]
         start = self.starts[robot]
-        stop = max(len(past) + cyclic.visits_lasting(len(past), ahead), stop)
+        stop = max(len(past) + cyclic.count_visits_lasting(len(past), ahead), stop)
         visits = range(start, stop)
         places = [visit % len(cyclic) for visit in visits]
         dwell = [cyclic.lap.dwell[place] for place in places]
-        dwell[-1] = cyclic.least(visits[-1])
+        dwell[-1] = cyclic.compute_least(visits[-1])
         for visit in range(start, len(past)):
             dwell[visit - start] = Tick(self._lasted(robot, visit) - cyclic.drive(visit + 1))
         return Route(
@@ -184,7 +184,7 @@ class Window:
         if visit + 1 < len(past):
             leave = past[visit + 1]
         else:  # the robot leaves after the cut
-            least = self.context.routes[robot].least(visit)
+            least = self.context.routes[robot].compute_least(visit)
             leave = max(past[visit] + least, self.prefix.tick + 1)
         return max(leave - max(past[visit], self.begins), 1)
 

@@ -16,7 +16,7 @@ from rightofway.cyclic import (
     GroupResult,
     LapWait,
     ParameterEffect,
-    parameter_effects,
+    compute_parameter_effects,
 )
 from rightofway.languages import ENGLISH
 from rightofway.model import Scenario, Tick
@@ -57,7 +57,7 @@ def report_laps(run: CyclicResult, quantities: Quantities, language: str = ENGLI
 
 def _report(run: CyclicResult, quantities: Quantities) -> Iterator[Part]:
     together = [group for group in run.groups if len(group.robots) > 1]
-    rate = format_decimal(compute_hour(run.scenario) * run.throughput())
+    rate = format_decimal(compute_hour(run.scenario) * run.compute_throughput())
     throughput = Phrase("{rate} laps per hour", rate=rate)
     if not run.scenario.units.time:
         throughput = Phrase("{rate} laps in {hour} time units", rate=rate, hour=str(HOUR))
@@ -105,7 +105,7 @@ def _group_lines(scenario: Scenario, quantities: Quantities, group: GroupResult)
     if group.pattern is None:
         source = Phrase("Laps until then")
         if group.ends != "deadlock":
-            measured = group.measured()
+            measured = group.measure_laps()
             laps = format_decimal(Fraction(sum(measured.laps), len(measured.laps)), 1)
             source = Phrase(
                 "Measured, not proven: means of {laps} laps per robot from {moment} on",
@@ -134,7 +134,7 @@ def _group_lines(scenario: Scenario, quantities: Quantities, group: GroupResult)
         )
         return
     yield from _wait_lines(scenario, quantities, group)
-    bottleneck = group.bottleneck()
+    bottleneck = group.find_bottleneck()
     if bottleneck:
         circuit = describe_circuit(bottleneck.pieces, scenario)
         yield Phrase("bottleneck: {circuit}", circuit=circuit)
@@ -142,7 +142,7 @@ def _group_lines(scenario: Scenario, quantities: Quantities, group: GroupResult)
 
 
 def _robot_table(scenario: Scenario, quantities: Quantities, group: GroupResult) -> Table:
-    counts = group.pattern.counts if group.pattern else group.measured().laps
+    counts = group.pattern.counts if group.pattern else group.measure_laps().laps
     never: str = Phrase("never") if group.pattern else "?"
     rows = [
         [
@@ -156,8 +156,8 @@ def _robot_table(scenario: Scenario, quantities: Quantities, group: GroupResult)
             zip(
                 list_names(scenario, group),
                 counts,
-                group.mean_laps(),
-                group.waiting_shares(),
+                group.compute_mean_laps(),
+                group.compute_waiting_shares(),
                 group.context.laps,
                 strict=True,
             ),
@@ -183,7 +183,7 @@ def _stuck_lines(scenario: Scenario, group: GroupResult) -> Iterator[Part]:
     for robot in stuck[:MAX_LINES]:
         name = scenario.robots[group.robots[robot]].name
         route, last = group.context.routes[robot], len(group.history[robot]) - 1
-        values = {"place": place(route.vertex(last)), "next": place(route.vertex(last + 1))}
+        values = {"place": place(route.get_vertex(last)), "next": place(route.get_vertex(last + 1))}
         listed.append(Phrase("{robot} in {place} on its way to {next}", robot=name, **values))
     if len(stuck) > MAX_LINES:
         listed.append(Phrase("{number} more", number=str(len(stuck) - MAX_LINES)))
@@ -197,7 +197,7 @@ def _stuck_lines(scenario: Scenario, group: GroupResult) -> Iterator[Part]:
 
 def _wait_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) -> Iterator[Part]:
     """Yield which robot waits where for which other, in each period and in the first lap."""
-    first, periodic = _sites(group.first_waits()), _sites(group.waits())
+    first, periodic = _sites(group.list_first_waits()), _sites(group.waits())
     yield Phrase(
         "waits: {first} in the first lap, {periodic} in each period, {both} in both",
         first=str(len(first)),
@@ -252,7 +252,7 @@ def _moments(quantities: Quantities, ticks: Sequence[Tick]) -> str:
 
 def _sensitivity_lines(scenario: Scenario, group: GroupResult) -> Iterator[Part]:
     """Say which changes of a parameter by 10 % would shorten the period."""
-    graph = group.graph()
+    graph = group.build_graph()
     if graph is None:
         return
     if len(graph.vertex) > MAX_VISITS_OF_SENSITIVITY:
@@ -260,7 +260,7 @@ def _sensitivity_lines(scenario: Scenario, group: GroupResult) -> Iterator[Part]
         text = Phrase("sensitivity: not computed for more than {number} visits", number=most)
         yield Paragraph(text, "  ")
         return
-    effects = parameter_effects(scenario, graph, most=MAX_EFFECTS)
+    effects = compute_parameter_effects(scenario, graph, most=MAX_EFFECTS)
     helpful = [
         parameter for parameter in effects if parameter.ten_per_cent < parameter.effect.cycle_time
     ]

@@ -11,9 +11,9 @@ from rightofway.cyclic import (
     CyclicResult,
     GroupResult,
     LapWait,
+    compute_parameter_curves,
+    compute_parameter_effects,
     list_visits_along,
-    parameter_curves,
-    parameter_effects,
     trace_bottleneck,
 )
 from rightofway.errors import GaveUp
@@ -45,7 +45,7 @@ def make_laps_data(run: CyclicResult, *, by_visit: bool = True) -> dict[str, Any
         "rule": run.rule,
         "routes": run.routes,
         **describe_measures(run.scenario),
-        "throughput_per_hour": format_number(compute_hour(run.scenario) * run.throughput()),
+        "throughput_per_hour": format_number(compute_hour(run.scenario) * run.compute_throughput()),
         "groups": [_group_data(run.scenario, group, by_visit=by_visit) for group in run.groups],
     }
 
@@ -69,11 +69,14 @@ def _group_data(scenario: Scenario, group: GroupResult, *, by_visit: bool) -> di
     robots, place, clock = scenario.robots, scenario.roadmap.name, scenario.problem.clock
     names, pattern, measured, time = list_names(scenario, group), group.pattern, None, clock.time
     means = [
-        None if mean is None else format_number(mean * clock.tick) for mean in group.mean_laps()
+        None if mean is None else format_number(mean * clock.tick)
+        for mean in group.compute_mean_laps()
     ]
-    shares = [None if share is None else format_number(share) for share in group.waiting_shares()]
+    shares = [
+        None if share is None else format_number(share) for share in group.compute_waiting_shares()
+    ]
     if pattern is None:
-        measurement = group.measured()
+        measurement = group.measure_laps()
         laps = dict(zip(names, measurement.laps, strict=True))
         measured = {"from": format_number(time(measurement.warm_up)), "laps": laps}
 
@@ -98,7 +101,7 @@ def _group_data(scenario: Scenario, group: GroupResult, *, by_visit: bool) -> di
         "begins": format_number(time(pattern.begins)) if pattern else None,
         "period": format_number(time(pattern.period)) if pattern else None,
         "laps_per_period": dict(zip(names, pattern.counts, strict=True)) if pattern else None,
-        "laps_made": dict(zip(names, group.laps_made(), strict=True)),
+        "laps_made": dict(zip(names, group.count_laps(), strict=True)),
         "mean_lap": dict(zip(names, means, strict=True)),
         "measured": measured,
         "waiting_share": dict(zip(names, shares, strict=True)),
@@ -106,10 +109,10 @@ def _group_data(scenario: Scenario, group: GroupResult, *, by_visit: bool) -> di
     if is_long(group) or not by_visit:
         data |= dict.fromkeys(BY_VISIT)
     else:
-        bottleneck = group.bottleneck()
+        bottleneck = group.find_bottleneck()
         data |= {
             "conflicts": waits_data(group.waits(), "offset"),
-            "first_lap": waits_data(group.first_waits(), "time"),
+            "first_lap": waits_data(group.list_first_waits(), "time"),
             "bottleneck": _steps_data(scenario, bottleneck),
             "sensitivity": _sensitivity_data(scenario, group),
             "curves": _curves_data(scenario, group),
@@ -128,7 +131,7 @@ def _group_data(scenario: Scenario, group: GroupResult, *, by_visit: bool) -> di
 
 
 def _sensitivity_data(scenario: Scenario, group: GroupResult) -> list[dict[str, Any]]:
-    graph, tick = group.graph(), scenario.problem.clock.tick
+    graph, tick = group.build_graph(), scenario.problem.clock.tick
     if graph is None or len(graph.vertex) > MAX_VISITS_OF_SENSITIVITY:
         return []
     return [
@@ -142,7 +145,7 @@ def _sensitivity_data(scenario: Scenario, group: GroupResult) -> list[dict[str, 
             "at_best": format_number(parameter.effect.at_best * tick),
             "ten_per_cent": format_number(parameter.ten_per_cent * tick),
         }
-        for parameter in parameter_effects(scenario, graph)
+        for parameter in compute_parameter_effects(scenario, graph)
     ]
 
 
@@ -167,12 +170,12 @@ def _curves_data(scenario: Scenario, group: GroupResult) -> dict[str, Any] | Non
 
     The period is ``fixed + slope * value``; of a speed ``fixed + slope / value``.
     """
-    graph, pattern = group.graph(), group.pattern
+    graph, pattern = group.build_graph(), group.pattern
     if graph is None or pattern is None or len(graph) > MAX_VISITS_OF_SENSITIVITY:
         return None
     data: dict[str, Any] = {"exact": scenario.problem.clock.exact, "why": ""}
     try:
-        found_curves = parameter_curves(scenario, graph)
+        found_curves = compute_parameter_curves(scenario, graph)
     except GaveUp as error:
         return data | {"why": str(error), "curves": [], "circuits": []}
     circuits: dict[tuple[int, ...], int] = {}

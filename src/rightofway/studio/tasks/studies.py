@@ -49,11 +49,11 @@ def _repeated(
     seed: int = 0,
 ) -> CyclicResult:
     """Let robots repeat their trips, under a rule or by a timetable."""
-    from rightofway.cyclic import TIMETABLE, best_timetable, run_laps
+    from rightofway.cyclic import TIMETABLE, find_best_timetable, run_laps
 
     report = PlanningProgress(emit).report
     if rule == TIMETABLE:
-        return best_timetable(
+        return find_best_timetable(
             scenario,
             least_fairness=Fraction(least_fairness),
             time_limit=time_limit,
@@ -69,12 +69,12 @@ def make_laps(emit: Emit, _blobs: Blobs, *, document: Any, folder: str, **settin
 
     The report is that of `rightofway laps --json`, with the one for people as ``text``.
     """
-    from rightofway.cyclic import excerpt, plan_of_laps
+    from rightofway.cyclic import make_excerpt, plan_of_laps
     from rightofway.model.steady_state import within
 
     scenario = load_document(document, folder).scenario
     run = _repeated(scenario, emit, **settings)
-    shown, steady = excerpt(run)
+    shown, steady = make_excerpt(run)
     payload = as_compact_json(make_payload(shown, steady=steady)).encode()
     text = report_laps(run, scenario.quantities)
     report = to_parts({**make_laps_data(run), "text": text})
