@@ -27,7 +27,14 @@ seed : int
 n_threads : int
     Threads of `prioritize` and `improve`, 1 to 1024.
 alone : int64[R] or None
-    What `alone` returned for the same trips. [ticks])";
+    What `alone` returned for the same trips. [ticks]
+objective : Objective
+    What `improve` minimizes.
+
+Raises
+------
+ValueError
+    For an objective with a makespan where edges have surcharges.)";
 
 constexpr auto alone_doc =
     R"(Return the least completion of each robot without the others, int64[R]. [ticks]
@@ -134,8 +141,8 @@ TrackArrays tracks(const FleetSearch& self) {
 }
 
 void init(FleetSearch* self, const Problem& problem, std::uint64_t seed, std::size_t n_threads,
-          const std::optional<ArrayIn<Tick>>& alone) {
-    new (self) FleetSearch(problem, seed, n_threads);
+          const std::optional<ArrayIn<Tick>>& alone, Objective objective) {
+    new (self) FleetSearch(problem, seed, n_threads, objective);
     if (alone) {
         try {
             self->take_alone(view(*alone));
@@ -149,9 +156,14 @@ void init(FleetSearch* self, const Problem& problem, std::uint64_t seed, std::si
 }  // namespace
 
 void bind_fleet(nb::module_& module) {
+    nb::enum_<Objective>(module, "Objective", "What large neighbourhood search minimizes.")
+        .value("flowtime", Objective::flowtime, "The flowtime by weights, and surcharges.")
+        .value("makespan", Objective::makespan, "The makespan; on ties the flowtime by weights.")
+        .value("both", Objective::both, "Makespan plus completion, summed over robots by weights.");
     nb::class_<FleetSearch>(module, "FleetSearch", class_doc)
         .def("__init__", &init, nb::arg("problem"), nb::arg("seed"), nb::arg("n_threads"),
-             nb::arg("alone").none() = nb::none(), nb::keep_alive<1, 2>())
+             nb::arg("alone").none() = nb::none(), nb::arg("objective") = Objective::flowtime,
+             nb::keep_alive<1, 2>())
         .def(
             "alone",
             [](FleetSearch& self,
@@ -240,6 +252,7 @@ Returns
 tuple of (int32[R + 1], int32[N], int64[N])
     Which visits each robot has, and where and when they begin. [ticks])")
         .def_prop_ro("cost", &FleetSearch::cost, "The sum of completions and surcharges. [ticks]")
+        .def_prop_ro("value", &FleetSearch::value, "What `improve` minimizes. [ticks]")
         .def_prop_ro("n_idle", &FleetSearch::n_idle, "How many times in a row brought no gain.")
         .def_prop_ro("n_expanded", &FleetSearch::n_expanded, "States expanded by `improve`.");
 }

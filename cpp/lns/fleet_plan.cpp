@@ -9,8 +9,9 @@
 
 namespace rightofway {
 
-FleetPlan::FleetPlan(const Problem& problem)
+FleetPlan::FleetPlan(const Problem& problem, Objective objective)
     : problem_(&problem),
+      objective_(objective),
       bookings_(problem.n_rows()),
       tracks_(static_cast<std::size_t>(problem.n_robots())),
       held_(tracks_.size(), 0) {
@@ -18,6 +19,27 @@ FleetPlan::FleetPlan(const Problem& problem)
     for (std::size_t k = 0; k < closed.row.size(); ++k) {
         bookings_.insert(closed.row[k], {closed.start[k], closed.end[k]}, nobody);
     }
+}
+
+Worth FleetPlan::worth() const {
+    if (objective_ == Objective::flowtime) {
+        return {cost_, 0, cost_};
+    }
+    const Tick last = makespan();
+    const auto n_last = std::count_if(tracks_.begin(), tracks_.end(),
+                                      [&](const TimedTrack& track) { return track.cost == last; });
+    if (objective_ == Objective::makespan) {
+        return {last, n_last, cost_};
+    }
+    return {problem_->total_weight() * last + cost_, n_last, cost_};
+}
+
+Tick FleetPlan::makespan() const {
+    Tick last = 0;
+    for (const TimedTrack& track : tracks_) {
+        last = std::max(last, track.cost);
+    }
+    return last;
 }
 
 Tick FleetPlan::surcharges(std::span<const Visit> visits) const {
@@ -90,7 +112,7 @@ void FleetPlan::exchange(RobotId robot, TimedTrack& track) {
 void FleetPlan::retime(const StopCondition& interrupt) {
     Tracks all = tracks();
     rightofway::retime(*problem_, all, interrupt);
-    FleetPlan retimed(*problem_);
+    FleetPlan retimed(*problem_, objective_);
     Poll poll(interrupt);
     for (RobotId robot = 0; robot < n_robots(); ++robot) {
         TimedTrack one = track(robot);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/search_end.hpp"
+#include "lns/objective.hpp"
 #include "problem/problem.hpp"
 #include "search/booking_table.hpp"
 
@@ -19,13 +20,17 @@ struct TimedTrack {
 
 class FleetPlan {
   public:
-    explicit FleetPlan(const Problem& problem);
+    explicit FleetPlan(const Problem& problem, Objective objective = Objective::flowtime);
 
     RobotId n_robots() const { return problem_->n_robots(); }
     const BookingTable& bookings() const { return bookings_; }
     const TimedTrack& track(RobotId robot) const { return tracks_[index(robot)]; }
     bool has_track(RobotId robot) const { return !track(robot).visits.empty(); }
     Tick cost() const { return cost_; }  // the weighted sum over all tracks
+    Objective objective() const { return objective_; }
+    Worth worth() const;
+    // The latest completion of a robot; for objectives without surcharges.
+    Tick makespan() const;
     Tracks tracks() const;
 
     const Problem& problem() const { return *problem_; }
@@ -63,6 +68,7 @@ class FleetPlan {
     void meet(RobotId robot, const TimedTrack& track, const Found& found) const;
 
     const Problem* problem_;
+    Objective objective_;
     BookingTable bookings_;
     std::vector<TimedTrack> tracks_;
     std::vector<Tick> held_;

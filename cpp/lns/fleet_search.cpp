@@ -25,8 +25,16 @@ void require_count(const char* name, std::int64_t count) {
 
 }  // namespace
 
-FleetSearch::FleetSearch(const Problem& problem, std::uint64_t seed, std::size_t n_threads)
-    : problem_(problem), distances_(problem), plan_(problem), seed_(seed), n_threads_(n_threads) {
+FleetSearch::FleetSearch(const Problem& problem, std::uint64_t seed, std::size_t n_threads,
+                         Objective objective)
+    : problem_(problem),
+      distances_(problem),
+      plan_(problem, objective),
+      seed_(seed),
+      n_threads_(n_threads) {
+    if (objective != Objective::flowtime && problem.has_surcharges()) {
+        throw std::invalid_argument("objective: a makespan has no surcharges (minimize flowtime)");
+    }
     if (n_threads < 1 || n_threads > most_threads) {
         reject("n_threads", static_cast<std::int64_t>(std::min(n_threads, std::size_t{1} << 62)),
                "is not in 1.." + std::to_string(most_threads));
@@ -162,8 +170,17 @@ std::int64_t FleetSearch::restore(const GivenTracks& given, const StopCondition&
             if (gain < 0) {
                 continue;
             }
+            const Worth before = plan_.worth();
             for (const RobotId robot : group) {
                 plan_.exchange(robot, old[index(robot)]);
+            }
+            if (plan_.worth() > before) {  // the flowtime is no greater, but the makespan is
+                for (const RobotId robot : group) {
+                    plan_.exchange(robot, old[index(robot)]);
+                }
+                continue;
+            }
+            for (const RobotId robot : group) {
                 is_restored[index(robot)] = 1;
             }
             n_restored += static_cast<std::int64_t>(group.size());
@@ -298,7 +315,7 @@ void FleetSearch::drop_searches() {
 
 void FleetSearch::clear() {
     drop_searches();
-    plan_ = FleetPlan(problem_);
+    plan_ = FleetPlan(problem_, plan_.objective());
 }
 
 }  // namespace rightofway

@@ -31,8 +31,10 @@ struct GivenTracks {
 // value.
 class FleetSearch {
   public:
-    // Borrows the problem. 1 to 1024 threads.
-    FleetSearch(const Problem& problem, std::uint64_t seed, std::size_t n_threads);
+    // Borrows the problem. 1 to 1024 threads. Surcharges count in no makespan: only for the
+    // flowtime.
+    FleetSearch(const Problem& problem, std::uint64_t seed, std::size_t n_threads,
+                Objective objective = Objective::flowtime);
 
     // The least completion of each robot without the others, -1 if it cannot get to a stage; null
     // if there was no time.
@@ -62,6 +64,7 @@ class FleetSearch {
 
     Tracks tracks() const { return plan_.tracks(); }
     Tick cost() const { return plan_.cost(); }
+    Tick value() const { return plan_.worth().value; }
     std::int64_t n_idle() const { return improvement_ ? improvement_->n_idle() : 0; }
     std::int64_t n_expanded() const { return improvement_ ? improvement_->n_expanded() : 0; }
 

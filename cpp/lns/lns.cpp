@@ -11,6 +11,8 @@ constexpr std::size_t robots_per_task = 4;
 constexpr std::size_t least_in_round = 4;
 constexpr std::size_t most_in_round = 32;
 
+constexpr Tick unlimited = Tick{1} << 61;
+
 }  // namespace
 
 struct Lns::Worker {
@@ -31,6 +33,7 @@ Lns::Lns(SharedDistances& distances, FleetPlan& plan, std::span<const Tick> alon
          std::uint64_t seed, std::size_t n_threads)
     : plan_(plan),
       alone_(alone),
+      longest_alone_(alone.empty() ? 0 : *std::max_element(alone.begin(), alone.end())),
       seed_(seed),
       is_touched_(alone.size(), 0),
       neighbourhood_(n_neighbourhood_kinds * sizes.size()),
@@ -102,43 +105,85 @@ void Lns::replan(Worker& worker, Task& task, const StopCondition& is_over) {
     if (task.tracks.size() < n) {
         task.tracks.resize(n);
     }
-    Tick slack = 0;  // allowed sum of weighted costs above `alone`
+    const bool is_of_flowtime = plan_.objective() == Objective::flowtime;
+    const Worth before = worker.plan.worth();
+    Limits limits = limits_of(task, worker.plan);
     for (std::size_t k = 0; k < n; ++k) {
         task.tracks[k].visits.clear();
         task.tracks[k].cost = 0;
         worker.plan.exchange(task.robots[k], task.tracks[k]);
-        slack += plan_.problem().weight(task.robots[k]) *
-                 (task.tracks[k].cost - alone_[index(task.robots[k])]);
     }
+    Tick gain = -1;
     const auto restore = [&] {
         for (std::size_t k = 0; k < n; ++k) {
             worker.plan.exchange(task.robots[k], task.tracks[k]);
         }
     };
-    bool is_found = false;
     try {
-        is_found = slack > 0 && find_tracks(worker, task, slack, is_over);
+        if (limits.slack > 0 && find_tracks(worker, task, limits, is_over)) {
+            gain = is_of_flowtime ? limits.slack : gain_of(before, worker.plan.worth());
+        }
     } catch (...) {
         restore();
         throw;
     }
     restore();
-    task.gain = is_found ? slack : -1;
+    task.gain = gain;
+}
+
+// What new tracks of a task may cost, and when they have to be complete.
+Lns::Limits Lns::limits_of(const Task& task, const FleetPlan& plan) const {
+    Limits limits;
+    for (const RobotId robot : task.robots) {
+        limits.slack +=
+            plan.problem().weight(robot) * (plan.track(robot).cost - alone_[index(robot)]);
+    }
+    if (plan.objective() == Objective::flowtime) {
+        return limits;
+    }
+    const Tick last = plan.makespan();
+    const bool may_fall = last > longest_alone_;  // else the makespan is the least there is
+    const bool is_last = std::any_of(task.robots.begin(), task.robots.end(),
+                                     [&](RobotId robot) { return plan.track(robot).cost == last; });
+    if (plan.objective() == Objective::makespan) {
+        limits.latest = may_fall ? last - 1 : last;
+        if (may_fall && is_last) {
+            limits.slack = unlimited;
+        }
+    } else if (is_last) {
+        limits.slack += plan.problem().total_weight() * (last - longest_alone_);
+    }
+    return limits;
+}
+
+// The gain of a plan that is no worse; -1 for a worse one. A tick of the makespan counts as one of
+// every robot, and so does a robot that completes last no more.
+Tick Lns::gain_of(const Worth& before, const Worth& after) const {
+    if (after > before) {
+        return -1;
+    }
+    const Tick sooner = std::max<Tick>(before.value - after.value, before.n_last - after.n_last);
+    const Tick saved = std::max<Tick>(before.cost - after.cost, 0);
+    const bool is_of_makespan = plan_.objective() == Objective::makespan;
+    return sooner * (is_of_makespan ? plan_.problem().total_weight() : 1) + saved;
 }
 
 // Gives the robots of a task new tracks in the worker's plan, one after another.
-bool Lns::find_tracks(Worker& worker, const Task& task, Tick& slack, const StopCondition& is_over) {
+bool Lns::find_tracks(Worker& worker, const Task& task, Limits& limits,
+                      const StopCondition& is_over) {
     for (const RobotId robot : task.robots) {
         const Tick alone = alone_[index(robot)];
         const Tick weight = plan_.problem().weight(robot);
-        const SearchRequest request{
-            worker.reader.read(robot), worker.plan.bookings(), {}, alone + slack / weight};
+        const SearchRequest request{worker.reader.read(robot),
+                                    worker.plan.bookings(),
+                                    {},
+                                    std::min(alone + limits.slack / weight, limits.latest)};
         if (worker.search.run(request, is_over) != SearchEnd::found) {
             return false;
         }
         worker.search.track(worker.found.visits);
         worker.found.cost = worker.search.cost();
-        slack -= weight * (worker.found.cost - alone);
+        limits.slack -= weight * (worker.found.cost - alone);
         worker.plan.exchange(robot, worker.found);
         worker.found.cost = 0;
     }
@@ -169,6 +214,7 @@ bool Lns::adopt(Task& task, bool may_clash) {
             return false;
         }
     }
+    const Worth before = plan_.worth();
     std::vector<TimedTrack> old(n);
     for (std::size_t k = 0; k < n; ++k) {
         plan_.exchange(task.robots[k], old[k]);
@@ -182,11 +228,23 @@ bool Lns::adopt(Task& task, bool may_clash) {
         }
     }
     for (std::size_t k = 0; k < n; ++k) {
+        plan_.exchange(task.robots[k], task.tracks[k]);
+    }
+    // Gains of the flowtime add up; gains of a makespan may be gone by results adopted before.
+    if (may_clash && plan_.worth() > before) {
+        for (std::size_t k = 0; k < n; ++k) {
+            plan_.exchange(task.robots[k], task.tracks[k]);
+        }
+        for (std::size_t k = 0; k < n; ++k) {
+            plan_.exchange(task.robots[k], old[k]);
+        }
+        return false;
+    }
+    for (std::size_t k = 0; k < n; ++k) {
         for (FleetPlan& replica : replicas_) {
-            old[k] = task.tracks[k];
+            old[k] = plan_.track(task.robots[k]);
             replica.exchange(task.robots[k], old[k]);
         }
-        plan_.exchange(task.robots[k], task.tracks[k]);
         is_touched_[index(task.robots[k])] = 1;
     }
     return true;

@@ -2,10 +2,14 @@
 //
 // A task removes the tracks of a few robots and replans them one after another, in random order;
 // in half of the tasks the seed robot of the neighbourhood goes first. The plan keeps the result if
-// its flowtime is no greater. A round has a fixed number of tasks. Each task starts from the plan
-// at the beginning of the round, on the thread's replica, with the random stream (seed, round,
-// task). After a round, results that still fit together are adopted in order of tasks. So the
-// outcome depends on the seed and the number of tasks, not on the threads.
+// its worth (objective.hpp) is no greater. A round has a fixed number of tasks. Each task starts
+// from the plan at the beginning of the round, on the thread's replica, with the random stream
+// (seed, round, task). After a round, results that still fit together are adopted in order of
+// tasks. So the outcome depends on the seed and the number of tasks, not on the threads.
+//
+// For the makespan, half of the neighbourhoods grow around a robot that completes last. Where one
+// of those is replanned, all robots of the task have to complete before the makespan, whatever the
+// flowtime; in other tasks none may complete at or after it, and the flowtime falls.
 //
 // Li et al., "Anytime multi-agent path finding via large neighborhood search", IJCAI 2021.
 #pragma once
@@ -50,7 +54,7 @@ class Lns {
         std::vector<RobotId> robots;
         std::vector<TimedTrack> tracks;
         std::size_t neighbourhood = 0;  // index of kind and size
-        Tick gain = -1;                 // below 0: no tracks found
+        Tick gain = -1;                 // below 0: nothing found that is as good
         std::int64_t effort = 0;
     };
     struct Worker;
@@ -58,12 +62,20 @@ class Lns {
     void round(std::size_t n, const StopCondition& is_over);
     void attempt(Worker& worker, Task& task, Random& random, const StopCondition& is_over);
     void replan(Worker& worker, Task& task, const StopCondition& is_over);
-    bool find_tracks(Worker& worker, const Task& task, Tick& slack, const StopCondition& is_over);
+    struct Limits {
+        Tick slack = 0;  // allowed sum of weighted costs above `alone`
+        Tick latest = never;
+    };
+    Limits limits_of(const Task& task, const FleetPlan& plan) const;
+    bool find_tracks(Worker& worker, const Task& task, Limits& limits,
+                     const StopCondition& is_over);
+    Tick gain_of(const Worth& before, const Worth& after) const;
     void settle(std::size_t n);
     bool adopt(Task& task, bool may_clash);
 
     FleetPlan& plan_;
     std::span<const Tick> alone_;
+    Tick longest_alone_;
     std::uint64_t seed_;
     std::vector<FleetPlan> replicas_;
     std::vector<std::unique_ptr<Worker>> workers_;

@@ -74,8 +74,12 @@ void Neighbourhoods::fill_up(std::size_t size, Random& random) {
     }
 }
 
-// A robot drawn with probability proportional to its delay; any robot if none is late.
+// A robot drawn with probability proportional to its delay; any robot if none is late. For a
+// makespan every other time one of the robots that complete last.
 RobotId Neighbourhoods::late_robot(Random& random) {
+    if (plan_.objective() != Objective::flowtime && random.below(2) == 0) {
+        return last_robot(random);
+    }
     const Tick all = plan_.cost();
     Tick bound = 0;
     for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
@@ -91,6 +95,19 @@ RobotId Neighbourhoods::late_robot(Random& random) {
         ++robot;
     }
     return robot;
+}
+
+// One of the robots that complete last.
+RobotId Neighbourhoods::last_robot(Random& random) const {
+    const Tick makespan = plan_.makespan();
+    RobotId last = 0;
+    std::size_t n_last = 0;
+    for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
+        if (plan_.track(robot).cost == makespan && random.below(++n_last) == 0) {
+            last = robot;
+        }
+    }
+    return last;
 }
 
 // Continues from a random visit as if alone and adds the robots met.

@@ -33,6 +33,7 @@ class Neighbourhoods {
 
   private:
     RobotId late_robot(Random& random);
+    RobotId last_robot(Random& random) const;
     void blockers(std::size_t size, Random& random);
     void delay(std::size_t size, Random& random);
     void congestion(std::size_t size, Random& random);

@@ -191,12 +191,12 @@ std::vector<RobotId> Population::cross_over(FleetPlan& plan, const FleetPlan& ma
     return out;
 }
 
-// Inserts the children in order: a child replaces its parent if its flowtime is no greater, else
-// the worst member if its flowtime is no greater than the worst.
+// Inserts the children in order: a child replaces its parent if its worth is no greater, else the
+// worst member if its worth is no greater than the worst.
 void Population::insert_children(std::size_t n_children) {
     const bool are_parents = has_all_members();
     const auto is_better = [](const FleetPlan& left, const FleetPlan& right) {
-        return left.cost() < right.cost();
+        return left.worth() < right.worth();
     };
     for (std::size_t k = 0; k < n_children; ++k) {
         Child& child = children_[k];
@@ -206,7 +206,7 @@ void Population::insert_children(std::size_t n_children) {
         if (!child.is_whole) {
             continue;
         }
-        if (child.plan.cost() < plan_.cost()) {
+        if (child.plan.worth() < plan_.worth()) {
             plan_ = child.plan;
             n_idle_ = 0;
         }

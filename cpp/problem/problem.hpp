@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -170,6 +171,11 @@ class Problem {
     // How much a tick of a robot's completion time and surcharges counts.
     Tick weight(RobotId robot) const {
         return arrays_.weight.empty() ? 1 : arrays_.weight[index(robot)];
+    }
+    Tick total_weight() const {
+        return arrays_.weight.empty()
+                   ? n_robots()
+                   : std::accumulate(arrays_.weight.begin(), arrays_.weight.end(), Tick{0});
     }
 
     // Whether lists are given: for robots with a size, and zones. Else robots are points.

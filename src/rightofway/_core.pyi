@@ -9,6 +9,7 @@ stops a search; long calls release the GIL and obey Ctrl-C. All are deterministi
 """
 
 from collections.abc import Sequence
+import enum
 from typing import Annotated
 
 import numpy
@@ -683,6 +684,18 @@ def plan_by_lacam(problem: Problem, ends_anywhere: Annotated[NDArray[numpy.uint8
         owns, and where and when each visit begins.
     """
 
+class Objective(enum.Enum):
+    """What large neighbourhood search minimizes."""
+
+    flowtime = 0
+    """The flowtime by weights, and surcharges."""
+
+    makespan = 1
+    """The makespan; on ties the flowtime by weights."""
+
+    both = 2
+    """Makespan plus completion, summed over robots by weights."""
+
 class FleetSearch:
     """
     The tracks of a whole fleet: finding first ones, and better ones.
@@ -701,9 +714,16 @@ class FleetSearch:
         Threads of `prioritize` and `improve`, 1 to 1024.
     alone : int64[R] or None
         What `alone` returned for the same trips. [ticks]
+    objective : Objective
+        What `improve` minimizes.
+
+    Raises
+    ------
+    ValueError
+        For an objective with a makespan where edges have surcharges.
     """
 
-    def __init__(self, problem: Problem, seed: int, n_threads: int, alone: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> None: ...
+    def __init__(self, problem: Problem, seed: int, n_threads: int, alone: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, objective: Objective = Objective.flowtime) -> None: ...
 
     def alone(self, time_limit: float | None = None) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))] | None:
         """
@@ -831,6 +851,10 @@ class FleetSearch:
     @property
     def cost(self) -> int:
         """The sum of completions and surcharges. [ticks]"""
+
+    @property
+    def value(self) -> int:
+        """What `improve` minimizes. [ticks]"""
 
     @property
     def n_idle(self) -> int:

@@ -21,6 +21,7 @@ from rightofway.model import (
     PlannerRun,
     Proof,
     Scenario,
+    Tick,
     Track,
     checked_time_limit,
 )
@@ -44,6 +45,12 @@ from rightofway.planners import (
     find,
 )
 from rightofway.planners.features import refuse_unknown
+from rightofway.planners.objectives import (
+    compute_value,
+    find_objective,
+    list_weights,
+    measure_worth,
+)
 from rightofway.planners.registry import name_able
 from rightofway.values import format_number, make_range_reader, read_at
 
@@ -223,6 +230,7 @@ def _run(
     refuse_unknown(
         task.scenario.problem, spec.features, planner, lambda needed: f"choose {name_able(needed)}"
     )
+    find_objective(task)  # refuses what the roadmap has no value for
     began, deadline = time.perf_counter(), Deadline.after(time_limit)
     with_plan: list[float] = []  # how long planning took until there was a plan [s]
 
@@ -271,16 +279,22 @@ def _run(
     report = check(plan)
     if any(kind != "swap conflict" or not draft.keeps_swaps for kind in report.counts):
         raise InvalidPlan(f"{spec.name} made a plan with {report}")
-    outcome = _outcome(spec, draft, plan, keeps_rules=report.ok)
+    outcome = _outcome(spec, task, draft, plan, keeps_rules=report.ok)
     return replace(plan, run=replace(run, outcome=outcome))
 
 
-def _outcome(spec: PlannerSpec, draft: Draft, plan: Plan, *, keeps_rules: bool) -> Outcome:
-    """Return what is proven of a plan: by its planner, and by the sum of the robots alone."""
-    alone = plan.lower_bound
-    proof = draft.proof or Proof(bound=alone)
-    if proof.objective is not Objective.MAKESPAN:
-        proof = replace(proof, bound=max(proof.bound, alone))
+def _outcome(
+    spec: PlannerSpec, task: Task, draft: Draft, plan: Plan, *, keeps_rules: bool
+) -> Outcome:
+    """Return what is proven of a plan: by its planner, and by the robots alone."""
+    alone, objective = plan.lower_bound, find_objective(task)
+    if objective.has_makespan:
+        weights = list_weights(plan.scenario)
+        alone = Tick(compute_value(objective, weights, plan.run.alone or ())[0])
+    else:
+        objective = Objective.FLOWTIME
+    proof = draft.proof or Proof(bound=alone, objective=objective)
+    proof = replace(proof, bound=max(proof.bound, alone))
     cost = plan.compute_value(proof.objective)
     if not keeps_rules:  # its swaps may save time, so it proves nothing
         return Outcome(kind=OutcomeKind.BEST_FOUND, objective=proof.objective, bound=proof.bound)
@@ -332,12 +346,13 @@ def _handing_over(
         status=Phrase("so far"),
         alone=alone,
     )
-    least: list[int] = []
+    least: list[tuple[Tick, Tick]] = []
 
     def hand_over(tracks: Callable[[], Sequence[Track]]) -> None:
         plan = Plan(scenario=task.scenario, tracks=tuple(tracks()), run=run)
-        if not least or plan.flowtime < least[-1]:
-            least.append(plan.flowtime)
+        rating = measure_worth(task, plan.tracks)
+        if not least or rating < least[-1]:
+            least.append(rating)
             on_plan(plan)
 
     return hand_over

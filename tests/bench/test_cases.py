@@ -44,9 +44,9 @@ def test_every_combination_is_a_case_and_planners_stand_side_by_side(tmp_path: P
     # 3 maps with counts x 2 fleets x 2 seeds x 2 limits x 2 planners
     assert len(found) == len({case.key for case in found}) == 48
     assert [str(case).partition(" routes")[0] for case in found[:3]] == [
-        "random-4-4-0, a, 2 robots, seed 7, 1 s, two-level swaps=resolve",
-        "random-4-4-0, a, 2 robots, seed 7, 1 s, two-level swaps=leave",
-        "random-4-4-0, a, 2 robots, seed 7, 2 s, two-level swaps=resolve",
+        "random-4-4-0, a, 2 robots, seed 7, 1 s, two-level objective=flowtime swaps=resolve",
+        "random-4-4-0, a, 2 robots, seed 7, 1 s, two-level objective=flowtime swaps=leave",
+        "random-4-4-0, a, 2 robots, seed 7, 2 s, two-level objective=flowtime swaps=resolve",
     ]
 
 

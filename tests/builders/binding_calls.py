@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import random
 from collections.abc import Callable, Iterator
+from enum import Enum
 from importlib.util import module_from_spec, spec_from_file_location
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -514,6 +515,7 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
     "FleetSearch.retime": _always(),
     "FleetSearch.tracks": _always(),
     "FleetSearch.cost": _always(),
+    "FleetSearch.value": _always(),
     "FleetSearch.n_idle": _always(),
     "FleetSearch.n_expanded": _always(),
     "ActionDependencyGraph": _adg,
@@ -566,9 +568,14 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
 
 
 def callables() -> Iterator[str]:
-    """Yield the names of all functions, classes, methods and properties of the native core."""
+    """Yield the names of all functions, classes, methods and properties of the native core.
+
+    An enumeration is none of them: it is an argument, as a number is.
+    """
     for name, value in vars(_core).items():
         if name.startswith("_") or isinstance(value, int | float | str):
+            continue
+        if isinstance(value, type) and issubclass(value, Enum):
             continue
         yield name
         if isinstance(value, type):

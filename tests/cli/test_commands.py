@@ -103,7 +103,8 @@ def test_the_summary_for_programs_has_the_numbers_of_the_one_for_people(
     planner = data["planner"]
     assert 0 < planner.pop("first_plan_seconds") <= planner.pop("seconds") < 10
     assert planner == {
-        "name": "auto", "options": {"swaps": "resolve", "iterations": 0, "nodes": 1000}, "seed": 0,
+        "name": "auto", "seed": 0,
+        "options": {"objective": "flowtime", "swaps": "resolve", "iterations": 0, "nodes": 1000},
         "status": "optimal: proven by 0 nodes of conflict-based search (two-level, waits only)",
         "outcome": {"kind": "optimal", "objective": "flowtime", "bound": 19},
         "forced_losses": [{"robots": ["R1", "R2"], "ticks": 1, "vertex": "N1"}],

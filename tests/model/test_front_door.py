@@ -265,7 +265,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "an unknown option in a mapping": (
         lambda: solve(pair(), "lns", options={"swap": "leave"}),
-        r"options.swap: 'swap' is unknown to lns \(known: iterations\)",
+        r"options.swap: 'swap' is unknown to lns \(known: objective, iterations\)",
     ),
     "a wrong value of an option": (
         lambda: solve(pair(), "lns", iterations=-1),
@@ -273,7 +273,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "options of another planner": (
         lambda: solve(pair(), options=LnsOptions()),
-        r"options: LnsOptions\(iterations=0\) are no options of auto \(give AutoOptions",
+        r"options: LnsOptions\(objective='flowtime', iterations=0\) are no options of auto",
     ),
     "an unknown field of options": (
         lambda: LnsOptions(iteration=3),  # type: ignore[call-arg]

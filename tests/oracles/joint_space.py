@@ -8,14 +8,14 @@ or more do not rotate where the rules forbid it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cache, partial
 from heapq import heappop, heappush
 from itertools import product
 from typing import NamedTuple
 
-from rightofway.model import Scenario
+from rightofway.model import Objective, Scenario
 from tests.oracles.closures import begins, ends, is_shut
 from tests.oracles.space import Shape, drive, incompatible, zones_around, zones_with
 
@@ -147,10 +147,11 @@ class _Fleet:
                 yield from self._moves(robot, state._replace(head=head, left=ticks))
 
 
-def least_flowtime(scenario: Scenario) -> int | None:
+def least_flowtime(scenario: Scenario, latest: int | None = None) -> int | None:
     """Return the least sum of completions by weight [ticks], None where there is no plan.
 
-    Joint states in the order of what they cost and what each robot alone would cost from there.
+    With ``latest``, of the plans that are complete at that tick. Joint states in the order of what
+    they cost and what each robot alone would cost from there.
     """
     fleet = _Fleet(scenario)
     itineraries = scenario.problem.itineraries
@@ -158,7 +159,8 @@ def least_flowtime(scenario: Scenario) -> int | None:
     alone = [fleet.costs_alone(robot) for robot in range(len(itineraries))]
     moments = [begins(scenario, closure) for closure in scenario.closures]
     moments += [ends(scenario, closure) or 0 for closure in scenario.closures]
-    horizon = max(moments, default=0)  # nothing is opened or closed later
+    moments += [] if latest is None else [latest + 1]
+    horizon = max(moments, default=0)  # nothing is opened or closed later, and nobody may complete
 
     def least_left(states: tuple[State, ...]) -> int | None:
         least = 0
@@ -183,12 +185,46 @@ def least_flowtime(scenario: Scenario) -> int | None:
         if best[tick, states] < cost:
             continue
         for chosen in fleet.together(states, tick):
+            if _is_late(states, chosen, tick, latest):
+                continue
             after = (min(tick + 1, horizon), tuple(each[0] for each in chosen))
             total = cost + sum(w * each[2] for w, each in zip(weights, chosen, strict=True))
             if total < best.get(after, total + 1) and (left := least_left(after[1])) is not None:
                 best[after] = total
                 heappush(heap, (total + left, -total, *after))
     return None
+
+
+def _is_late(
+    states: tuple[State, ...], chosen: Sequence[Action], tick: int, latest: int | None
+) -> bool:
+    """Tell whether a robot completes too late, or is still on its way then."""
+    return latest is not None and any(
+        not before.is_done and tick + action[2] > latest
+        for before, action in zip(states, chosen, strict=True)
+    )
+
+
+def least_value(objective: Objective, scenario: Scenario) -> int | None:
+    """Return the least value of a plan [ticks], None where there is no plan.
+
+    By the flowtime, weighted; by the makespan; or by both, for each tick that may be the makespan.
+    """
+    if objective is Objective.MAKESPAN:
+        return least_makespan(scenario)
+    flowtime = least_flowtime(scenario)
+    if objective is not Objective.BOTH or flowtime is None:
+        return flowtime
+    weight = sum(itinerary.weight for itinerary in scenario.problem.itineraries)
+    makespan, best = least_makespan(scenario), None
+    assert makespan is not None
+    while best is None or weight * makespan + flowtime < best:
+        cost = least_flowtime(scenario, makespan)
+        if cost is not None:
+            value = weight * makespan + cost
+            best = value if best is None else min(best, value)
+        makespan += 1
+    return best
 
 
 def least_makespan(scenario: Scenario) -> int | None:

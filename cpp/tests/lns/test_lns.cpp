@@ -33,6 +33,32 @@ TEST_CASE("improvement never loses, and does not depend on the number of threads
     }
 }
 
+TEST_CASE("improvement of a makespan never loses, on any number of threads") {
+    const Crossing crossing(8);
+    const Problem problem(crossing.arrays(), {0, true});
+    SharedDistances distances(problem);
+    const auto bounds = alone(distances);
+    const FleetPlan by_flowtime = planned(distances);
+    for (const Objective objective : {Objective::makespan, Objective::both}) {
+        FleetPlan first(problem, objective);
+        for (RobotId robot = 0; robot < problem.n_robots(); ++robot) {
+            TimedTrack track = by_flowtime.track(robot);
+            first.exchange(robot, track);
+        }
+        std::vector<FleetPlan> plans(2, first);
+        for (std::size_t k = 0; k < plans.size(); ++k) {
+            Lns improver(distances, plans[k], bounds, 5, k + 1);
+            improver.run(300, 1000, test::no_deadline, test::no_deadline);
+            CHECK(is_sound(distances, plans[k]));
+            CHECK(plans[k].worth() < first.worth());
+            CHECK(plans[k].worth() == plans[0].worth());
+        }
+        const Tick makespan = plans[0].makespan();
+        const Tick total = problem.total_weight() * makespan + plans[0].cost();
+        CHECK(plans[0].worth().value == (objective == Objective::makespan ? makespan : total));
+    }
+}
+
 TEST_CASE("what the caller throws comes back when the plan is whole") {
     const Crossing crossing(8);
     const Problem problem(crossing.arrays(), {0, true});

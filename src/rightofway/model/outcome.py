@@ -30,12 +30,17 @@ class Objective(StrEnum):
         whole numbers in the ratio of the weights of robots.
     MAKESPAN
         The latest completion time.
+    BOTH
+        The makespan and the completion time of each robot, by weights, summed over the robots: as
+        much as the makespan by the weight of the fleet, and all that robots lose to each other,
+        apart from what they need alone.
     """
 
     FLOWTIME = "flowtime"
     COST = "flowtime and surcharges"
     WEIGHTED = "weighted flowtime"
     MAKESPAN = "makespan"
+    BOTH = "makespan and flowtime"
 
     @checks_arguments
     def of(self, scenario: Scenario, tracks: Sequence[Track]) -> Tick:
@@ -54,7 +59,19 @@ class Objective(StrEnum):
         if self is Objective.COST:
             return Tick(sum(compute_costs(scenario, tracks)))
         completions = completions_of(scenario, tracks)
-        return Tick(sum(completions)) if self is Objective.FLOWTIME else max(completions)
+        if self is Objective.FLOWTIME:
+            return Tick(sum(completions))
+        latest = max(completions)
+        if self is Objective.MAKESPAN:
+            return latest
+        weights = [itinerary.weight for itinerary in scenario.problem.itineraries]
+        both = zip(weights, completions, strict=True)
+        return Tick(sum(weight * (latest + completion) for weight, completion in both))
+
+    @property
+    def has_makespan(self) -> bool:
+        """Whether a later makespan makes it worse."""
+        return self in {Objective.MAKESPAN, Objective.BOTH}
 
 
 def minimized(scenario: Scenario) -> Objective:

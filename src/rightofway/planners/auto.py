@@ -11,18 +11,18 @@ better.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 from rightofway.errors import GaveUp, InputError, NoPlanExists
-from rightofway.model import Proof, Tick, Track, cost_of
-from rightofway.model.outcome import minimized
+from rightofway.model import Objective, Proof, Tick
 from rightofway.phrases import Phrase, say_count
 from rightofway.planners.bounds import SHARE as SHARE_OF_NODES
 from rightofway.planners.bounds import compute_price_bound, explain_optimum
 from rightofway.planners.features import refuse_with_swaps_left
 from rightofway.planners.impossible import find_blocking_set
 from rightofway.planners.lns import improve_best, lns
+from rightofway.planners.makespan import MakespanSearch, measure_alone
+from rightofway.planners.objectives import find_objective, list_weights, measure_worth
 from rightofway.planners.prioritized import make_fleet_search
 from rightofway.planners.task import Draft, Task
 from rightofway.planners.two_level import paper, two_level
@@ -87,7 +87,7 @@ def _explained(task: Task) -> Draft | None:
     """Return the plan of two-level for a small fleet, unless a plan given is better."""
     if len(task.scenario.robots) > FEW:
         return None
-    options = {"swaps": "resolve", "routes": "clear"}
+    options = {**task.options, "swaps": "resolve", "routes": "clear"}
     hurried = replace(task, options=options, start=None, deadline=task.deadline.shorten(SHARE))
     try:
         explained = two_level(hurried)
@@ -96,7 +96,7 @@ def _explained(task: Task) -> Draft | None:
     task.has_plan()
     task.better(lambda: explained.tracks)
     is_given = task.start is not None and explained.tracks != task.start
-    if is_given and _cost(task, task.start or ()) <= _cost(task, explained.tracks):
+    if is_given and measure_worth(task, task.start or ()) <= measure_worth(task, explained.tracks):
         return None
     return replace(
         explained, status=Phrase("{first}, {second}", first="two-level", second=explained.status)
@@ -114,7 +114,7 @@ def _improved(task: Task, first: Draft | None) -> Draft:
             better = replace(lns(replace(task, start=first.tracks)), proof=first.proof)
     except GaveUp:
         return first
-    if _cost(task, better.tracks) < _cost(task, first.tracks):
+    if measure_worth(task, better.tracks) < measure_worth(task, first.tracks):
         return better
     return replace(first, status=better.status, improvement=better.improvement)
 
@@ -129,11 +129,13 @@ class _Prover:
 
     def prove(self, draft: Draft, nodes: int, share: float = 1.0) -> Draft:
         """Return a plan with what is proven of it, or the optimum."""
-        task = self._task
-        search = self._run(nodes, share, upper=_cost(task, draft.tracks))
+        task, objective = self._task, find_objective(self._task)
+        if objective.has_makespan:
+            return self._prove_with_makespan(draft, nodes, share)
+        search = self._run(nodes, share, upper=measure_worth(task, draft.tracks)[0])
         if search is None or search.bound is None:
             return draft
-        proof = Proof(bound=search.bound, objective=minimized(task.scenario))
+        proof = Proof(bound=search.bound, objective=objective)
         tracks, done = search.tracks, _nodes_of(search)
         if tracks is not None:
             task.better(lambda: tracks)
@@ -146,15 +148,45 @@ class _Prover:
             draft = replace(draft, status=status)
         return replace(draft, proof=proof)
 
+    def _prove_with_makespan(self, draft: Draft, nodes: int, share: float) -> Draft:
+        task = self._task
+        if len(task.scenario.robots) > MOST_PROVEN or not self._has_time():
+            return draft
+        search = MakespanSearch(
+            task=replace(task, deadline=task.deadline.shorten(share)),
+            trees=lambda latest: ConflictBasedSearch(task.scenario.problem, latest=latest),
+            tracks=draft.tracks,
+            nodes=nodes,
+        )
+        search.run()
+        proof = Proof(bound=Tick(search.bound), objective=find_objective(task))
+        done = _nodes_of(search)
+        if search.value == search.bound:
+            status = Phrase(
+                "optimal: proven by {nodes} ({status})", nodes=done, status=draft.status
+            )
+            if search.tracks is not draft.tracks:
+                status = Phrase("optimal: found by {nodes}", nodes=done)
+            draft = replace(draft, status=status)
+        if search.tracks is not draft.tracks:
+            return Draft(tracks=search.tracks, status=draft.status, proof=proof)
+        return replace(draft, proof=proof)
+
     def prove_by_prices(self, draft: Draft) -> Draft:
         """Return a plan with a bound by prices of places, where that is higher."""
         task = self._task
         if not self._has_time():
             return draft
+        objective = find_objective(task)
+        if objective is Objective.MAKESPAN:
+            return draft  # prices add up what robots lose
         least = compute_price_bound(task.scenario, task.deadline, task.options["nodes"])
+        if objective is Objective.BOTH:
+            weight = sum(list_weights(task.scenario))
+            least = Tick(least + weight * max(measure_alone(task)))
         if draft.proof is not None and draft.proof.bound >= least:
             return draft
-        return replace(draft, proof=Proof(bound=least, objective=minimized(task.scenario)))
+        return replace(draft, proof=Proof(bound=least, objective=objective))
 
     def search(self) -> Draft | None:
         """Return the optimum of a fleet of which no plan is known; None if none was found.
@@ -170,8 +202,13 @@ class _Prover:
             return None
         if search.tracks is not None:
             task.has_plan()
-            proof = Proof(bound=search.bound or Tick(0), objective=minimized(task.scenario))
             status = Phrase("optimal: found by {nodes}", nodes=_nodes_of(search))
+            objective = find_objective(task)
+            if objective.has_makespan:
+                status = Phrase("found by {nodes}", nodes=_nodes_of(search))
+                draft = Draft(tracks=search.tracks, status=status)
+                return self.prove(draft, task.options["nodes"])
+            proof = Proof(bound=search.bound or Tick(0), objective=objective)
             return Draft(tracks=search.tracks, status=status, proof=proof)
         if search.is_proven:
             everybody = range(len(task.scenario.robots))
@@ -201,15 +238,11 @@ class _Prover:
         return left is None or left > LEAST_IDLE * (self._whole or 0)
 
 
-def _nodes_of(search: ConflictBasedSearch) -> str:
+def _nodes_of(search: ConflictBasedSearch | MakespanSearch) -> str:
     nodes = say_count(search.n_nodes, "node", "nodes")
     return Phrase("{nodes} of conflict-based search", nodes=nodes)
 
 
 def _is_optimal(task: Task, draft: Draft) -> bool:
     """Return whether a plan is proven to be optimal."""
-    return draft.proof is not None and _cost(task, draft.tracks) == draft.proof.bound
-
-
-def _cost(task: Task, tracks: Sequence[Track]) -> Tick:
-    return cost_of(task.scenario, tracks)
+    return draft.proof is not None and measure_worth(task, draft.tracks)[0] == draft.proof.bound

@@ -31,22 +31,21 @@ from fractions import Fraction
 from math import ceil
 from typing import Any
 
-from rightofway.errors import GaveUp, InputError, NoPlanExists
-from rightofway.model import Proof, Tick, completions_of, cost_of
+from rightofway.errors import GaveUp, NoPlanExists
+from rightofway.model import Proof, Tick, cost_of
 from rightofway.model.outcome import Objective, minimized
 from rightofway.phrases import Phrase, say_count
 from rightofway.planners.bounds import explain_optimum
 from rightofway.planners.impossible import find_blocking_set
 from rightofway.planners.lns import improve_best
+from rightofway.planners.makespan import MakespanSearch
+from rightofway.planners.objectives import find_objective
 from rightofway.planners.prioritized import make_fleet_search
 from rightofway.planners.task import Draft, Task
-from rightofway.search import ConflictBasedSearch, compute_least_completions
+from rightofway.search import ConflictBasedSearch
 
 SHARE = 0.25
 """The part of the time for the first plan."""
-
-SHARE_OF_TREE = 0.5
-"""The part of the time left for one tree of the search for the least makespan."""
 
 ITERATIONS_PER_ROBOT = 200
 """How many neighbourhoods of the first plan are replanned for each robot."""
@@ -54,13 +53,10 @@ ITERATIONS_PER_ROBOT = 200
 
 def cbs(task: Task) -> Draft:
     """Plan a fleet with least flowtime and surcharges, or makespan; options: `CbsOptions`."""
-    is_of_makespan = task.options["objective"] == "makespan"
-    if is_of_makespan and task.scenario.roadmap.has_surcharges:
-        message = "makespan leaves out the surcharges of the roadmap (minimize the flowtime)"
-        raise InputError.at(("options", "objective"), message)
+    has_makespan = find_objective(task).has_makespan
     first = _first_plan(task)
-    if is_of_makespan:
-        return _of_least_makespan(task, first or _of_least_flowtime(task, None))
+    if has_makespan:
+        return _with_makespan(task, first or _of_least_flowtime(task, None))
     return explain_optimum(task, _of_least_flowtime(task, first))
 
 
@@ -145,51 +141,28 @@ def _of_least_flowtime(task: Task, first: Draft | None) -> Draft:
     return Draft(tracks=tracks, status=status, proof=proof)
 
 
-def _of_least_makespan(task: Task, first: Draft) -> Draft:
-    """Return a plan whose last robot completes as early as is proven to be possible, or nearly.
-
-    A tree whose tracks may not complete after some tick ends without a plan, or with one. The ticks
-    between the last robot alone and the best plan are halved by such trees. Where one ends
-    undecided, only later ticks are tried.
-    """
-    scenario, factor = task.scenario, Fraction(task.options["suboptimality"])
-    tracks, best = first.tracks, max(completions_of(scenario, first.tracks))
-    alone = compute_least_completions(scenario)
-    assert alone is not None, "there is no time limit"
-    bound = tried = latest = int(alone.max())  # no plan is below the bound; no tick is tried again
-    left = task.options["nodes"] or None
-    n_nodes = 0
-    while tried < best and best > factor * bound and (left is None or left > 1):
-        seconds = task.deadline.shorten(SHARE_OF_TREE).measure_seconds_left()
-        if seconds == 0:
-            break
-        search = _search(task, latest=latest)
-        try:
-            search.run(nodes=left and -(-left // 2), time_limit=seconds)
-        except KeyboardInterrupt:
-            if not task.keep_best:
-                raise
-            break
-        n_nodes += search.n_nodes
-        left = left and left - search.n_nodes
-        if search.tracks is not None:
-            tracks, best = search.tracks, max(completions_of(scenario, search.tracks))
-        else:
-            if search.is_proven:
-                bound = latest + 1
-            tried = latest + 1
-        latest = (tried + best - 1) // 2
-    kind = Phrase("optimal") if best == bound else Phrase("best found")
+def _with_makespan(task: Task, first: Draft) -> Draft:
+    """Return the best plan by its makespan, or its makespan and flowtime, with what is proven."""
+    objective, factor = find_objective(task), Fraction(task.options["suboptimality"])
+    search = MakespanSearch(
+        task=task,
+        trees=lambda latest: _search(task, latest=latest),
+        tracks=first.tracks,
+        nodes=task.options["nodes"],
+        factor=factor,
+    )
+    search.run()
     status = Phrase(
-        "{kind}: {nodes} for the makespan (first plan: {status})",
-        kind=kind,
-        nodes=say_count(n_nodes, "node", "nodes"),
+        "{kind}: {nodes} for the {objective} (first plan: {status})",
+        kind=Phrase("optimal") if search.value == search.bound else Phrase("best found"),
+        nodes=say_count(search.n_nodes, "node", "nodes"),
+        objective=Phrase(objective.value),
         status=first.status,
     )
     proof = Proof(
-        bound=Tick(bound), objective=Objective.MAKESPAN, factor=factor if factor > 1 else None
+        bound=Tick(search.bound), objective=objective, factor=factor if factor > 1 else None
     )
-    return Draft(tracks=tracks, status=status, proof=proof)
+    return Draft(tracks=search.tracks, status=status, proof=proof)
 
 
 def _first_plan(task: Task) -> Draft | None:
@@ -198,7 +171,9 @@ def _first_plan(task: Task) -> Draft | None:
         return Draft(tracks=task.start, status=Phrase("the plan given"))
     iterations = ITERATIONS_PER_ROBOT * len(task.scenario.robots)
     hurried = replace(
-        task, options={"iterations": iterations}, deadline=task.deadline.shorten(SHARE)
+        task,
+        options={"iterations": iterations, "objective": task.options["objective"]},
+        deadline=task.deadline.shorten(SHARE),
     )
     try:
         return improve_best(hurried, make_fleet_search(hurried))

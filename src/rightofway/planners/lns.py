@@ -20,13 +20,16 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
-import numpy as np
-
 from rightofway.errors import GaveUp
-from rightofway.model import Improvement, Tick, Track, cost_of
-from rightofway.model.outcome import minimized
+from rightofway.model import Improvement, Objective, Tick, Track
 from rightofway.phrases import Phrase, chain_items, say_count
 from rightofway.planners.lacam import plan_by_instants, plan_fleet
+from rightofway.planners.objectives import (
+    compute_value,
+    find_objective,
+    list_weights,
+    measure_worth,
+)
 from rightofway.planners.prioritized import MOST_ROBOTS, make_fleet_search, plan_in_turn
 from rightofway.planners.task import Draft, Task, make_planning_problem
 from rightofway.precedence import build_graph_of_plan
@@ -86,7 +89,7 @@ def improve_best(task: Task, search: FleetSearch, *, first: Draft | None = None)
         plans = [together] if together is not None else []
     if not plans:
         raise GaveUp("time ran out before there was a first plan (give a longer time limit)")
-    best = min(plans, key=lambda plan: cost_of(task.scenario, plan.tracks))
+    best = min(plans, key=lambda plan: measure_worth(task, plan.tracks))
     proof = None if first is None else first.proof
     return _improve(task, search, replace(best, proof=proof))
 
@@ -146,15 +149,21 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     is_open = task.scenario.problem.closures is None
     retiming = RETIMING if is_open else RETIMING_AMONG_CLOSURES
     deadline = task.deadline.bring_forward(retiming * sum(map(len, spaced)))
-    weights = [itinerary.weight for itinerary in task.scenario.problem.itineraries]
-    alone, before = int(np.dot(weights, search.compute_alone())), search.cost
+    objective = find_objective(task)
+    weights, fastest = list_weights(task.scenario), search.compute_alone().tolist()
+    alone, least_cost = compute_value(objective, weights, fastest)
     bound = alone if first.proof is None else max(alone, first.proof.bound)
+    has_ties = objective is Objective.MAKESPAN  # plans of one makespan that differ in flowtime
+    before = search.value, search.cost
     patience = PATIENCE * len(task.scenario.robots)
     iterations = task.options["iterations"] or UNLIMITED
     done, is_interrupted = 0, False
     try:
-        while search.cost != bound and done < iterations:
-            began, done_before, cost = time.perf_counter(), done, search.cost
+        while done < iterations:
+            if search.value == bound and (not has_ties or search.cost == least_cost):
+                break
+            began, done_before = time.perf_counter(), done
+            reached = search.value, search.cost
             done += search.improve(
                 iterations - done,
                 patience=patience,
@@ -162,27 +171,26 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
                 pause=BETWEEN_REPORTS,
             )
             rate = (done - done_before) / (time.perf_counter() - began)
-            if search.cost < cost:
+            if (search.value, search.cost) < reached:
                 task.better(search.list_tracks)
-            task.report(_progress(task, search.cost, bound, rate))
+            task.report(_progress(task, search.value, bound, rate))
             if search.idle >= patience or deadline.measure_seconds_left() == 0:
                 break
     except KeyboardInterrupt:
         if not task.keep_best:
             raise
         is_interrupted = True
-    tracks = _found(task, search, tuple(spaced), is_better=search.cost < before)
-    measured = partial(cost_of, task.scenario)
-    cost = measured(tracks)
+    tracks = _found(task, search, tuple(spaced), is_better=(search.value, search.cost) < before)
+    rated = partial(measure_worth, task)
     status = Phrase(
         "optimal: every robot as fast as alone (first plan: {status})", status=first.status
     )
-    if cost != alone:
-        is_better = cost != before
+    if rated(tracks)[1] != least_cost:
+        is_better = rated(tracks) != before
         status = _status(first, done, is_better=is_better, is_interrupted=is_interrupted)
-    if spaced is not first.tracks and measured(tracks) > measured(first.tracks):
+    if spaced is not first.tracks and rated(tracks) > rated(first.tracks):
         tracks = first.tracks  # the headway of planning costs more than the search gained
-    saved = measured(first.tracks) - measured(tracks)
+    saved = rated(first.tracks)[0] - rated(tracks)[0]
     gain = Improvement(saved=Tick(saved), tries=done, interrupted=is_interrupted)
     return Draft(tracks=tracks, status=status, improvement=gain, proof=first.proof)
 
@@ -190,7 +198,7 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
 def _progress(task: Task, cost: int, bound: int, rate: float) -> str:
     """Return what the search has reached."""
     reached = task.scenario.quantities.format_duration(cost)
-    figures = [Phrase("{cause} {time}", cause=str(minimized(task.scenario)), time=reached)]
+    figures = [Phrase("{cause} {time}", cause=str(find_objective(task)), time=reached)]
     if bound:
         figures.append(Phrase("{gap} above the bound", gap=f"{cost / bound - 1:.1%}"))
     figures.append(Phrase("{rate} attempts per s", rate=f"{rate:.0f}"))

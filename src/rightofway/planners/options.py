@@ -189,10 +189,18 @@ Iterations = Annotated[
 ]
 
 
+ObjectiveOption = Annotated[
+    Literal["flowtime", "makespan", "both"],
+    "Minimize the flowtime, by weights and with surcharges; or the latest completion time, then the"
+    " flowtime; or both, the latest completion time as much as all others together.",
+]
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AutoOptions(PlannerOptions):
     """Options of ``auto``."""
 
+    objective: ObjectiveOption = "flowtime"
     swaps: Swaps = "resolve"
     iterations: Iterations = 0
     nodes: Annotated[
@@ -206,6 +214,7 @@ class AutoOptions(PlannerOptions):
 class TwoLevelOptions(PlannerOptions):
     """Options of ``two-level``."""
 
+    objective: ObjectiveOption = "flowtime"
     swaps: Swaps = "resolve"
     routes: Routes = "clear"
 
@@ -266,6 +275,7 @@ class PrioritizedOptions(PlannerOptions):
 class LnsOptions(PlannerOptions):
     """Options of ``lns``."""
 
+    objective: ObjectiveOption = "flowtime"
     iterations: Iterations = 0
 
 
@@ -273,10 +283,7 @@ class LnsOptions(PlannerOptions):
 class CbsOptions(PlannerOptions):
     """Options of ``cbs``."""
 
-    objective: Annotated[
-        Literal["flowtime", "makespan"],
-        "Minimize the flowtime, by weights and with surcharges; or the latest completion time.",
-    ] = "flowtime"
+    objective: ObjectiveOption = "flowtime"
     suboptimality: Annotated[
         Fraction,
         Least(1),

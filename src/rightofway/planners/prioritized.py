@@ -24,6 +24,7 @@ from rightofway.model import Scenario, Stop, cost_of
 from rightofway.phrases import Phrase
 from rightofway.planners.impossible import refuse_stranded
 from rightofway.planners.lacam import build_timetable, plan_fleet
+from rightofway.planners.objectives import find_objective
 from rightofway.planners.task import Draft, Task, make_planning_problem
 from rightofway.precedence import build_graph_of_plan
 from rightofway.search import FleetSearch
@@ -65,7 +66,12 @@ def prioritized(task: Task) -> Draft:
 def make_fleet_search(task: Task) -> FleetSearch:
     """Return the search for a fleet; `NoPlanExists` if a robot cannot do its trip alone."""
     scenario = task.scenario
-    search = FleetSearch(make_planning_problem(scenario), seed=task.seed, alone=task.alone)
+    search = FleetSearch(
+        make_planning_problem(scenario),
+        seed=task.seed,
+        alone=task.alone,
+        objective=find_objective(task),
+    )
     refuse_stranded(scenario, np.flatnonzero(search.compute_alone() < 0).tolist())
     return search
 

@@ -40,6 +40,7 @@ from rightofway.planners.conflict_resolution import (
     plan_on_routes,
 )
 from rightofway.planners.features import refuse_with_swaps_left
+from rightofway.planners.objectives import compute_value, find_objective
 from rightofway.planners.routing import choose_routes
 from rightofway.planners.task import Draft, Task
 from rightofway.precedence import Meeting, Segment
@@ -60,10 +61,15 @@ class _Option:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _MovementGroup:
-    """All conflicts of two robots resolved, and the sum of both completion times [ticks]."""
+    """All conflicts of two robots resolved, and the sum of both completion times [ticks].
+
+    ``value`` is what the objective of the planner makes of the two completion times: for the
+    flowtime of robots of one weight their sum, as published.
+    """
 
     resolution: Resolution
     completion_sum: int
+    value: tuple[int, int]
 
 
 def two_level(task: Task) -> Draft:
@@ -97,7 +103,7 @@ def plan_by_two_levels(plan: PartialPlan, meeting: Meeting) -> Resolution | None
         return first.resolution
     two = _follow(plan, i, j, on_tie=1)
     sums = tuple(None if group is None else group.completion_sum for group in (first, two))
-    first_wins = two is None or (first is not None and first.completion_sum <= two.completion_sum)
+    first_wins = two is None or (first is not None and first.value <= two.value)
     winner = first if first_wins else two
     if winner is None:
         return None
@@ -200,10 +206,14 @@ def _follow(plan: PartialPlan, i: int, j: int, *, on_tie: int) -> _MovementGroup
         decisions.append(replace(decision, level=chosen.level, conflicts_left=(left[0], left[1])))
         graph.give_all(chosen.rights)
         rights += chosen.rights
-    completion_sum = graph.get_completion(i) + graph.get_completion(j)
+    completions = graph.get_completion(i), graph.get_completion(j)
     graph.rollback(mark)
-    resolution = Resolution(decisions=tuple(decisions), rights=tuple(rights))
-    return _MovementGroup(resolution=resolution, completion_sum=completion_sum)
+    weights = [plan.task.scenario.problem.itineraries[robot].weight for robot in (i, j)]
+    return _MovementGroup(
+        resolution=Resolution(decisions=tuple(decisions), rights=tuple(rights)),
+        completion_sum=sum(completions),
+        value=compute_value(find_objective(plan.task), weights, completions),
+    )
 
 
 def _attempt(plan: PartialPlan, meeting: Meeting, segment: Segment, waits: int) -> _Option | None:

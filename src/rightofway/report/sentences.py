@@ -30,7 +30,9 @@ from rightofway.values import format_number
 OBJECTIVES: Mapping[Objective, Phrase] = {
     Objective.FLOWTIME: Phrase("flowtime"),
     Objective.COST: Phrase("flowtime and surcharges"),
+    Objective.WEIGHTED: Phrase("weighted flowtime"),
     Objective.MAKESPAN: Phrase("makespan"),
+    Objective.BOTH: Phrase("makespan and flowtime"),
 }
 """What people call that which planners minimize."""
 
@@ -103,8 +105,10 @@ def describe_proof(plan: Plan) -> str:
         return Phrase(
             "at most {factor} times the least {objective}", factor=factor, objective=objective
         )
-    is_above_alone = outcome.bound is not None and outcome.bound > metrics.lower_bound
-    if outcome.kind is OutcomeKind.BEST_FOUND and outcome.bound and is_above_alone:
+    says_more = outcome.objective not in {Objective.FLOWTIME, Objective.COST} or (
+        outcome.bound is not None and outcome.bound > metrics.lower_bound
+    )
+    if outcome.kind is OutcomeKind.BEST_FOUND and outcome.bound and says_more:
         cost = plan.compute_value(outcome.objective)
         return Phrase(
             "at most {gap} above the least {objective}",
@@ -256,23 +260,28 @@ def summarize_decision(words: Words, decision: Decision) -> tuple[Phrase, Phrase
     cost: Phrase = Phrase("no time lost")
     if decision.ticks:
         cost = Phrase("loses {time}", time=words.say_time(decision.ticks))
-    moment, why = words.say_moment(decision.tick), _why(decision)
+    moment, why = words.say_moment(decision.tick), _why(words, decision)
     return head, Phrase("at {moment} · {cost} · {why}", moment=moment, cost=cost, why=why)
 
 
-def _why(decision: Decision) -> Phrase:
+REASONS: Mapping[str, Phrase] = {
+    "node": Phrase("fewer conflicts left"),
+    "settled": Phrase("the other one is settled"),
+    "priority": Phrase("by priority"),
+    "only": Phrase("the only way"),
+}
+"""Why a robot goes first, by the level of a decision that looks at no times."""
+
+
+def _why(words: Words, decision: Decision) -> Phrase:
     """Return why a robot goes first, in few words."""
+    reason = REASONS.get(decision.level)
+    if reason is not None:
+        return reason
+    if not _adds_up_times(words):
+        return Phrase("better for both")
     if _is_tie(decision):
         return Phrase("a tie: either choice costs the same")
-    match decision.level:
-        case "node":
-            return Phrase("fewer conflicts left")
-        case "settled":
-            return Phrase("the other one is settled")
-        case "priority":
-            return Phrase("by priority")
-        case "only":
-            return Phrase("the only way")
     return Phrase("both done sooner in all")
 
 
@@ -318,6 +327,13 @@ def goes_first(decision: Decision) -> int:
     return first_robot if decision.waits == other else other
 
 
+def _adds_up_times(words: Words) -> bool:
+    """Return whether the planner chose by the sum of two completion times."""
+    plan = words.plan
+    has_weights = any(robot.weight != 1 for robot in plan.scenario.robots)
+    return plan.run.options.get("objective", "flowtime") == "flowtime" and not has_weights
+
+
 def _is_tie(decision: Decision) -> bool:
     sums = decision.completion_sums
     return decision.level == "robot" and sums is not None and sums[0] == sums[1]
@@ -351,15 +367,18 @@ def describe_reason(words: Words, decision: Decision) -> Phrase:
                 **names,
             )
         case "robot":
-            sums = _sums_in_words(decision, names["waits"])
+            sums = _sums_in_words(words, decision, names["waits"])
             return Phrase(
                 "Robot level: either choice leaves as many conflicts in the whole system{sums}",
                 sums=sums,
             )
 
 
-def _sums_in_words(decision: Decision, waits: str) -> Phrase:
+def _sums_in_words(words: Words, decision: Decision, waits: str) -> Phrase:
     """Return how the completion times decide, where the conflicts left are equal."""
+    has_both = None not in (decision.completion_sums or ())
+    if has_both and not _adds_up_times(words):
+        return Phrase(", so the objective decides: by the completion times of the two robots.")
     if _is_tie(decision):
         return Phrase(
             ", and the completion times add up to the same. Then {waits} waits by rule.",

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, quote
-from rightofway.model import Problem, Scenario, Tick, Track
+from rightofway.model import Objective, Problem, Scenario, Tick, Track
 from rightofway.model.given import checked_scenario, require_index, require_number, require_seed
 from rightofway.native import bind_native, make_tracks
 
@@ -39,6 +39,16 @@ def compute_least_completions(
     return search.alone(time_limit)
 
 
+_NATIVE = {
+    Objective.FLOWTIME: _core.Objective.flowtime,
+    Objective.COST: _core.Objective.flowtime,
+    Objective.WEIGHTED: _core.Objective.flowtime,
+    Objective.MAKESPAN: _core.Objective.makespan,
+    Objective.BOTH: _core.Objective.both,
+}
+"""The problem knows weights and surcharges."""
+
+
 class FleetSearch:
     """A fleet and its tracks, kept in the native core while they are being worked on.
 
@@ -52,6 +62,8 @@ class FleetSearch:
         How many threads improve the plan; the plan does not depend on it. None or 0: all cores.
     alone
         What `compute_least_completions` returned for the same trips [ticks], where that is known.
+    objective
+        What `improve` minimizes. Of plans with equal makespan it prefers those of less flowtime.
     """
 
     def __init__(
@@ -61,10 +73,15 @@ class FleetSearch:
         seed: int = 0,
         threads: int | None = None,
         alone: NDArray[np.int64] | None = None,
+        objective: Objective = Objective.FLOWTIME,
     ) -> None:
         n_threads = _cores() if threads is None else require_number("threads", threads, 0, 1024)
         self._core = _core.FleetSearch(
-            bind_native(problem), require_seed(seed), n_threads or _cores(), alone
+            bind_native(problem),
+            require_seed(seed),
+            n_threads or _cores(),
+            alone,
+            _NATIVE[objective],
         )
         self._n_robots = len(problem.itineraries)
 
@@ -78,6 +95,11 @@ class FleetSearch:
     def cost(self) -> Tick:
         """The sum of completions and surcharges of all robots with a track [ticks]."""
         return Tick(self._core.cost)
+
+    @property
+    def value(self) -> Tick:
+        """The value of the objective [ticks]."""
+        return Tick(self._core.value)
 
     @property
     def idle(self) -> int:

@@ -56,9 +56,13 @@ class OutcomeDocument(Document):
     kind: Literal["optimal", "bounded", "best found", "no plan exists", "gave up"] = Field(
         description="optimal, bounded, best found, no plan exists, or gave up"
     )
-    objective: Literal["flowtime", "flowtime and surcharges", "weighted flowtime", "makespan"] = (
-        Field(default="flowtime", description="flowtime, flowtime and surcharges, or makespan")
-    )
+    objective: Literal[
+        "flowtime",
+        "flowtime and surcharges",
+        "weighted flowtime",
+        "makespan",
+        "makespan and flowtime",
+    ] = Field(default="flowtime", description="what the planner minimized")
     bound: Ticks | None = Field(
         default=None,
         description="no plan has a smaller one: a whole number of ticks, or null",

@@ -1,0 +1,143 @@
+"""The least makespan by conflict-based search, and the least sum of makespan and flowtime.
+
+A tree whose tracks may not complete after some tick has the plan of least flowtime among those
+within that tick, or the proof that there is none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+
+from rightofway.model import Objective, Tick, Track, completions_of
+from rightofway.planners.objectives import (
+    compute_value,
+    find_objective,
+    list_weights,
+    measure_worth,
+)
+from rightofway.planners.task import Task
+from rightofway.search import ConflictBasedSearch, compute_least_completions
+
+SHARE_OF_TREE = 0.5
+"""The part of the time left for one tree."""
+
+Trees = Callable[[int | None], ConflictBasedSearch]
+"""Makes a tree whose tracks may not complete after a tick; None for any tick."""
+
+
+def measure_alone(task: Task) -> list[int]:
+    """Return the least completion of each robot without the others [ticks]."""
+    alone = task.alone
+    if alone is None:
+        alone = compute_least_completions(task.scenario)
+    assert alone is not None, "there is no time limit"
+    return [int(ticks) for ticks in alone]
+
+
+@dataclass
+class MakespanSearch:
+    """A plan, the best so far, and what is proven of it.
+
+    Attributes
+    ----------
+    tracks
+        The plan.
+    bound
+        No plan has a smaller value of the objective [ticks].
+    n_nodes
+        The nodes of all trees.
+    """
+
+    task: Task
+    trees: Trees
+    tracks: tuple[Track, ...]
+    nodes: int
+    factor: Fraction = Fraction(1)
+    n_nodes: int = 0
+
+    def __post_init__(self) -> None:
+        alone = measure_alone(self.task)
+        self._objective = find_objective(self.task)
+        self._weights = list_weights(self.task.scenario)
+        self._longest = max(alone)
+        self.bound = compute_value(self._objective, self._weights, alone)[0]
+        self._left = self.nodes or None
+
+    @property
+    def value(self) -> Tick:
+        """The value of the plan [ticks]."""
+        return measure_worth(self.task, self.tracks)[0]
+
+    def run(self) -> None:
+        """Search until the plan is proven, or time or nodes are used up."""
+        try:
+            if self._objective is Objective.MAKESPAN:
+                self._halve()
+            else:
+                self._descend()
+        except KeyboardInterrupt:
+            if not self.task.keep_best:
+                raise
+
+    def _halve(self) -> None:
+        """Halve the ticks between the last robot alone and the best plan.
+
+        Where a tree ends undecided, only later ticks are tried.
+        """
+        best = self.value
+        tried = latest = self.bound  # no tick is tried again
+        while tried < best and best > self.factor * self.bound:
+            tree = self._grow(latest, None)
+            if tree is None:
+                return
+            if tree.tracks is not None:
+                self._take(tree.tracks)
+                best = self.value
+            else:
+                if tree.is_proven:
+                    self.bound = latest + 1
+                tried = latest + 1
+            latest = (tried + best - 1) // 2
+
+    def _descend(self) -> None:
+        """Take the plan of least flowtime, then that among the plans of less makespan, and so on.
+
+        Plans within a tick have at least the flowtime of those within a later one. So the bound of
+        a tree, with the makespan of the last robot alone, holds for all plans that are left.
+        """
+        latest: int | None = None
+        share = sum(self._weights) * self._longest
+        while self.value > self.factor * self.bound:
+            tree = self._grow(latest, self.value - share)
+            if tree is None:
+                return
+            if tree.is_proven and tree.tracks is None:
+                self.bound = self.value
+                return
+            self.bound = min(self.value, max(self.bound, share + (tree.bound or 0)))
+            if tree.tracks is None:
+                return
+            self._take(tree.tracks)
+            latest = max(completions_of(self.task.scenario, tree.tracks)) - 1
+            if latest < self._longest:
+                self.bound = self.value
+                return
+
+    def _grow(self, latest: int | None, upper: int | None) -> ConflictBasedSearch | None:
+        """Return a tree that is grown; None where no time or no node is left."""
+        seconds = self.task.deadline.shorten(SHARE_OF_TREE).measure_seconds_left()
+        if seconds == 0 or (self._left is not None and self._left <= 1):
+            return None
+        tree = self.trees(latest)
+        tree.run(upper=upper, nodes=self._left and -(-self._left // 2), time_limit=seconds)
+        self.n_nodes += tree.n_nodes
+        self._left = self._left and self._left - tree.n_nodes
+        return tree
+
+    def _take(self, tracks: tuple[Track, ...]) -> None:
+        """Keep a plan where it is better."""
+        if measure_worth(self.task, tracks) < measure_worth(self.task, self.tracks):
+            self.tracks = tracks
+            self.task.better(lambda: tracks)
