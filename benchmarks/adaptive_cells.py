@@ -24,7 +24,7 @@ from matplotlib.ticker import PercentFormatter
 
 import rightofway
 from benchmarks.common import DOCS, IMAGES, plain_axes, save_figure, table, write_tables
-from rightofway.io import scenario_of
+from rightofway.io import parse_scenario
 from rightofway.metrics import measure
 from rightofway.model import Scenario
 from rightofway.site import Roadmap
@@ -81,7 +81,7 @@ def scenario(cut: str, ends: Ends) -> Scenario:
         "robots": robots,
         "rules": {"turn": 0},
     }
-    return scenario_of(document, MAPS)
+    return parse_scenario(document, MAPS)
 
 
 def points() -> tuple[list[Spot], Roadmap]:

@@ -68,7 +68,7 @@ def test_search_for_one_robot(benchmark: BenchmarkFixture, scenario: Scenario) -
 
 def test_search_for_the_fleet(benchmark: BenchmarkFixture, scenario: Scenario) -> None:
     def plan_in_steps() -> None:
-        tracks = plan_by_lacam(scenario.problem.in_steps(), spreads=False)
+        tracks = plan_by_lacam(scenario.problem.as_steps(), spreads=False)
         assert tracks is not None
         build_timetable(scenario, tracks)
 

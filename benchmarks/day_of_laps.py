@@ -46,7 +46,7 @@ def main() -> None:
         def take_down(tick: int) -> None:
             nonlocal largest, due
             journal.flush()
-            hours = float(clock.time(tick)) / 3600
+            hours = float(clock.convert_to_time(tick)) / 3600
             if hours < due:
                 return
             kilobytes = sum(file.stat().st_size for file in Path(name).iterdir()) / 1e3

@@ -142,7 +142,7 @@ def cases_of(family: Family, seed: int) -> tuple[list[Case], int]:
         least = best(tuple(routes))
         if flowtime is None or least is None:
             return []
-        alone = sum(route.least(visit) for route in routes for visit in range(len(route)))
+        alone = sum(route.compute_least(visit) for route in routes for visit in range(len(route)))
         return [Case(label, kind, seed, flowtime, least, alone, lower_bound)]
 
     found: list[Case] = []

@@ -108,7 +108,7 @@ def _peak() -> float:
 
 def measured(path: Path) -> None:
     """Print CPU time and the most memory of a process that opens a layout."""
-    from rightofway.io import read_layout, scenario_of
+    from rightofway.io import parse_scenario, read_layout
     from rightofway.site.layout import Layout
 
     begin = time.process_time()
@@ -120,7 +120,7 @@ def measured(path: Path) -> None:
         one, other, *_ = (vertex.name for vertex in found.levels[0].vertices)
         del found
         begin = time.process_time()
-        scenario_of(
+        parse_scenario(
             {
                 "format": "rightofway-scenario/1",
                 "map": {"layout": path.name},

@@ -59,7 +59,7 @@ PLOT_RUNS, PLOT_POLICY_RUNS = 1000, 50
 
 
 @cache
-def plan_of(fleet: str, planner: str) -> Plan:
+def make_plan(fleet: str, planner: str) -> Plan:
     """Return a plan; the same one for each kind of delay."""
     return rightofway.solve(FLEETS[fleet], planner, time_limit=LIMIT)
 
@@ -72,7 +72,7 @@ def runs_table() -> str:
     ):
         found, seconds = [], 0.0
         for fleet in FLEETS:
-            plan = plan_of(fleet, planner)
+            plan = make_plan(fleet, planner)
             began = time.perf_counter()
             found += [rightofway.simulate(plan, delays, RUNS) for delays in DELAYS.values()]
             seconds += time.perf_counter() - began
@@ -124,7 +124,7 @@ def policies_table() -> str:
 
 def plot() -> Figure:
     """Return the plot of docs/execution.md."""
-    plans = [plan_of(fleet, "local-search") for fleet in FLEETS]
+    plans = [make_plan(fleet, "local-search") for fleet in FLEETS]
     figure = Figure(figsize=(9, 3.6), layout="constrained")
     left, right = figure.subplots(1, 2)
     _draw_collisions(left, plans)

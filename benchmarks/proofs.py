@@ -24,7 +24,7 @@ import rightofway
 from benchmarks.common import SEEDS, movingai_fleet, table
 from rightofway.bench.fleets import make_scenario_document
 from rightofway.errors import GaveUp
-from rightofway.io import scenario_of
+from rightofway.io import parse_scenario
 from rightofway.model import OutcomeKind, Rules, Scenario
 from rightofway.planners.bounds import prove_bound
 
@@ -41,7 +41,7 @@ def fleet(folder: Path | None, name: str, robots: int, seed: int, *, classic: bo
         side, walls = name.split("x")
         grid = {"width": int(side), "height": int(side), "walls": int(walls) / 100, "seed": seed}
         drawn = {"speeds": [1], "work": [0, 0], "by_seed": False, "rules": {}}
-        scenario = scenario_of(make_scenario_document({"random": grid}, drawn, robots, seed))
+        scenario = parse_scenario(make_scenario_document({"random": grid}, drawn, robots, seed))
     else:
         scenario = movingai_fleet(folder, name, robots, seed)
     speeds = EQUAL if classic else SPEEDS

@@ -40,7 +40,7 @@ import numpy as np
 
 import rightofway
 from benchmarks.common import SEEDS, movingai_fleet, table
-from rightofway.io import scenario_of
+from rightofway.io import parse_scenario
 from rightofway.io.layouts.xml_tree import parse_xml
 from rightofway.metrics import measure
 from rightofway.model import Robot, Scenario, Stop
@@ -268,7 +268,7 @@ def on_random_graphs() -> str:
 
 
 def _on_random_graph(document: dict[str, Any]) -> tuple[float, ...]:
-    reading, scenario = seconds(lambda: scenario_of(document))
+    reading, scenario = seconds(lambda: parse_scenario(document))
     lanes, edges = 2 * len(document["map"]["roadmap"]["edges"]), scenario.roadmap.n_edges
     try:
         plan = rightofway.solve(scenario, time_limit=SECONDS)
@@ -323,7 +323,7 @@ def by_rules() -> str:
 
 def _ratio(document: dict[str, Any]) -> float:
     plan = rightofway.solve(
-        scenario_of(document), "lns", time_limit=None, iterations=NEIGHBOURHOODS
+        parse_scenario(document), "lns", time_limit=None, iterations=NEIGHBOURHOODS
     )
     metrics = measure(plan)
     return metrics.flowtime / metrics.lower_bound
@@ -338,7 +338,7 @@ def on_a_public_roadmap(folder: Path, counts: Sequence[int]) -> str:
     for robots in counts:
         for task in CCBS_TASKS:
             text = (folder / f"{task}_task.xml").read_text(encoding="utf-8")
-            agents = [agent.value for agent in parse_xml(text).descendants("agent")]
+            agents = [agent.value for agent in parse_xml(text).list_descendants("agent")]
             document = {
                 "format": "rightofway-scenario/1",
                 "map": {"layout": "map.xml"},
@@ -349,7 +349,7 @@ def on_a_public_roadmap(folder: Path, counts: Sequence[int]) -> str:
                 ],
                 "rules": {"return": "none"},
             }  # fmt: skip
-            reading, scenario = seconds(partial(scenario_of, document, folder))
+            reading, scenario = seconds(partial(parse_scenario, document, folder))
             plan = rightofway.solve(scenario, time_limit=SECONDS)
             metrics = measure(plan)
             first = plan.run.first_plan_seconds

@@ -16,7 +16,7 @@ from itertools import pairwise
 
 import rightofway
 from benchmarks.common import DOCS, RESULTS, table, write_tables
-from rightofway.io import scenario_of
+from rightofway.io import parse_scenario
 from rightofway.model import Closure, Plan, Robot, Scenario
 from rightofway.site import VertexId
 
@@ -51,7 +51,7 @@ def lanes(robots: int) -> Scenario:
     ways = [*rows, *(list(column) for column in zip(*rows, strict=True))]
     edges = [[one, other] for way in ways for one, other in pairwise(way)]
     places = sorted(at)
-    return scenario_of(
+    return parse_scenario(
         {
             "format": "rightofway-scenario/1",
             "map": {"roadmap": {"vertices": at, "edges": edges}},

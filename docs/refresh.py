@@ -27,7 +27,7 @@ from notebooks import run_notebook
 from rightofway.bench import COLUMNS
 from rightofway.cli.main import commands
 from rightofway.execution import CAUSES, DEFAULT_DELAYS
-from rightofway.io import schema
+from rightofway.io import make_schema
 from rightofway.model import Robot, Rules, Stop
 from rightofway.planners import Option, find
 from rightofway.planners.registry import PLANNERS
@@ -46,7 +46,7 @@ PARAMETER = re.compile(r"\{(\w+)\}")
 
 Row = Sequence[str]
 
-RULES = schema("scenario")["$defs"]["RulesDocument"]["properties"]
+RULES = make_schema("scenario")["$defs"]["RulesDocument"]["properties"]
 """Keys that stand last where a robot has them too."""
 
 
@@ -119,7 +119,7 @@ def _other_values(option: Option) -> str:
 
 def document_keys(kind: str, *part: str) -> Iterable[str]:
     """Return the keys of one part of a format: ``scenario RulesDocument``."""
-    whole = schema(kind)  # type: ignore[arg-type]  # a wrong kind is refused with a sentence
+    whole = make_schema(kind)  # type: ignore[arg-type]  # a wrong kind is refused with a sentence
     node = whole["$defs"][part[0]] if part else whole
     node = node["anyOf"][-1] if "anyOf" in node else node
     required = node.get("required", [])

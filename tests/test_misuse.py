@@ -21,7 +21,7 @@ DOOR = rw.load(Path(__file__).parents[1] / "examples/door.yaml")
 
 QUANTITIES = rw.Quantities(units=DOOR.units, tick=Fraction(1))
 ENDS = np.array([0, 1], np.int32)
-SITE = rw.layout_of_graph(nx.DiGraph([((0, 0), (1, 0))]))
+SITE = rw.make_layout_of_graph(nx.DiGraph([((0, 0), (1, 0))]))
 
 
 @functools.cache
@@ -106,7 +106,7 @@ GOOD: dict[str, Callable[[], tuple[Callable[..., Any], dict[str, Any]]]] = {
     "Layout.get_level": lambda: (SITE.get_level, {}),
     "LostTime.as_dict": lambda: (plan().lost_time[0].as_dict, {}),
     "Objective.of": lambda: (
-        rw.Objective.FLOWTIME.of,
+        rw.Objective.FLOWTIME.compute_cost,
         {"scenario": DOOR, "tracks": plan().tracks},
     ),
     "Plan.__getitem__": lambda: (plan().__getitem__, {"name": "R1"}),
@@ -114,7 +114,7 @@ GOOD: dict[str, Callable[[], tuple[Callable[..., Any], dict[str, Any]]]] = {
         plan().compute_value,
         {"objective": rw.Objective.MAKESPAN},
     ),
-    "Plan.once": lambda: (plan().once, {"figure": "of a test", "compute": list}),
+    "Plan.once": lambda: (plan().compute_once, {"figure": "of a test", "compute": list}),
     "Plan.to_dataframe": lambda: (plan().to_dataframe, {"library": "pandas"}),
     "Quantities.format_cell": lambda: (QUANTITIES.format_cell, {"ticks": 1}),
     "Quantities.format_duration": lambda: (QUANTITIES.format_duration, {"ticks": 1}),
@@ -131,7 +131,7 @@ GOOD: dict[str, Callable[[], tuple[Callable[..., Any], dict[str, Any]]]] = {
     "Roadmap.get_point": lambda: (DOOR.roadmap.get_point, {"vertex": 0}),
     "Roadmap.get_vertex": lambda: (DOOR.roadmap.get_vertex, {"name": "N0"}),
     "Roadmap.exclude": lambda: (DOOR.roadmap.exclude, {"closed": {1}, "edges": [(0, 1)]}),
-    "layout_of_graph": lambda: (rw.layout_of_graph, {}),
+    "make_layout_of_graph": lambda: (rw.make_layout_of_graph, {}),
     "load": lambda: (rw.load, {"path": "fleet.yaml"}),
     "load_plan": lambda: (rw.load_plan, {"path": "plan.json"}),
     "compute_lost_time": lambda: (rw.compute_lost_time, {}),

@@ -140,12 +140,6 @@ ESTABLISHED = {
 }
 """Published names of methods, names that asyncio and uvicorn call, and a program's entry point."""
 
-NOUNS = {
-    "io": 73,
-    "model": 45,
-}
-"""How many public functions and methods begin with another word; the numbers may only fall."""
-
 
 def called_names(module: ast.Module) -> Iterator[str]:
     """Yield the public functions and methods that are called: no properties, no constructors."""
@@ -174,7 +168,7 @@ def test_functions_begin_with_a_verb(room: str) -> None:
         for name in called_names(module)
         if name.partition("_")[0] not in VERBS and name not in ESTABLISHED
     ]
-    assert len(nouns) <= NOUNS.get(room, 0), nouns
+    assert not nouns
 
 
 IDIOM = {

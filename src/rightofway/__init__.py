@@ -45,9 +45,9 @@ if _TYPE_CHECKING:
         plan_of_paths,
     )
     from rightofway.io import (
-        layout_of_graph,
         load,
         load_plan,
+        make_layout_of_graph,
         write_plan,
         write_scenario,
     )
@@ -138,7 +138,7 @@ _ROOMS = {
         "plan_of_paths",
     ),
     "io": (
-        "layout_of_graph",
+        "make_layout_of_graph",
         "load",
         "load_plan",
         "write_plan",
@@ -250,9 +250,9 @@ __all__ = [
     "compute_lost_time",
     "find_best_timetable",
     "improve",
-    "layout_of_graph",
     "load",
     "load_plan",
+    "make_layout_of_graph",
     "measure",
     "plan_of_laps",
     "plan_of_paths",
@@ -270,6 +270,7 @@ __all__ = [
 
 _EARLIER = {
     "best_timetable": "find_best_timetable",
+    "layout_of_graph": "make_layout_of_graph",
     "lost_time": "compute_lost_time",
     "save_plan": "write_plan",
 }

@@ -23,12 +23,12 @@ from rightofway.model import (
     Scenario,
     Tick,
     Track,
-    checked_time_limit,
+    require_time_limit,
 )
 from rightofway.model.given import (
-    checked_plan,
-    checked_scenario,
     require_functions,
+    require_plan,
+    require_scenario,
     require_seed,
     require_truths,
 )
@@ -124,8 +124,8 @@ def solve(
     GaveUp
         If none was found in time, or by the means of the planner.
     """
-    checked_scenario(scenario)
-    spec, limit = find(planner), checked_time_limit(time_limit)
+    require_scenario(scenario)
+    spec, limit = find(planner), require_time_limit(time_limit)
     if start is not None:
         _refuse_start(spec, start, "start")
     settled = _settled(spec, options, named, seed)
@@ -171,7 +171,7 @@ def improve(
     """
     spec = find(planner)
     _refuse_start(spec, plan, "plan")
-    limit, judged = checked_time_limit(time_limit), check(plan)
+    limit, judged = require_time_limit(time_limit), check(plan)
     if not judged.ok:
         start = "`rightofway plan SCENARIO --start PLAN`, in Python solve(scenario, start=plan)"
         remedy = f"repair it: {start}, keeps its routes where it can"
@@ -186,7 +186,7 @@ def improve(
 
 def _refuse_start(spec: PlannerSpec, plan: Plan, place: str) -> None:
     """Refuse a start that is not a plan, and planners that cannot improve one."""
-    checked_plan(plan, place)
+    require_plan(plan, place)
     if Feature.IMPROVES not in spec.features:
         message = f"{spec.name} cannot start from a plan (choose {name_able(Feature.IMPROVES)})"
         raise InputError.at("planner", message)

@@ -14,7 +14,7 @@ import pytest
 
 from rightofway.bench import read_suite
 from rightofway.errors import InputError
-from rightofway.io import load, schema
+from rightofway.io import load, make_schema
 from rightofway.io.text import parse_toml
 from rightofway.planners import find
 
@@ -41,18 +41,18 @@ def test_every_fault_is_told_with_place_value_and_remedy(path: Path) -> None:
         assert re.fullmatch(anything, line), line
 
 
-def test_the_example_can_be_read_and_fits_the_schema() -> None:
+def test_the_example_can_be_read_and_fits_the_make_schema() -> None:
     assert len(read_suite(SUITE)) >= 20
     assert fits(tomllib.loads(SUITE.read_text(encoding="utf-8")))
 
 
 def fits(document: Any) -> bool:
-    validator = jsonschema.Draft202012Validator(schema("suite"))
+    validator = jsonschema.Draft202012Validator(make_schema("suite"))
     return bool(validator.is_valid(document))
 
 
 @pytest.mark.parametrize("name", ["missing-keys", "no-format", "unknown-keys", "version", "maps"])
-def test_what_is_bad_by_its_shape_does_not_fit_the_schema(name: str) -> None:
+def test_what_is_bad_by_its_shape_does_not_fit_the_make_schema(name: str) -> None:
     assert not fits(tomllib.loads((BAD / f"{name}.toml").read_text(encoding="utf-8")))
 
 
@@ -72,7 +72,7 @@ def test_what_is_bad_by_its_shape_does_not_fit_the_schema(name: str) -> None:
         ("fleets", [{"name": "odd", "deal": "random"}]),
     ],
 )
-def test_a_wrong_value_does_not_fit_the_schema(key: str, value: Any) -> None:
+def test_a_wrong_value_does_not_fit_the_make_schema(key: str, value: Any) -> None:
     good = {
         "format": "rightofway-suite/1",
         "counts": [5],

@@ -16,7 +16,7 @@ from benchmarks.page_priorities import OTHERS, later, pairs, priorities_plots, p
 from benchmarks.page_timetables import timetable_tables
 from rightofway.bench import Row, read_suite
 from rightofway.bench.run import run
-from rightofway.io import schema
+from rightofway.io import make_schema
 from tests.builders.pages import DOCS, ROOT
 
 SUITES = ROOT / "benchmarks" / "suites"
@@ -144,6 +144,6 @@ def test_a_table_replaces_the_one_under_its_mark_and_nothing_else(tmp_path: Path
 def test_every_suite_fits_the_schema_and_has_cases(path: Path) -> None:
     """Those on the MovingAI benchmark need its files, so only their shape is looked at."""
     text = path.read_text(encoding="utf-8")
-    assert jsonschema.Draft202012Validator(schema("suite")).is_valid(tomllib.loads(text))
+    assert jsonschema.Draft202012Validator(make_schema("suite")).is_valid(tomllib.loads(text))
     if "movingai" not in text:
         assert len(read_suite(path)) >= 12

@@ -17,7 +17,7 @@ from hypothesis import reject
 from hypothesis import strategies as st
 
 from rightofway.errors import InputError
-from rightofway.io import dump_scenario, example_of_layout, load_map, scenario_of
+from rightofway.io import dump_scenario, format_example, load_map, parse_scenario
 from rightofway.io.text import parse_yaml
 from rightofway.model import Scenario
 
@@ -103,7 +103,7 @@ def any_fleet(
 
 def _scenario(document: Document) -> Scenario:
     try:
-        return scenario_of(document)
+        return parse_scenario(document)
     except InputError:  # homes too near to each other, a closure of nothing
         reject()
         raise
@@ -245,8 +245,8 @@ def _quarters(length: float) -> str:
 @cache
 def _layout(name: str) -> tuple[Document, list[str]]:
     """Return the roadmap of a layout, and the vertices that its first robot can go to and back."""
-    document = parse_yaml(example_of_layout(SAMPLES / name, SAMPLES / "scenario.yaml"))
-    scenario = scenario_of(document, SAMPLES)
+    document = parse_yaml(format_example(SAMPLES / name, SAMPLES / "scenario.yaml"))
+    scenario = parse_scenario(document, SAMPLES)
     inlined = dump_scenario(scenario)["map"]
     roadmap, start = scenario.roadmap, int(scenario.robots[0].home)
     tails = np.repeat(np.arange(len(roadmap.indptr) - 1), np.diff(roadmap.indptr)).tolist()

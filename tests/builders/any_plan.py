@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import rightofway
 from rightofway.errors import GaveUp, InputError, NoPlanExists
-from rightofway.model import Plan, Scenario, Track, stays_of
+from rightofway.model import Plan, Scenario, Track, find_stays
 from rightofway.planners import Feature, find_all
 from tests.builders.changes import CHANGES
 from tests.builders.laws import leave
@@ -94,7 +94,7 @@ def broken(plan: Plan, draw: random.Random) -> Plan:
         by = draw.choice([-1, 1, 2, 3, 5]) * draw.choice([1, quickest])
         enter[visit:] = [tick + by for tick in enter[visit:]]
     elif what < 0.7:
-        waits = stays_of(plan.scenario, plan.tracks)[robot].waits.tolist()
+        waits = find_stays(plan.scenario, plan.tracks)[robot].waits.tolist()
         visit = max(range(len(waits)), key=lambda k: (waits[k] > 0) * draw.random())
         enter[visit + 1 :] = [tick - waits[visit] for tick in enter[visit + 1 :]]
     elif what < 0.85:

@@ -39,17 +39,17 @@ from rightofway.bench.suite import read_suite
 from rightofway.errors import InputError, RightOfWayError
 from rightofway.io import (
     FOREIGN_FORMATS,
-    foreign_text,
+    format_foreign,
+    format_plan,
     load_map,
     load_plan,
     load_with_notes,
-    plan_text,
+    parse_scenario,
     read_layout,
-    scenario_of,
 )
 from rightofway.io.layouts.formats import refuse_layout
 from rightofway.io.text import parse_yaml
-from rightofway.io.workbook import workbook_of
+from rightofway.io.workbook import format_workbook
 from rightofway.io.workbook.writer import TEMPLATE
 from rightofway.site.layout import Layout
 from rightofway.solve import solve
@@ -385,7 +385,7 @@ def _on(path: Path, place: Any, keys: dict[str, Any]) -> None:
     robot = {"name": "R1", "home": place, "target": place, "radius": "1/4"}
     shape = {"layout": path.name, **keys}
     try:
-        scenario_of({"format": "rightofway-scenario/1", "map": shape, "robots": [robot]},
+        parse_scenario({"format": "rightofway-scenario/1", "map": shape, "robots": [robot]},
                     path.parent)  # fmt: skip
     except RightOfWayError as error:
         _say(str(error).split("\n"))
@@ -486,8 +486,8 @@ def seeds() -> tuple[Seed, ...]:
     """Return a small file, or a few, of each format that is read."""
     hall = {"hall.map": MAP, "hall.scen": SCEN, "pixels.png": _picture("PNG")}
     roadmap = json.dumps(ROADMAP).encode()
-    plans = [solve(scenario_of(parse_yaml(GRID)), "prioritized")]
-    classic = scenario_of({"format": "rightofway-scenario/1", "map": {"grid": ["..T", "..."]},
+    plans = [solve(parse_scenario(parse_yaml(GRID)), "prioritized")]
+    classic = parse_scenario({"format": "rightofway-scenario/1", "map": {"grid": ["..T", "..."]},
                            "rules": "classic", "robots": [
                                {"name": "R1", "home": "N0", "target": "N4"},
                                {"name": "R2", "home": "N1", "target": "N3"}]})  # fmt: skip
@@ -497,17 +497,17 @@ def seeds() -> tuple[Seed, ...]:
         Seed(format="scenario", name="s.json", content=roadmap, read=_scenario),
         Seed(format="scenario", name="f.yaml", content=FLOOR.encode(), read=_scenario),
         Seed(format="scenario", name="m.yaml", content=FILES.encode(), read=_scenario, beside=hall),
-        *(Seed(format="plan", name="p.json", content=plan_text(each).encode(), read=_plan)
+        *(Seed(format="plan", name="p.json", content=format_plan(each).encode(), read=_plan)
           for each in plans),
         Seed(format="suite", name="s.toml", content=SUITE, read=_suite, beside=hall),
-        *(Seed(format="workbook", name="w.xlsx", content=workbook_of(each), read=_scenario)
+        *(Seed(format="workbook", name="w.xlsx", content=format_workbook(each), read=_scenario)
           for each in (TEMPLATE, SHEET)),
         Seed(format="robots CSV", name="t.csv", content=TABLE, read=_table,
              beside={"fleet.yaml": OF_TABLE}),
         Seed(format="MovingAI", name="hall.map", content=MAP, read=_map, beside=hall),
         Seed(format="MovingAI", name="hall.scen", content=SCEN, read=_scenario, beside=hall),
         *(Seed(format="foreign plan", name=f"{name}.txt", read=_foreign, beside=hall,
-               content=foreign_text(paths, name).encode()) for name in FOREIGN_FORMATS),
+               content=format_foreign(paths, name).encode()) for name in FOREIGN_FORMATS),
         Seed(format="LIF", name="two.lif.json", content=json.dumps(LIF_2).encode(), read=_layout),
     ]  # fmt: skip
     for kind, name in (("PPM", "pixels.pgm"), ("PNG", "pixels.png")):

@@ -37,7 +37,7 @@ from rightofway.cyclic import make_excerpt, plan_of_laps, run_laps
 from rightofway.cyclic.result import CyclicResult
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Plan, Rules, Scenario
-from rightofway.model.steady_state import within
+from rightofway.model.steady_state import keep_within
 from rightofway.precedence import Arrival, Part, ReleaseGraph
 from rightofway.site import Roadmap
 from tests.builders.fleets import random_fleet
@@ -192,7 +192,7 @@ def laps_plan(fleet: Scenario, maker: Callable[[Scenario], CyclicResult] = first
     if any(group.ends != "repeats" for group in result.groups):
         raise GaveUp("robots wait for each other")
     plan, steady = plan_of_laps(result), make_excerpt(result)[1]
-    plan = replace(plan, steady=within(steady, list(map(len, plan.tracks))))
+    plan = replace(plan, steady=keep_within(steady, list(map(len, plan.tracks))))
     LapsToDrive(plan)
     return plan
 

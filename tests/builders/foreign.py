@@ -124,7 +124,7 @@ def drive_laps(plan: Plan, laps: int, folder: Path, *, kills: int, seed: int = 1
                     else:
                         drive.kill()
                         drive.start()
-                longest = plan.scenario.problem.clock.time(max(plan.completions)) * laps
+                longest = plan.scenario.problem.clock.convert_to_time(max(plan.completions)) * laps
                 assert drive.wait(120 + 3 * float(longest) / FASTER) == 0, drive.log[-3000:]
         assert "is faulty" not in drive.log, drive.log[-3000:]
         observer.close()

@@ -28,7 +28,7 @@ from hypothesis import HealthCheck, Phase, given, note, seed, settings
 from hypothesis.errors import UnsatisfiedAssumption
 from hypothesis.strategies import SearchStrategy
 
-from rightofway.io import scenario_text
+from rightofway.io import format_scenario
 from rightofway.model import Scenario
 
 __all__ = ["law", "leave", "once"]
@@ -213,7 +213,7 @@ class Described:
     scenario: Scenario
 
     def _repr_pretty_(self, printer: Any, cycle: bool) -> None:  # noqa: ARG002
-        printer.text(f"{self.name}:\n{scenario_text(self.scenario)}")
+        printer.text(f"{self.name}:\n{format_scenario(self.scenario)}")
 
 
 # --- the plugin ---------------------------------------------------------------------------------

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 import rightofway
-from rightofway.io import scenario_of
+from rightofway.io import parse_scenario
 from rightofway.model import ExecutionTrace, Plan, PlannerRun, Tick, Track
 from rightofway.quantities import Quantities, Units
 from rightofway.solve import solve
@@ -76,7 +76,7 @@ def cross(**more: Any) -> Plan:
         "robots": robots,
         "rules": {"clearance": "1/10"},
     }
-    scenario = scenario_of(document)
+    scenario = parse_scenario(document)
     tick, times = scenario.problem.clock.tick, ([0, 8], [0, 16])
     return Plan(
         scenario=scenario,
@@ -106,7 +106,7 @@ def _packed() -> object:
         for k in range(4)
     ]
     document = {"format": "rightofway-scenario/1", "map": {"grid": ["." * 7] * 7}, "robots": robots}
-    plan = solve(scenario_of(document), time_limit=None, planner="prioritized")
+    plan = solve(parse_scenario(document), time_limit=None, planner="prioritized")
     return make_payload(plan)
 
 
@@ -144,7 +144,7 @@ def _closed() -> object:
         "robots": [{"name": "R1", "home": "A", "target": "B"}],
         "closures": [{"edge": ["C", "D"], "from": 8, "until": 24, "radius": 1}],
     }
-    return make_payload(solve(scenario_of(document), time_limit=None))
+    return make_payload(solve(parse_scenario(document), time_limit=None))
 
 
 def _positions() -> object:

@@ -92,7 +92,7 @@ def _timed(
         here, there = lap.vertices[(visit - 1) % len(lap)], lap.vertices[visit % len(lap)]
         drive = lap.drive[visit % len(lap)]
         free = left.get(there, -100) + headway + (drive if books_ahead else 0)
-        clock = max(clock, enter[robot][-1] + lap.least((visit - 1) % len(lap)), free)
+        clock = max(clock, enter[robot][-1] + lap.compute_least((visit - 1) % len(lap)), free)
         left[here] = clock
         enter[robot].append(clock)
     period = clock + 100  # from the last to the first, whatever was booked is free again

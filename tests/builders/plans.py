@@ -20,7 +20,7 @@ from rightofway.model import (
     Stop,
     Tick,
     Track,
-    stays_of,
+    find_stays,
 )
 from rightofway.quantities import Units
 from rightofway.site import Edge, VertexId, make_grid_roadmap, make_roadmap
@@ -240,7 +240,7 @@ def delayed(plan: Plan, every: int = 9) -> ExecutionTrace:
     """
     tracks, dwells, drives, stoppages = [], [], [], []
     for robot, (track, stay) in enumerate(
-        zip(plan.tracks, stays_of(plan.scenario, plan.tracks), strict=True)
+        zip(plan.tracks, find_stays(plan.scenario, plan.tracks), strict=True)
     ):
         slow = (np.arange(len(track)) + robot) % every == 0
         slow[0] = False

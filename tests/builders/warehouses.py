@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 
 import rightofway
-from rightofway.io import scenario_of
+from rightofway.io import parse_scenario
 from rightofway.model import Plan
 
 __all__ = ["warehouse"]
@@ -27,7 +27,7 @@ def warehouse(robots: int, seed: int = 0, planner: str = "prioritized") -> Plan:
         if cell == "."
     ]
     stops = draw.sample(places, robots)
-    scenario = scenario_of(
+    scenario = parse_scenario(
         {
             "format": "rightofway-scenario/1",
             "map": {"grid": rows},

@@ -22,7 +22,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()
     plan = door() if given.robots == 2 else warehouse(given.robots)
-    lap = float(plan.scenario.problem.clock.time(max(plan.completions)))
+    lap = float(plan.scenario.problem.clock.convert_to_time(max(plan.completions)))
     laps, began = max(round(given.minutes * 60 / lap), 1), time.perf_counter()
     with tempfile.TemporaryDirectory(prefix="rightofway-foreign-") as name:
         finished = drive_laps(plan, laps, Path(name), kills=given.kills, seed=given.seed)

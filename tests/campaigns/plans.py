@@ -23,7 +23,7 @@ from hypothesis import HealthCheck, Phase, given, seed, settings
 
 import rightofway
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.io import plan_text, scenario_text
+from rightofway.io import format_plan, format_scenario
 from rightofway.metrics import derive_outcome
 from rightofway.model import Objective, Plan, Scenario, Tick
 from rightofway.planners.bounds import prove_bound
@@ -62,7 +62,7 @@ class Round:
     def find(self, what: str, of: Plan | Scenario) -> None:
         """Add a finding."""
         is_plan = isinstance(of, Plan)
-        text = plan_text(of) if isinstance(of, Plan) else scenario_text(of)
+        text = format_plan(of) if isinstance(of, Plan) else format_scenario(of)
         self.findings.append((what, "plan.json" if is_plan else "yaml", text))
 
     @contextmanager
@@ -186,7 +186,7 @@ def bound(scenario: Scenario, chance: int, into: Round) -> None:
 
 def _compare(plan: Plan, proofs: list[tuple[str, Tick, Objective]], into: Round) -> None:
     for prover, least, objective in proofs:
-        cost = objective.of(plan.scenario, plan.tracks)
+        cost = objective.compute_cost(plan.scenario, plan.tracks)
         into.counts["comparisons"] += 1
         if cost < least:
             into.counts["above a plan"] += 1

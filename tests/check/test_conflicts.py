@@ -34,10 +34,10 @@ def judged(
     """Judge robots that go one way, from the first to the last vertex of their tracks."""
     ends = [(f"N{vertices[0]}", f"N{vertices[-1]}") for vertices, _ in trips]
     rules = {"ends": "none"} | rules
-    return check(plan_of(grid_fleet(grid, ends, rules=Rules(**rules), speeds=speeds), trips))
+    return check(make_plan(grid_fleet(grid, ends, rules=Rules(**rules), speeds=speeds), trips))
 
 
-def plan_of(scenario: Scenario, trips: Sequence[Trip]) -> Plan:
+def make_plan(scenario: Scenario, trips: Sequence[Trip]) -> Plan:
     tracks = tuple(Track.of(vertices, enter) for vertices, enter in trips)
     return Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand"))
 
@@ -123,8 +123,8 @@ def test_a_home_may_be_passed_while_its_robot_is_away() -> None:
     """R1 is away from N3 in [1, 5); R2 passes there in [1, 2) and [4, 5): both limits are met."""
     scenario = grid_fleet(OPEN, [("N3", "N5"), ("N0", "N6")])
     away = ([3, 4, 5, 4, 3], [0, 1, 2, 4, 5])
-    assert check(plan_of(scenario, [away, ([0, 3, 6, 3, 0], [0, 1, 2, 4, 5])])).ok
-    late = check(plan_of(scenario, [away, ([0, 3, 6, 3, 0], [0, 1, 2, 5, 6])]))
+    assert check(make_plan(scenario, [away, ([0, 3, 6, 3, 0], [0, 1, 2, 4, 5])])).ok
+    late = check(make_plan(scenario, [away, ([0, 3, 6, 3, 0], [0, 1, 2, 5, 6])]))
     assert told(late) == [("vertex conflict", (0, 1), (3,), 5)]
 
 
@@ -136,7 +136,7 @@ def test_a_robots_own_bookings_never_conflict(occupancy: str) -> None:
         [("N3", "N4")],
         rules=Rules(headway=Fraction(3), occupancy=occupancy),  # type: ignore[arg-type]
     )
-    assert check(plan_of(scenario, [([3, 4, 3], [0, 1, 3])])).ok
+    assert check(make_plan(scenario, [([3, 4, 3], [0, 1, 3])])).ok
 
 
 CROWD = (
@@ -157,7 +157,7 @@ def test_each_pair_in_a_crowd_is_told() -> None:
 
 def test_all_faults_are_counted_but_only_the_earliest_listed() -> None:
     ends = [("N3", "N5"), ("N1", "N7"), ("N7", "N3")]
-    report = check(plan_of(grid_fleet(OPEN, ends, rules=Rules(ends="none")), CROWD), limit=1)
+    report = check(make_plan(grid_fleet(OPEN, ends, rules=Rules(ends="none")), CROWD), limit=1)
     assert told(report) == [("vertex conflict", (0, 1), (4,), 2)]
     assert (report.ok, report.total, report.counts) == (False, 3, {"vertex conflict": 3})
     assert report.summary == "3 faults: 3 vertex conflicts"
@@ -236,7 +236,7 @@ def test_three_robots_are_enough_for_a_rotation(*, rotations: bool) -> None:
         ),
         rules=Rules(ends="none", rotations=rotations),
     )
-    report = check(plan_of(scenario, [([k, (k + 1) % 3], [0, 1]) for k in range(3)]))
+    report = check(make_plan(scenario, [([k, (k + 1) % 3], [0, 1]) for k in range(3)]))
     assert told(report) == ([] if rotations else [("rotation", (0, 1, 2), (0, 1, 2), 1)])
 
 
@@ -248,7 +248,7 @@ def test_two_circles_at_one_instant_are_two_rotations() -> None:
     ends += [("N3", "N4"), ("N4", "N9"), ("N9", "N8"), ("N8", "N3")]
     scenario = grid_fleet(grid, ends, rules=Rules(ends="none", rotations=False))
     vertex = scenario.roadmap.get_vertex
-    report = check(plan_of(scenario, [([vertex(a), vertex(b)], [0, 1]) for a, b in ends]))
+    report = check(make_plan(scenario, [([vertex(a), vertex(b)], [0, 1]) for a, b in ends]))
     assert [fault.robots for fault in report.faults] == [(0, 1, 2, 3), (4, 5, 6, 7)]
 
 
@@ -278,14 +278,14 @@ def test_the_earliest_faults_are_listed_whoever_makes_them() -> None:
     """R1 jumps at tick 3, R2 at tick 2, R3 at tick 1."""
     ends = [("N0", "N2"), ("N3", "N5"), ("N6", "N8")]
     trips = [([0, 2], [0, 3]), ([3, 5], [0, 2]), ([6, 8], [0, 1])]
-    plan = plan_of(grid_fleet(OPEN, ends, rules=Rules(ends="none")), trips)
+    plan = make_plan(grid_fleet(OPEN, ends, rules=Rules(ends="none")), trips)
     assert told(check(plan, limit=2)) == [("jump", (2,), (6, 8), 1), ("jump", (1,), (3, 5), 2)]
 
 
 def test_a_limit_holds_for_all_kinds_together() -> None:
     ends = [("N3", "N7"), ("N0", "N5"), ("N6", "N8")]
     trips = [([3, 4, 7], [0, 3, 5]), ([0, 1, 4, 5], [0, 1, 2, 4]), ([6, 8], [0, 3])]
-    report = check(plan_of(grid_fleet(OPEN, ends, rules=Rules(ends="none")), trips), limit=1)
+    report = check(make_plan(grid_fleet(OPEN, ends, rules=Rules(ends="none")), trips), limit=1)
     assert told(report) == [("vertex conflict", (0, 1), (4,), 3)]
     assert report.counts == {"jump": 1, "vertex conflict": 1}
 
@@ -307,7 +307,7 @@ def test_a_plan_without_fault_says_so() -> None:
 
 def test_robots_without_a_roadmap_vertex_are_judged_all_the_same() -> None:
     scenario = grid_fleet(OPEN, [("N0", "N1"), ("N2", "N1")], rules=Rules(ends="none"))
-    report = check(plan_of(scenario, [([99, 98], [0, 1]), ([98, 99], [0, 1])]))
+    report = check(make_plan(scenario, [([99, 98], [0, 1]), ([98, 99], [0, 1])]))
     assert report.counts == {"unknown vertex": 4, "wrong end": 2, "wrong home": 2}
 
 

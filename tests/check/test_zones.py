@@ -9,7 +9,7 @@ import pytest
 
 from rightofway import FleetBuilder, check, solve
 from rightofway.errors import InputError, NoPlanExists
-from rightofway.io import dump_scenario, scenario_of
+from rightofway.io import dump_scenario, parse_scenario
 from rightofway.model import Plan, PlannerRun, Track
 from rightofway.planners import Feature, find_all
 
@@ -39,7 +39,7 @@ def judged(zone: dict[str, Any], late: int, headway: int = 0) -> dict[str, int]:
     """Return the faults of two drives through, of which R2 is that many ticks late."""
     data = document(zone)
     data["rules"]["headway"] = headway
-    scenario = scenario_of(data)
+    scenario = parse_scenario(data)
     tracks = (
         Track.of([0, 1, 2, 3], [0, 1, 2, 3]),
         Track.of([4, 5, 6, 7], [0, 1 + late, 2 + late, 3 + late]),
@@ -72,7 +72,7 @@ def test_a_zone_is_free_again_when_its_vertices_and_edges_are(
 
 
 def test_the_fault_names_the_zone_the_robots_and_the_time() -> None:
-    scenario = scenario_of(document({"vertices": ["B", "F"]}))
+    scenario = parse_scenario(document({"vertices": ["B", "F"]}))
     tracks = Track.of([0, 1, 2, 3], [0, 1, 2, 3]), Track.of([4, 5, 6, 7], [0, 2, 3, 4])
     report = check(Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand")))
     assert str(report.faults[0]) == (
@@ -95,7 +95,7 @@ def test_a_vertex_at_which_two_edges_of_a_zone_meet_is_in_it_for_every_visit(end
         Track.of(["ABC".index(name) for name in way], [0, 1, 7][: len(way)]),
         Track.of([4, 5, 6, 7], [0, 3, 4, 5]),
     )
-    plan = Plan(scenario=scenario_of(data), tracks=tracks, run=PlannerRun(name="by hand"))
+    plan = Plan(scenario=parse_scenario(data), tracks=tracks, run=PlannerRun(name="by hand"))
     assert check(plan).counts == {"zone conflict": 1}
 
 
@@ -106,7 +106,7 @@ def test_edges_that_only_enter_or_only_leave_a_vertex_meet_there_too(edges: list
         {"from": tail, "to": head, "both_ways": True}
         for tail, head in data["map"]["roadmap"]["edges"]
     ]
-    (zone,) = scenario_of(data).roadmap.zones
+    (zone,) = parse_scenario(data).roadmap.zones
     assert zone.vertices == (1,)  # B
 
 
@@ -115,7 +115,7 @@ def test_a_robot_whose_home_is_where_two_edges_of_a_zone_meet_starts_in_the_zone
     data["robots"][0] |= {"home": "B", "target": "D"}
     data["robots"][1] |= {"home": "F", "target": "H"}
     with pytest.raises(NoPlanExists, match="R1 at B and R2 at F would both start in zone door"):
-        solve(scenario_of(data))
+        solve(parse_scenario(data))
 
 
 @pytest.mark.parametrize("planner", KNOW_ZONES)
@@ -123,7 +123,7 @@ def test_a_robot_that_starts_inside_a_zone_leaves_before_another_one_enters(plan
     """R1 leaves B at tick 1 and the edge to C then; R2 starts into F at 1 instead of 0."""
     data = document(PASSED)
     data["robots"][0] |= {"home": "B", "target": "D"}
-    assert solve(scenario_of(data), planner).flowtime == 2 + 4
+    assert solve(parse_scenario(data), planner).flowtime == 2 + 4
 
 
 def test_a_zone_with_a_lane_that_is_split_has_all_its_pieces() -> None:
@@ -131,7 +131,7 @@ def test_a_zone_with_a_lane_that_is_split_has_all_its_pieces() -> None:
     data = document({"vertices": ["F"], "edges": [["A", "B"]]})
     data["map"]["roadmap"]["vertices"]["A"] = [-2, 0]
     data["map"]["spacing"] = 1
-    scenario = scenario_of(data)
+    scenario = parse_scenario(data)
     name, (zone,) = scenario.roadmap.name, scenario.roadmap.zones
     edges = [(name(tail), name(head)) for tail, head in zone.edges]
     assert edges == [("A", "A-B/1"), ("A-B/1", "A-B/2"), ("A-B/2", "B")]
@@ -152,13 +152,13 @@ def test_plans_keep_zones_and_lose_no_more_than_they_must(
     planner: str, zone: dict[str, Any] | None, flowtime: int
 ) -> None:
     options = {"iterations": 30} if planner in {"auto", "lns"} else {}
-    plan = solve(scenario_of(document(zone)), planner, options=options)
+    plan = solve(parse_scenario(document(zone)), planner, options=options)
     assert check(plan).ok
     assert plan.flowtime == flowtime
 
 
 def test_planners_that_do_not_know_zones_refuse_them() -> None:
-    scenario = scenario_of(document({"vertices": ["B", "F"]}))
+    scenario = parse_scenario(document({"vertices": ["B", "F"]}))
     for planner in set(find_all()) - set(KNOW_ZONES):
         with pytest.raises(
             InputError, match=f"planner {planner} (does not know .* zones|is for points)"
@@ -167,19 +167,19 @@ def test_planners_that_do_not_know_zones_refuse_them() -> None:
 
 
 def test_two_robots_whose_homes_share_a_zone_have_no_plan() -> None:
-    scenario = scenario_of(document({"vertices": ["A", "E"]}))
+    scenario = parse_scenario(document({"vertices": ["A", "E"]}))
     with pytest.raises(NoPlanExists, match="R1 at A and R2 at E would both start in zone door"):
         solve(scenario)
 
 
 def test_zones_are_written_and_read_and_make_robots_book_ahead() -> None:
-    scenario = scenario_of(document({"vertices": ["B"], "edges": [["F", "G"]]}))
+    scenario = parse_scenario(document({"vertices": ["B"], "edges": [["F", "G"]]}))
     assert scenario.rules.occupancy == "both"
     written = dump_scenario(scenario)
     assert written["map"]["roadmap"]["zones"] == [
         {"name": "door", "vertices": ["B"], "edges": [["F", "G"]]}
     ]
-    assert scenario_of(written) == scenario
+    assert parse_scenario(written) == scenario
 
 
 @pytest.mark.parametrize(
@@ -192,7 +192,7 @@ def test_zones_are_written_and_read_and_make_robots_book_ahead() -> None:
 )
 def test_zones_of_nothing_are_refused(zone: dict[str, Any], message: str) -> None:
     with pytest.raises(InputError, match=message):
-        scenario_of(document(zone))
+        parse_scenario(document(zone))
 
 
 def test_fleets_in_python_have_zones() -> None:
@@ -209,7 +209,7 @@ def test_robots_with_sizes_and_zones_go_together() -> None:
     data = document({"edges": [["B", "C"], ["F", "G"]]})
     for robot in data["robots"]:
         robot["radius"] = 0.3
-    plan = solve(scenario_of(data), "prioritized")
+    plan = solve(parse_scenario(data), "prioritized")
     assert check(plan).ok
     assert plan.flowtime == 7
 
@@ -224,4 +224,4 @@ def test_occupancy_one_is_refused_with_zones() -> None:
     data = document({"vertices": ["B"]})
     data["rules"]["occupancy"] = "one"
     with pytest.raises(InputError, match=r"rules.occupancy: 'one' does not go with zones"):
-        scenario_of(data)
+        parse_scenario(data)

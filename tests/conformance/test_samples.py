@@ -9,7 +9,7 @@ import pytest
 
 from rightofway import check, solve
 from rightofway.errors import InputError
-from rightofway.io import example_of_layout, scenario_of
+from rightofway.io import format_example, parse_scenario
 from rightofway.io.text import parse_yaml
 
 SAMPLES = Path(__file__).parents[1] / "data" / "samples"
@@ -41,11 +41,11 @@ NAMES = [
 @pytest.mark.parametrize("name", sorted(set(NAMES) - set(REFUSED)))
 def test_six_robots_get_a_checked_plan(name: str, radius: str) -> None:
     document = parse_yaml(
-        example_of_layout(SAMPLES / name, SAMPLES / "scenario.yaml", Fraction(radius))
+        format_example(SAMPLES / name, SAMPLES / "scenario.yaml", Fraction(radius))
     )
     robots = document["robots"]
     assert len(robots) >= FEWER.get(name, FEWER.get(name.partition("/")[0], 6))
-    scenario = scenario_of(document, SAMPLES)
+    scenario = parse_scenario(document, SAMPLES)
     assert {robot.radius for robot in scenario.robots} == {Fraction(radius)}
     plan = solve(scenario, time_limit=5)
     assert not check(plan).faults
@@ -54,7 +54,7 @@ def test_six_robots_get_a_checked_plan(name: str, radius: str) -> None:
 @pytest.mark.parametrize("name", sorted(REFUSED))
 def test_a_layout_that_cannot_be_used_is_refused_with_the_remedy(name: str) -> None:
     with pytest.raises(InputError) as error:
-        example_of_layout(SAMPLES / name, "-")
+        format_example(SAMPLES / name, "-")
     assert REFUSED[name] in str(error.value)
 
 

@@ -13,7 +13,7 @@ from rightofway.control.identities import VERSIONS
 from rightofway.control.report import report
 from rightofway.cyclic import find_best_timetable
 from rightofway.errors import InputError
-from rightofway.io import scenario_of
+from rightofway.io import parse_scenario
 from rightofway.model import Tick
 from tests.builders.chaos import chaotic_plan, laps_plan
 from tests.builders.plans import door, door_shifted
@@ -99,7 +99,7 @@ def test_all_that_control_and_robots_send_is_valid_by_the_official_schemas(versi
 
 @pytest.mark.parametrize("planner", ["prioritized", "lns"])
 def test_laps_with_work_at_several_stops_are_driven_to_their_end(planner: str) -> None:
-    scenario = scenario_of(
+    scenario = parse_scenario(
         {
             "format": "rightofway-scenario/1",
             "map": {"grid": ["....", ".@@.", "...."]},

@@ -15,7 +15,7 @@ from rightofway.control.laps import LapsToDrive
 from rightofway.control.names import list_jobs
 from rightofway.control.operator import Operator
 from rightofway.errors import InputError
-from rightofway.io import scenario_of
+from rightofway.io import parse_scenario
 from tests.builders.chaos import MemoryJournal
 from tests.builders.floors import Floor
 from tests.builders.plans import door
@@ -177,7 +177,7 @@ RING: dict[str, Any] = {
 def ring(*more: dict[str, object]) -> Floor:
     """Return the robots of the ring, before anything is released to them."""
     document = {**RING, "robots": [*RING["robots"], *more]}
-    plan = rightofway.solve(scenario_of(document), "prioritized")
+    plan = rightofway.solve(parse_scenario(document), "prioritized")
     dispatcher = Dispatcher(FleetControl(MemoryJournal(), look_ahead=1), plan)
     dispatcher.begin("run")
     return Floor(dispatcher)
@@ -238,7 +238,7 @@ def test_a_closed_lane_is_closed_with_its_pieces() -> None:
         "rules": {"rotations": False},
         "robots": [{"name": "R1", "home": "A", "target": "C"}],
     }
-    plan = rightofway.solve(scenario_of(document), "prioritized")
+    plan = rightofway.solve(parse_scenario(document), "prioritized")
     dispatcher = Dispatcher(FleetControl(MemoryJournal(), look_ahead=1), plan)
     dispatcher.begin("run")
     floor = Floor(dispatcher)
@@ -258,7 +258,7 @@ def test_a_closed_lane_is_closed_with_its_pieces() -> None:
 def test_laps_are_driven_round_what_is_closed() -> None:
     """The laps lead through N1; each of those that follow is replanned."""
     document = {**RING, "rules": {"rotations": False, "laps": 2}}
-    plan = rightofway.solve(scenario_of(document), "prioritized")
+    plan = rightofway.solve(parse_scenario(document), "prioritized")
     dispatcher = Dispatcher(FleetControl(MemoryJournal()), plan, LapsToDrive(plan))
     dispatcher.begin("run")
     floor = Floor(dispatcher)

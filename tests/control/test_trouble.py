@@ -38,7 +38,7 @@ from rightofway.control.names import list_jobs
 from rightofway.control.notices import Notices
 from rightofway.control.order_map import OrderMap
 from rightofway.errors import GaveUp, InputError
-from rightofway.io import scenario_of
+from rightofway.io import parse_scenario
 from rightofway.model import Plan
 from tests.builders.chaos import MemoryJournal
 from tests.builders.pages import ROOT
@@ -58,7 +58,7 @@ def hall() -> Plan:
             {"name": "R2", "home": "N0", "target": "N2", "work": 1},
         ],
     }
-    return rightofway.solve(scenario_of(document), "prioritized")
+    return rightofway.solve(parse_scenario(document), "prioritized")
 
 
 class Floor:

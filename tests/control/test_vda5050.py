@@ -33,7 +33,7 @@ from rightofway.control.vda5050 import (
     write_message,
 )
 from rightofway.errors import InputError
-from rightofway.io import scenario_of
+from rightofway.io import parse_scenario
 from rightofway.model import Scenario
 from rightofway.precedence import ReleaseGraph
 from rightofway.site.geometry import Frame
@@ -129,7 +129,7 @@ def test_an_update_may_leave_out_work_that_is_finished(*, repeats_work: bool) ->
 
 def site(**extra: Any) -> Scenario:
     """Return a site in centimetres, with a bend, a split lane and a slow lane; y upwards."""
-    return scenario_of(
+    return parse_scenario(
         {
             "format": "rightofway-scenario/1",
             "units": {"length": "cm", "time": "s"},
@@ -204,7 +204,7 @@ def test_pieces_of_a_lane_keep_to_its_way(version: str) -> None:
 
 def test_a_curve_is_sent_as_it_is_drawn() -> None:
     """A Bézier curve with two control points between its ends is a NURBS of degree 3."""
-    scenario = scenario_of(
+    scenario = parse_scenario(
         {
             "format": "rightofway-scenario/1",
             "map": {

@@ -16,7 +16,7 @@ from rightofway import viz
 from rightofway.check import FaultKind
 from rightofway.cli.main import commands
 from rightofway.errors import InputError
-from rightofway.io import scenario_of, schema
+from rightofway.io import make_schema, parse_scenario
 from rightofway.io.text import parse_yaml
 from rightofway.planners.registry import PLANNERS
 from tests.builders.pages import DOCS, PAGES, ROOT, SDIST, Block, blocks, title_of
@@ -120,11 +120,11 @@ def test_every_planner_of_ours_has_a_page_with_its_options_and_a_line_in_the_cha
 
 
 @pytest.mark.parametrize("kind", ["scenario", "plan"])
-def test_the_page_on_formats_has_every_part_of_the_schema(kind: str) -> None:
+def test_the_page_on_formats_has_every_part_of_the_make_schema(kind: str) -> None:
     page = (DOCS / "formats.md").read_text(encoding="utf-8")
     shown = set(re.findall(r"^<!-- generated: document-keys \w+ (\w+) -->$", page, re.MULTILINE))
     assert f"<!-- generated: document-keys {kind} -->\n" in page
-    assert set(schema(kind)["$defs"]) - {"ScenarioDocument"} <= shown  # type: ignore[arg-type]
+    assert set(make_schema(kind)["$defs"]) - {"ScenarioDocument"} <= shown  # type: ignore[arg-type]
 
 
 def scenarios() -> dict[str, Block]:
@@ -140,7 +140,7 @@ def scenarios() -> dict[str, Block]:
 @pytest.mark.parametrize("block", scenarios().values(), ids=scenarios().keys())
 def test_every_scenario_in_a_page_can_be_read(block: Block) -> None:
     try:
-        scenario_of(parse_yaml(block.text))
+        parse_scenario(parse_yaml(block.text))
     except InputError as error:
         pytest.fail(str(error))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import rightofway
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
-from rightofway.io import scenario_of
+from rightofway.io import parse_scenario
 from rightofway.model import NEVER, Scenario, Tick
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, DelayModel, Stoppage
@@ -21,7 +21,7 @@ def lane_through_a_corner() -> Scenario:
     R1 leaves its home c only at 8, after the lane from there was closed; b is closed from 15 to 16.
     """
     edges = [{"from": e[0], "to": e[1], "length": length} for e, length in LENGTHS.items()]
-    return scenario_of(
+    return parse_scenario(
         {
             "format": "rightofway-scenario/1",
             "map": {"roadmap": {"vertices": AT, "edges": edges}, "spacing": "whole"},

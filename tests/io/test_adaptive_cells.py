@@ -12,7 +12,7 @@ from PIL import Image
 
 import rightofway
 from rightofway.errors import InputError
-from rightofway.io import dump_plan, dump_scenario, plan_of, scenario_of
+from rightofway.io import dump_plan, dump_scenario, parse_plan, parse_scenario
 from rightofway.io.readers import load_with_notes
 from rightofway.metrics import Site, inspect
 from rightofway.quantities import Units
@@ -29,7 +29,7 @@ def document(where: dict[str, Any], **robot: Any) -> dict[str, Any]:
 def test_a_floor_is_cut_into_squares_of_several_sizes() -> None:
     """Cells of 1; what is left of the rack makes one square of 2 by 2, right of it are two."""
     where = {"floor": FLOOR, "cell_size": "adaptive", "smallest": 1}
-    scenario = scenario_of(document(where))
+    scenario = parse_scenario(document(where))
     labels = scenario.roadmap.labels or ()
     assert {name for name in labels if "x" in name} == {"Q0-0x2", "Q0-2x2", "Q6-0x2", "Q6-2x2"}
     assert len(labels) == 4 + 6 + 4  # beside the squares: 3 above and below the rack, 4 right of it
@@ -40,10 +40,10 @@ def test_a_floor_is_cut_into_squares_of_several_sizes() -> None:
 def test_the_smallest_cell_is_as_wide_as_the_largest_robot_or_as_node_clustering_has_it() -> None:
     narrow = {"size": [8, 4], "obstacles": [{"rect": ["2.5", "1.25", 3, 2]}]}
     where = {"floor": narrow, "cell_size": "adaptive", "largest": 1}
-    wide = scenario_of(document(where, radius="0.25", home={"x": 0.1, "y": 0.1}))
+    wide = parse_scenario(document(where, radius="0.25", home={"x": 0.1, "y": 0.1}))
     assert wide.roadmap.sides is not None
     assert set(wide.roadmap.sides.tolist()) == {0.5, 1.0}
-    fast = scenario_of(document(where, speed=4))
+    fast = parse_scenario(document(where, speed=4))
     assert fast.roadmap.sides is not None
     assert set(fast.roadmap.sides.tolist()) == {0.25, 0.5, 1.0}
 
@@ -53,11 +53,11 @@ def test_the_smallest_cell_is_as_wide_as_the_largest_robot_or_as_node_clustering
 def test_a_plan_of_adaptive_cells_is_read_as_it_was_written(y: str, more: dict[str, Any]) -> None:
     where = {"floor": {"size": [8, 4]}, "cell_size": "adaptive", "smallest": "0.1", "y": y, **more}
     document_ = document(where, home="Q0-0x4", target="Q40-24x4", radius="0.05")
-    scenario = scenario_of(document_)
-    assert scenario_of(dump_scenario(scenario)) == scenario
+    scenario = parse_scenario(document_)
+    assert parse_scenario(dump_scenario(scenario)) == scenario
     plan = rightofway.solve(scenario, time_limit=None, options={"iterations": 1})
     assert rightofway.check(plan).ok
-    assert plan_of(dump_plan(plan)).scenario == scenario
+    assert parse_plan(dump_plan(plan)).scenario == scenario
 
 
 @pytest.mark.parametrize(
@@ -74,13 +74,13 @@ def test_a_plan_of_adaptive_cells_is_read_as_it_was_written(y: str, more: dict[s
 )
 def test_what_does_not_fit_is_said(where: dict[str, Any], message: str) -> None:
     with pytest.raises(InputError, match=message):
-        scenario_of(document(where))
+        parse_scenario(document(where))
 
 
 def test_a_point_beside_all_squares_is_an_error_with_the_nearest() -> None:
     where = {"floor": FLOOR, "cell_size": "adaptive", "smallest": 1}
     with pytest.raises(InputError, match=r"target: \{x: 3, y: 2\} is in no free cell \(the near"):
-        scenario_of(document(where, target={"x": 3, "y": 2}))
+        parse_scenario(document(where, target={"x": 3, "y": 2}))
 
 
 def test_a_map_in_pixels_lies_where_its_frame_says(tmp_path: Path) -> None:
@@ -109,7 +109,7 @@ def test_a_map_in_pixels_lies_where_its_frame_says(tmp_path: Path) -> None:
 def test_inspect_speaks_of_the_smallest_cells_once() -> None:
     """Each pair of squares that is too near would be hundreds of findings on a real map."""
     where = {"floor": FLOOR, "cell_size": "adaptive", "smallest": 1}
-    scenario = scenario_of(document(where, radius="0.6"))
+    scenario = parse_scenario(document(where, radius="0.6"))
     site = Site(
         roadmap=scenario.roadmap,
         units=Units(length="m"),

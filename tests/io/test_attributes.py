@@ -6,7 +6,7 @@ from pathlib import Path
 import openpyxl  # type: ignore[import-untyped]
 
 from rightofway import FleetBuilder
-from rightofway.io import scenario_of
+from rightofway.io import parse_scenario
 from rightofway.io.workbook import write_template
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
 from rightofway.phrases import Phrase
@@ -47,4 +47,4 @@ def test_robots_of_a_scen_file_may_have_a_type(tmp_path: Path) -> None:
         "map": {"file": "a.map"},
         "robots": {"scen": "a.scen", "type": "wide"},
     }
-    assert scenario_of(document, tmp_path).robots[0].type == "wide"
+    assert parse_scenario(document, tmp_path).robots[0].type == "wide"

@@ -11,7 +11,7 @@ import pytest
 import rightofway
 from rightofway.errors import InputError
 from rightofway.io.movingai import write_scen
-from rightofway.io.scenario.reader import read_scenario, scenario_of
+from rightofway.io.scenario.reader import parse_scenario, read_scenario
 from rightofway.io.scenario.writer import dump_scenario, write_scenario
 
 DOCUMENT: dict[str, Any] = {
@@ -41,16 +41,16 @@ DOCUMENT: dict[str, Any] = {
 
 @pytest.mark.parametrize("ending", ["yaml", "json", "xlsx"])
 def test_a_scenario_comes_back_from_a_file_as_it_was(tmp_path: Path, ending: str) -> None:
-    scenario = scenario_of(DOCUMENT)
+    scenario = parse_scenario(DOCUMENT)
     write_scenario(scenario, tmp_path / f"closed.{ending}")
     assert rightofway.load(tmp_path / f"closed.{ending}") == scenario
-    assert scenario_of(dump_scenario(scenario)) == scenario
+    assert parse_scenario(dump_scenario(scenario)) == scenario
 
 
 def test_a_robot_goes_another_way_only_where_it_is_not_barred() -> None:
     """Below, R1 pays 3 for B and waits for the closure; above, heavy robots are barred from D."""
-    heavy = scenario_of(DOCUMENT)
-    light = scenario_of(
+    heavy = parse_scenario(DOCUMENT)
+    light = parse_scenario(
         {**DOCUMENT, "robots": [{**DOCUMENT["robots"][0], "type": "light"}], "closures": []}
     )
     assert "D" not in rightofway.solve(heavy)["R1"].vertices
@@ -65,7 +65,7 @@ def test_a_lane_in_pieces_shares_its_surcharge() -> None:
         "roadmap": {"vertices": {"A": [0, 0], "C": [8, 0]}, "edges": edges},
         "spacing": 2,
     }
-    assert {each.surcharge for each in scenario_of(document).roadmap.edge_classes} == {
+    assert {each.surcharge for each in parse_scenario(document).roadmap.edge_classes} == {
         Fraction(3, 4)
     }
 
@@ -90,7 +90,7 @@ def test_a_closure_that_does_not_fit_is_named_with_place_and_remedy(
     closure: Any, message: str
 ) -> None:
     with pytest.raises(InputError) as refused:
-        scenario_of({**DOCUMENT, "closures": [closure]})
+        parse_scenario({**DOCUMENT, "closures": [closure]})
     assert str(refused.value).startswith(message)
     assert str(refused.value).endswith(")")
 
@@ -101,7 +101,7 @@ def test_a_closure_that_does_not_fit_is_named_with_place_and_remedy(
 def test_a_place_that_is_barred_for_a_robot_is_named(key: str, where: str) -> None:
     robot = {**DOCUMENT["robots"][0], key: "D"}
     with pytest.raises(InputError) as refused:
-        scenario_of({**DOCUMENT, "robots": [robot]})
+        parse_scenario({**DOCUMENT, "robots": [robot]})
     assert str(refused.value) == (
         f"{where}: D is barred for robots of type heavy"
         " (give the robot another place, or another type)"
@@ -116,7 +116,7 @@ def test_the_builder_makes_the_same_scenario() -> None:
     fleet = fleet.add_robot("R1", home="A", target="C", type="heavy")
     fleet = fleet.add_closure(edge=("B", "A"), from_="1/3", until=5)
     fleet = fleet.add_closure(at="D", radius="1/2")
-    assert fleet.build_scenario() == scenario_of(DOCUMENT)
+    assert fleet.build_scenario() == parse_scenario(DOCUMENT)
 
 
 @pytest.mark.parametrize(

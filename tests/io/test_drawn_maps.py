@@ -11,9 +11,9 @@ import pytest
 from PIL import Image
 
 from rightofway import InputError, Scenario, load, solve, write_page, write_plan, write_scenario
-from rightofway.io import load_plan, load_with_notes, plan_text
-from rightofway.io.scenario.curves import ERROR, lane_curve
-from rightofway.io.scenario.reader import scenario_of
+from rightofway.io import format_plan, load_plan, load_with_notes
+from rightofway.io.scenario.curves import ERROR, make_lane_curve
+from rightofway.io.scenario.reader import parse_scenario
 
 A, B = (Fraction(0), Fraction(0)), (Fraction(8), Fraction(0))
 
@@ -47,7 +47,7 @@ def test_a_curve_is_one_edge_of_its_own_length() -> None:
 
     Its length is sqrt(16 + 36) + 16/6 asinh(6/4) = 10.398 (half each side of the apex).
     """
-    scenario = scenario_of(bent())
+    scenario = parse_scenario(bent())
     assert scenario.roadmap.n_vertices == 3
     length = edge_length(scenario, "A", "B")
     assert float(length) == pytest.approx(10.398, abs=0.04)
@@ -58,16 +58,16 @@ def test_a_curve_is_one_edge_of_its_own_length() -> None:
 
 
 def test_robots_with_a_size_drive_along_the_pieces_and_keep_further_apart() -> None:
-    scenario = scenario_of(bent(radius=0.25))
+    scenario = parse_scenario(bent(radius=0.25))
     assert scenario.roadmap.n_vertices > 10
     assert not scenario.roadmap.drawing.curves
-    error = lane_curve(A, [(Fraction(4), Fraction(6))], B).error
+    error = make_lane_curve(A, [(Fraction(4), Fraction(6))], B).error
     assert scenario.rules.clearance == 2 * error
     assert float(error) == pytest.approx(float(ERROR) * 2 * 52**0.5, rel=1e-3)
 
 
 def test_a_curve_is_as_long_with_a_size_as_without() -> None:
-    plans = [solve(scenario_of(bent(**more)), time_limit=1) for more in ({}, {"radius": 0.25})]
+    plans = [solve(parse_scenario(bent(**more)), time_limit=1) for more in ({}, {"radius": 0.25})]
     spans = [float(plan.makespan * plan.scenario.problem.clock.tick) for plan in plans]
     assert spans[0] == pytest.approx(spans[1], rel=0.002)
 
@@ -75,7 +75,7 @@ def test_a_curve_is_as_long_with_a_size_as_without() -> None:
 def test_a_curve_that_is_split_by_spacing_has_its_vertices_on_it() -> None:
     document = bent()
     document["map"]["spacing"] = 3
-    roadmap = scenario_of(document).roadmap
+    roadmap = parse_scenario(document).roadmap
     middle = roadmap.positions[roadmap.get_vertex("A-B/2")]
     assert middle.tolist() == pytest.approx([4, -3], abs=0.01)  # four pieces; y is drawn downwards
 
@@ -86,7 +86,7 @@ def test_files_keep_curves_and_the_picture(tmp_path: Path, suffix: str) -> None:
     document["map"]["picture"] = {"file": "hall.png", "scale": "1/20", "origin": [0, -1]}
     Image.new("L", (40, 30), 200).save(tmp_path / "hall.png")
     written = tmp_path / f"floor{suffix}"
-    write_scenario(scenario_of(document, tmp_path), written)
+    write_scenario(parse_scenario(document, tmp_path), written)
     drawing = load(written).roadmap.drawing
     assert [points for _, _, points in drawing.controls] == [((Fraction(4), Fraction(6)),)] * 2
     assert drawing.picture is not None
@@ -116,7 +116,7 @@ def test_a_plan_file_names_the_picture_and_the_page_shows_it(tmp_path: Path) -> 
 def test_a_plan_file_without_the_keys_has_none_of_them() -> None:
     document = bent()
     document["map"]["roadmap"]["edges"][0] = ["A", "B"]
-    text = plan_text(solve(scenario_of(document), time_limit=1))
+    text = format_plan(solve(parse_scenario(document), time_limit=1))
     assert "curve" not in text
     assert "picture" not in text
 
@@ -149,7 +149,7 @@ def test_pictures_that_do_not_fit_are_refused(
     document = bent()
     document["map"]["picture"] = picture
     with pytest.raises(InputError, match=f"^{fault[:20]}") as error:
-        scenario_of(document, tmp_path)
+        parse_scenario(document, tmp_path)
     assert fault in str(error.value)
 
 
@@ -158,4 +158,4 @@ def test_curves_that_do_not_fit_are_refused(curve: Any) -> None:
     document = bent()
     document["map"]["roadmap"]["edges"][0]["curve"] = curve
     with pytest.raises(InputError, match=r"edges\[0\].curve"):
-        scenario_of(document)
+        parse_scenario(document)

@@ -19,7 +19,14 @@ import pytest
 
 from rightofway import check
 from rightofway.errors import InputError
-from rightofway.io import FOREIGN_FORMATS, foreign_text, load, load_either, load_plan, write_plan
+from rightofway.io import (
+    FOREIGN_FORMATS,
+    format_foreign,
+    load,
+    load_either,
+    load_plan,
+    write_plan,
+)
 from rightofway.model import Plan
 from rightofway.solve import solve
 from tests.builders.fleets import PAPER, paper_scenario
@@ -274,10 +281,10 @@ def test_files_for_a_plan_of_ours_are_refused(hall: Path) -> None:
 def test_what_is_written_is_read_back_with_the_same_visits(hall: Path, name: str) -> None:
     """The paper's fifth case has two speeds, work and ways home: visits keep places and ticks."""
     plan = solve(paper_scenario(PAPER[4]))
-    again = read(hall, foreign_text(plan, name))
+    again = read(hall, format_foreign(plan, name))
     assert names(again) == names(plan)
     assert [kind for kind in check(again).counts if kind != "wrong home"] == []
-    (hall / "plan").write_text(foreign_text(plan, name), encoding="utf-8")
+    (hall / "plan").write_text(format_foreign(plan, name), encoding="utf-8")
     assert load_either(hall / "plan", map_file=hall / "hall.map") == again
 
 

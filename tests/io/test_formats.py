@@ -8,7 +8,7 @@ import jsonschema
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.io import dump_plan, load, plan_of, schema
+from rightofway.io import dump_plan, load, make_schema, parse_plan
 from rightofway.io.text import parse_document, parse_yaml
 from rightofway.model import Plan, PlannerRun, Track
 
@@ -26,15 +26,15 @@ BY_SHAPE = [
 
 
 def fits(document: Any, kind: Any) -> bool:
-    validator = jsonschema.Draft202012Validator(schema(kind))
+    validator = jsonschema.Draft202012Validator(make_schema(kind))
     return bool(validator.is_valid(document))
 
 
 @pytest.mark.parametrize("kind", ["scenario", "plan"])
 def test_a_schema_is_a_schema_and_says_what_each_key_is_for(kind: Any) -> None:
-    jsonschema.Draft202012Validator.check_schema(schema(kind))
-    assert schema(kind)["properties"]["format"]["const"] == f"rightofway-{kind}/1"
-    for document in (schema(kind), *schema(kind)["$defs"].values()):
+    jsonschema.Draft202012Validator.check_schema(make_schema(kind))
+    assert make_schema(kind)["properties"]["format"]["const"] == f"rightofway-{kind}/1"
+    for document in (make_schema(kind), *make_schema(kind)["$defs"].values()):
         for described in document.get("properties", {}).values():
             assert described["description"]
 
@@ -50,7 +50,7 @@ def test_every_plan_that_is_written_fits(path: Path) -> None:
     homes = tuple(Track.of([robot.home], [0]) for robot in scenario.robots)
     plan = Plan(scenario=scenario, tracks=homes, run=PlannerRun(name="nobody moves"))
     assert fits(dump_plan(plan), "plan")
-    assert plan_of(dump_plan(plan)) == plan
+    assert parse_plan(dump_plan(plan)) == plan
 
 
 @pytest.mark.parametrize("name", BY_SHAPE)
@@ -93,4 +93,4 @@ def test_there_is_no_schema_of_anything_else() -> None:
     with pytest.raises(
         InputError, match=r"kind: 'fleet' does not fit \(give 'scenario' or 'plan' or 'suite'"
     ):
-        schema("fleet")  # type: ignore[arg-type]
+        make_schema("fleet")  # type: ignore[arg-type]

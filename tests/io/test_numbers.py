@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from rightofway.io.text import decimal, whole
+from rightofway.io.text import read_decimal, read_whole
 from rightofway.values import COORDINATE_DIGITS, format_number, read_exact
 
 
@@ -84,16 +84,16 @@ def test_fractions_are_written_as_they_are_read() -> None:
 
 
 def test_numbers_too_large_to_hold_stay_text() -> None:
-    assert whole("12") == 12
-    assert decimal("0.10") == Decimal("0.10")
+    assert read_whole("12") == 12
+    assert read_decimal("0.10") == Decimal("0.10")
     digits = "9" * 41
     for token in ("1e309", "1e-401", f"0.{digits}"):
-        assert decimal(token) == token
-    assert whole(digits) == digits
+        assert read_decimal(token) == token
+    assert read_whole(digits) == digits
 
 
 def test_every_float_is_a_decimal_that_is_kept() -> None:
     for number in (sys.float_info.max, sys.float_info.min, 5e-324):
-        kept = decimal(repr(number))
+        kept = read_decimal(repr(number))
         assert isinstance(kept, Decimal)
         assert float(kept) == number

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.io import dump_plan, load_plan, plan_of, write_plan
+from rightofway.io import dump_plan, load_plan, parse_plan, write_plan
 from rightofway.model import Decision, Plan, PlannerRun, Reroute, Rules, SteadyState, Tick, Track
 from rightofway.site import VertexId
 from tests.builders.fleets import grid_fleet
@@ -115,7 +115,7 @@ def test_a_plan_is_read_back_without_the_seconds(tmp_path: Path) -> None:
     loaded = load_plan(tmp_path / "door.json")
     assert (loaded.scenario, loaded.tracks) == (plan.scenario, plan.tracks)
     assert loaded.run.seconds is None
-    assert plan_of(dump_plan(plan, seconds=True)) == plan
+    assert parse_plan(dump_plan(plan, seconds=True)) == plan
     write_plan(plan, tmp_path / "door.json", seconds=True)
     assert load_plan(tmp_path / "door.json") == plan
 
@@ -127,26 +127,26 @@ def test_a_decision_by_priority_is_read_back_without_counts() -> None:
     plan = replace(plan, run=replace(plan.run, decisions=(decision,)))
     document = dump_plan(plan, seconds=True)
     assert document["planner"]["decisions"][0]["level"] == "priority"
-    assert plan_of(document) == plan
+    assert parse_plan(document) == plan
 
 
 def test_a_plan_may_be_wrong() -> None:
     document = dump_plan(door_plan())
     document["robots"][0] |= {"vertices": ["N0", "N8", "N8"], "enter": [5, -3, 2**53 - 1]}
-    track = plan_of(document).tracks[0]
+    track = parse_plan(document).tracks[0]
     assert track.vertices.tolist() == [0, 6, 6]
     assert track.enter.tolist() == [5, -3, 2**53 - 1]
     assert track.enter.dtype == np.int64
-    assert dump_plan(plan_of(document))["robots"][0]["enter"] == [5, -3, 2**53 - 1]
+    assert dump_plan(parse_plan(document))["robots"][0]["enter"] == [5, -3, 2**53 - 1]
 
 
 def test_tracks_may_come_in_any_order_and_metrics_are_nobodys_claim() -> None:
     document = dump_plan(door_plan(), seconds=True)
     document["robots"].reverse()
     document["metrics"] = {"flowtime": "much", "mine": 3}
-    assert plan_of(document) == door_plan()
+    assert parse_plan(document) == door_plan()
     del document["metrics"]
-    assert plan_of(document) == door_plan()
+    assert parse_plan(document) == door_plan()
 
 
 def test_a_plan_of_a_scenario_that_nobody_can_solve_has_no_metrics() -> None:
@@ -155,7 +155,7 @@ def test_a_plan_of_a_scenario_that_nobody_can_solve_has_no_metrics() -> None:
         scenario=scenario, tracks=(Track.of([0, 1], [0, 1]),), run=PlannerRun(name="by hand")
     )
     assert dump_plan(plan)["metrics"] == {}
-    assert plan_of(dump_plan(plan)) == plan
+    assert parse_plan(dump_plan(plan)) == plan
 
 
 def test_a_track_off_the_roadmap_cannot_be_written(tmp_path: Path) -> None:
@@ -183,7 +183,7 @@ def test_a_plan_says_from_when_on_it_repeats_itself() -> None:
             "critical": [{"robot": "R1", "visit": 1}, {"robot": "R2", "visit": 8}],
         }
     ]
-    assert plan_of(document) == steady_plan()
+    assert parse_plan(document) == steady_plan()
     assert "steady" not in dump_plan(door_plan())
 
 
@@ -209,7 +209,7 @@ def test_what_cannot_repeat_itself_is_refused(change: dict[str, Any], fault: str
     document = dump_plan(steady_plan())
     document["steady"][0] |= change
     with pytest.raises(InputError) as caught:
-        plan_of(document)
+        parse_plan(document)
     assert str(caught.value.faults[0]).startswith(fault), caught.value
 
 
@@ -319,7 +319,7 @@ def test_what_cannot_be_a_plan_is_told_with_its_place(
     document = copy.deepcopy(dump_plan(door_plan()))
     change(document, value)
     with pytest.raises(InputError) as caught:
-        plan_of(document, source="door.json")
+        parse_plan(document, source="door.json")
     told = str(caught.value).splitlines()
     assert len(told) == len(faults)
     for line, fault in zip(told, faults, strict=True):
@@ -333,7 +333,7 @@ def test_faults_in_all_parts_are_told_together() -> None:
     document["robots"][1]["enter"][2] = None
     del document["tick"]
     with pytest.raises(InputError) as caught:
-        plan_of(document)
+        parse_plan(document)
     assert [fault.place for fault in caught.value.faults] == [
         "scenario.robots[1].home",
         "planner.name",
@@ -344,7 +344,7 @@ def test_faults_in_all_parts_are_told_together() -> None:
 
 def test_a_missing_part_is_told_once() -> None:
     with pytest.raises(InputError) as caught:
-        plan_of({"format": "rightofway-plan/1"})
+        parse_plan({"format": "rightofway-plan/1"})
     assert [fault.place for fault in caught.value.faults] == [
         "scenario",
         "tick",
@@ -355,9 +355,9 @@ def test_a_missing_part_is_told_once() -> None:
 def test_a_plan_of_an_unknown_planner_is_a_plan() -> None:
     document = dump_plan(door_plan())
     del document["planner"]
-    assert plan_of(document).run.name == "unknown"
+    assert parse_plan(document).run.name == "unknown"
 
 
 def test_a_scenario_is_no_plan() -> None:
     with pytest.raises(InputError, match="is a scenario, not a plan"):
-        plan_of(dump_plan(door_plan())["scenario"])
+        parse_plan(dump_plan(door_plan())["scenario"])

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.io import dump_scenario, load, load_with_notes, scenario_of, write_scenario
+from rightofway.io import dump_scenario, load, load_with_notes, parse_scenario, write_scenario
 from rightofway.io.scenario.fleet import ListedFleet, read_robots
 from rightofway.io.scenario.loaded_map import FleetTraits
 from rightofway.model import Rules, Scenario, Stop
@@ -31,7 +31,7 @@ def one_robot(**keys: Any) -> dict[str, Any]:
 
 
 def test_what_is_left_out_follows_the_paper() -> None:
-    assert scenario_of(document()) == grid_fleet(DOOR, [("N0", "N6")])
+    assert parse_scenario(document()) == grid_fleet(DOOR, [("N0", "N6")])
 
 
 def test_a_place_is_a_number_or_row_and_column() -> None:
@@ -39,7 +39,7 @@ def test_a_place_is_a_number_or_row_and_column() -> None:
         {"name": "R1", "home": "N0", "target": "N6"},
         {"name": "R2", "home": [0, 2], "stops": [{"at": [2, 2], "work": 3}, {"at": "N4"}]},
     ]
-    scenario = scenario_of(document(robots=robots))
+    scenario = parse_scenario(document(robots=robots))
     vertex = scenario.roadmap.get_vertex
     assert scenario.robots[1].home == vertex("N2")
     assert scenario.robots[1].stops == (
@@ -49,13 +49,13 @@ def test_a_place_is_a_number_or_row_and_column() -> None:
 
 
 def test_target_and_work_are_short_for_one_stop() -> None:
-    short = scenario_of(one_robot(work="1/2"))
+    short = parse_scenario(one_robot(work="1/2"))
     long = [{"name": "R1", "home": "N0", "stops": [{"at": "N6", "work": 0.5}]}]
-    assert scenario_of(document(robots=long)) == short
+    assert parse_scenario(document(robots=long)) == short
 
 
 def test_a_float_counts_as_the_decimal_that_was_written() -> None:
-    assert scenario_of(one_robot(speed=0.1)).robots[0].speed == Fraction(1, 10)
+    assert parse_scenario(one_robot(speed=0.1)).robots[0].speed == Fraction(1, 10)
 
 
 def test_decimals_of_files_are_exact(tmp_path: Path) -> None:
@@ -69,17 +69,17 @@ def test_decimals_of_files_are_exact(tmp_path: Path) -> None:
 
 
 def test_classic_rules_are_those_of_the_benchmark() -> None:
-    assert scenario_of(one_robot() | {"rules": "classic"}).rules == Rules(
+    assert parse_scenario(one_robot() | {"rules": "classic"}).rules == Rules(
         occupancy="one", turn=Fraction(0), ends="none"
     )
     with pytest.raises(InputError, match=r"rules: 'clasic' is no name of rules \(give classic, or"):
-        scenario_of(one_robot() | {"rules": "clasic"})
+        parse_scenario(one_robot() | {"rules": "clasic"})
 
 
 def test_rules_and_what_a_robot_decides_for_itself() -> None:
     rules = {"occupancy": "both", "headway": "1/2", "turn": "cell", "return": "none"}
     own = {"turn": 0, "return": "home", "laps": 2}
-    scenario = scenario_of(one_robot(**own) | {"rules": rules | {"laps": 1, "rotations": False}})
+    scenario = parse_scenario(one_robot(**own) | {"rules": rules | {"laps": 1, "rotations": False}})
     assert scenario.rules == Rules(
         occupancy="both",
         headway=Fraction(1, 2),
@@ -93,11 +93,11 @@ def test_rules_and_what_a_robot_decides_for_itself() -> None:
 
 
 def test_a_grid_may_be_a_block_of_text() -> None:
-    assert scenario_of(document(map={"grid": "...\n@.@\n...\n"})) == scenario_of(document())
+    assert parse_scenario(document(map={"grid": "...\n@.@\n...\n"})) == parse_scenario(document())
 
 
 def test_cells_have_the_size_that_was_given() -> None:
-    scenario = scenario_of(document(map={"grid": DOOR, "cell_size": "1/2"}))
+    scenario = parse_scenario(document(map={"grid": DOOR, "cell_size": "1/2"}))
     assert scenario.roadmap.lengths == (Fraction(1, 2),)
 
 
@@ -109,12 +109,12 @@ def test_a_file_is_found_beside_the_scenario(tmp_path: Path) -> None:
     )
     path = tmp_path / "door.json"
     path.write_text(json.dumps(document(map={"file": "maps/door.map"})), encoding="utf-8")
-    assert load(path) == scenario_of(document())
+    assert load(path) == parse_scenario(document())
 
 
 def test_a_document_that_is_in_no_folder_may_read_no_file() -> None:
     with pytest.raises(InputError) as caught:
-        scenario_of(document(map={"file": "/etc/hostname"}), source="page")
+        parse_scenario(document(map={"file": "/etc/hostname"}), source="page")
     assert str(caught.value) == (
         "page: map.file: '/etc/hostname' is relative to no file"
         " (write the contents into the document)"
@@ -128,13 +128,13 @@ def test_a_floor_is_cut_as_small_as_the_fastest_robot_needs() -> None:
         {"name": "R1", "home": "N0", "target": "N5", "speed": 1},
         {"name": "R2", "home": "N6", "target": "N5", "speed": 2},
     ]
-    scenario = scenario_of(document(map={"floor": floor}, robots=robots))
+    scenario = parse_scenario(document(map={"floor": floor}, robots=robots))
     assert scenario.roadmap.grid is not None
     assert scenario.roadmap.grid.as_lines() == ("..@@..", "......")
     assert scenario.roadmap.lengths == (Fraction(1, 2),)
-    given = scenario_of(document(map={"floor": floor, "cell_size": 0.5}, robots=robots))
+    given = parse_scenario(document(map={"floor": floor, "cell_size": 0.5}, robots=robots))
     assert given == scenario
-    named = scenario_of(document(map={"floor": floor, "cell_size": "clustered"}, robots=robots))
+    named = parse_scenario(document(map={"floor": floor, "cell_size": "clustered"}, robots=robots))
     assert named == scenario
 
 
@@ -143,8 +143,10 @@ def test_a_floor_may_have_more_cells_if_it_says_so() -> None:
     floor = {"size": [200, 51]}
     robots = [{"name": "R1", "home": "N0", "target": "N5", "speed": 10}]
     with pytest.raises(InputError, match=r"map\.cell_size: .*2000 x 510 = 1020000 cells"):
-        scenario_of(document(map={"floor": floor}, robots=robots))
-    scenario = scenario_of(document(map={"floor": floor | {"max_cells": 1_020_000}}, robots=robots))
+        parse_scenario(document(map={"floor": floor}, robots=robots))
+    scenario = parse_scenario(
+        document(map={"floor": floor | {"max_cells": 1_020_000}}, robots=robots)
+    )
     assert scenario.roadmap.n_vertices == 1_020_000
 
 
@@ -158,7 +160,7 @@ def test_a_roadmap_may_be_drawn() -> None:
         ],
     }
     robots = [{"name": "R1", "home": "dock", "target": "gate"}]
-    roadmap = scenario_of(document(map={"roadmap": drawn}, robots=robots)).roadmap
+    roadmap = parse_scenario(document(map={"roadmap": drawn}, robots=robots)).roadmap
 
     def length(tail: str, head: str) -> Fraction | None:
         edge = roadmap.find_edge(roadmap.get_vertex(tail), roadmap.get_vertex(head))
@@ -175,7 +177,7 @@ def test_speeds_and_work_are_dealt_out_in_turn(tmp_path: Path) -> None:
     rows = [f"0\thall.map\t4\t2\t{x}\t0\t{x}\t1\t0" for x in range(4)]
     (tmp_path / "hall.scen").write_text("\n".join(["version 1", *rows]), encoding="utf-8")
     fleet = {"scen": "hall.scen", "count": 3, "speeds": [1, "1/2"], "work": [0, 5], "laps": 2}
-    scenario = scenario_of(document(map={"grid": ["....", "...."]}, robots=fleet), base=tmp_path)
+    scenario = parse_scenario(document(map={"grid": ["....", "...."]}, robots=fleet), base=tmp_path)
     assert [
         (robot.name, robot.home, robot.speed, robot.stops, robot.laps) for robot in scenario.robots
     ] == [
@@ -190,7 +192,7 @@ def test_speeds_and_work_are_dealt_out_in_turn(tmp_path: Path) -> None:
         ("R3", 2, 1, (Stop(at=scenario.roadmap.get_vertex("N6")),), 2),
     ]
     everyone = document(map={"grid": ["....", "...."]}, robots={"scen": "hall.scen"})
-    assert len(scenario_of(everyone, base=tmp_path).robots) == 4
+    assert len(parse_scenario(everyone, base=tmp_path).robots) == 4
 
 
 def test_the_reader_says_what_a_floor_was_cut_into_and_what_is_rounded(tmp_path: Path) -> None:
@@ -237,7 +239,7 @@ def test_lanes_that_cross_where_no_vertex_is_are_noted(tmp_path: Path) -> None:
 def test_at_most_fifty_problems_are_told() -> None:
     robots = [{"name": "R", "home": "N0", "target": "N6", "speed": 0}] * 60
     with pytest.raises(InputError) as caught:
-        scenario_of(document(robots=robots))
+        parse_scenario(document(robots=robots))
     told = str(caught.value).splitlines()
     assert len(told) == 51
     assert told[-1] == "and 10 more (mend these first)"
@@ -249,7 +251,7 @@ def test_durations_too_far_apart_for_64_bits_are_refused() -> None:
         {"name": "R2", "home": "N2", "target": "N6", "work": 1e9},
     ]
     with pytest.raises(InputError, match=r"robots: a duration of \d+ ticks of 1/1000000000 is too"):
-        scenario_of(document(robots=robots))
+        parse_scenario(document(robots=robots))
 
 
 def test_names_that_are_like_messages_do_not_confuse_them() -> None:
@@ -259,7 +261,7 @@ def test_names_that_are_like_messages_do_not_confuse_them() -> None:
         {"name": name, "home": "N2", "target": "N6"},
     ]
     with pytest.raises(InputError) as caught:
-        scenario_of(document(robots=robots))
+        parse_scenario(document(robots=robots))
     assert str(caught.value) == (
         f"robots[1].name: {name} is the name of robots[0] already (give each its own)"
     )
@@ -270,7 +272,7 @@ def fleet_of_all_kinds() -> Scenario:
         {"name": "R1", "home": "N0", "target": "N6", "speed": "1/3", "turn": "cell"},
         {"name": "R2", "home": "N2", "stops": [{"at": "N8", "work": 2}, {"at": "N4"}], "laps": 2},
     ]
-    return scenario_of(document(robots=robots, rules={"headway": "1/2"}))
+    return parse_scenario(document(robots=robots, rules={"headway": "1/2"}))
 
 
 YAML = """\
@@ -328,7 +330,7 @@ def test_stations_and_parking_places_of_vertices_that_are_not_there_are_all_repo
         "robots": [{"name": "R1", "home": "A", "target": "B"}],
     }
     with pytest.raises(InputError) as caught:
-        scenario_of(document)
+        parse_scenario(document)
     assert {(fault.place, fault.message) for fault in caught.value.faults} == {
         ("map.roadmap.stations.Press", "no vertex is named 'C' (add it to vertices)"),
         ("map.roadmap.parking[1]", "no vertex is named 'D' (add it to vertices)"),
@@ -343,7 +345,7 @@ def test_a_robot_may_name_a_station_of_a_roadmap() -> None:
         "map": {"roadmap": {**shape, "stations": {"Press": "B"}}},
         "robots": [{"name": "R1", "home": "A", "target": "Press"}],
     }
-    scenario = scenario_of(document)
+    scenario = parse_scenario(document)
     assert scenario.roadmap.name(scenario.robots[0].stops[0].at) == "B"
     assert dump_scenario(scenario)["map"]["roadmap"]["stations"] == {"Press": "B"}
 

@@ -13,16 +13,16 @@ from typing import Any
 import pytest
 
 from rightofway import check, solve
-from rightofway.io import SITE_PLAN_FORMATS, scenario_of, site_plan_text
-from rightofway.model import Plan, PlannerRun, Scenario, Track, stays_of
+from rightofway.io import SITE_PLAN_FORMATS, format_site_plan, parse_scenario
+from rightofway.model import Plan, PlannerRun, Scenario, Track, find_stays
 
 
 def planned(**keys: Any) -> Plan:
-    return solve(scenario_of({"format": "rightofway-scenario/1", **keys}), planner="two-level")
+    return solve(parse_scenario({"format": "rightofway-scenario/1", **keys}), planner="two-level")
 
 
 def written(plan: Plan, name: str) -> Any:
-    text, _ = site_plan_text(plan, name)
+    text, _ = format_site_plan(plan, name)
     return list(csv.DictReader(io.StringIO(text))) if name == "events" else json.loads(text)
 
 
@@ -31,7 +31,7 @@ def crossing() -> Plan:
 
     R2 waits until R1 has left m. A tick is 2 s, a thirtieth of a minute.
     """
-    scenario = scenario_of(
+    scenario = parse_scenario(
         {
             "format": "rightofway-scenario/1",
             "map": {
@@ -138,7 +138,7 @@ def test_y_that_grows_downwards_is_negated_for_ros_and_said() -> None:
     plan = planned(
         map={"grid": ["..", ".."]}, robots=[{"name": "R1", "home": "N0", "target": "N3"}]
     )
-    _, notes = site_plan_text(plan, "nav2")
+    _, notes = format_site_plan(plan, "nav2")
     assert notes == (
         "lengths count as metres and times count as seconds, because the scenario names no units",
         "y is negated: it grows downwards in the scenario, and upwards in ROS",
@@ -146,7 +146,7 @@ def test_y_that_grows_downwards_is_negated_for_ros_and_said() -> None:
     first = written(plan, "nav2")["robots"]["R1"]["path"]["poses"][0]["pose"]["position"]
     assert (first["x"], first["y"]) == (0.5, -0.5)
     assert [float(written(plan, "events")[0][key]) for key in "xy"] == [0.5, 0.5]
-    assert len(site_plan_text(plan, "events")[1]) == 1
+    assert len(format_site_plan(plan, "events")[1]) == 1
 
 
 @pytest.mark.parametrize("name", SITE_PLAN_FORMATS)
@@ -160,7 +160,7 @@ def test_splines_between_waypoints_stay_on_the_lane_and_go_forward() -> None:
     scenario = grid_scenario()
     plan = solve(scenario, planner="lacam", seed=1)
     for robot, (track, stays) in enumerate(
-        zip(plan.tracks, stays_of(scenario, plan.tracks), strict=True)
+        zip(plan.tracks, find_stays(scenario, plan.tracks), strict=True)
     ):
         (route,) = written(plan, "open-rmf")["itineraries"][scenario.robots[robot].name]
         waypoints = route["trajectory"]["waypoints"]
@@ -174,7 +174,7 @@ def test_splines_between_waypoints_stay_on_the_lane_and_go_forward() -> None:
 
 
 def grid_scenario() -> Scenario:
-    return scenario_of(
+    return parse_scenario(
         {
             "format": "rightofway-scenario/1",
             "map": {"grid": [".....", ".@.@.", "....."], "y": "up"},

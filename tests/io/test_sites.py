@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.io import Loaded, dump_scenario, scenario_of
+from rightofway.io import Loaded, dump_scenario, parse_scenario
 from rightofway.io.scenario.reader import read_scenario
 
 TABLE = {"name": "table", "rect": [1, 0, 1, 1]}
@@ -54,7 +54,7 @@ def test_an_origin_moves_places_and_obstacles_alike(y: str) -> None:
     moved, plain = loaded(shape, **there).scenario, loaded(floor(y=y), **here).scenario
     assert moved.robots == plain.robots
     assert moved.roadmap != plain.roadmap
-    assert scenario_of(dump_scenario(moved)) == moved
+    assert parse_scenario(dump_scenario(moved)) == moved
 
 
 def test_names_of_obstacles_stay_with_the_grid_that_a_floor_is_cut_into() -> None:
@@ -64,7 +64,7 @@ def test_names_of_obstacles_stay_with_the_grid_that_a_floor_is_cut_into() -> Non
     scenario = loaded(shape, **trip).scenario
     document = dump_scenario(scenario)
     assert document["map"]["obstacles"] == [TABLE]
-    assert dump_scenario(scenario_of(document)) == document
+    assert dump_scenario(parse_scenario(document)) == document
     without = loaded({"floor": {"size": [3, 2.5], "obstacles": [nameless]}}, **trip).scenario
     assert "obstacles" not in dump_scenario(without)["map"]
 
@@ -72,7 +72,7 @@ def test_names_of_obstacles_stay_with_the_grid_that_a_floor_is_cut_into() -> Non
 def test_the_document_of_a_floor_without_units_is_the_one_of_its_grid() -> None:
     trip = {"name": "R1", "home": "N0", "target": "N2", "speed": 1}
     document = {"format": "rightofway-scenario/1", "map": floor(), "robots": [trip]}
-    assert set(dump_scenario(scenario_of(document))["map"]) == {"grid", "cell_size"}
+    assert set(dump_scenario(parse_scenario(document))["map"]) == {"grid", "cell_size"}
 
 
 @pytest.mark.parametrize("beside", ["floor", "roadmap"])

@@ -13,9 +13,9 @@ import pytest
 from rightofway.cli.main import run
 from rightofway.cli.terminal import complain
 from rightofway.errors import InputError, InputFault, Location
-from rightofway.io import load, load_map, load_plan, read_layout, scenario_of
+from rightofway.io import load, load_map, load_plan, parse_scenario, read_layout
 from rightofway.io.scenario.shape import MapDocument
-from rightofway.io.text import content_of
+from rightofway.io.text import read_content
 
 ROOT = Path(__file__).parents[2]
 LAYOUTS = ROOT / "tests" / "data" / "layouts"
@@ -42,7 +42,7 @@ def test_a_device_that_a_document_names_is_not_read(
 ) -> None:
     """It would be read up to the limit of a file, half a gigabyte."""
     with pytest.raises(InputError) as caught:
-        scenario_of(document(shape, robots), tmp_path)
+        parse_scenario(document(shape, robots), tmp_path)
     assert "is a device or a pipe, not a file (name a file)" in str(caught.value)
     assert str(caught.value).startswith(f"{place}: '/dev/zero'")
 
@@ -50,7 +50,7 @@ def test_a_device_that_a_document_names_is_not_read(
 def test_a_pipe_that_a_document_names_is_not_waited_for(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe")
     with pytest.raises(InputError, match=r"map.file: '.* is a device or a pipe, not a file"):
-        scenario_of(document({"file": "pipe"}), tmp_path)
+        parse_scenario(document({"file": "pipe"}), tmp_path)
     (tmp_path / "map.yaml").write_text(
         "image: pipe\nresolution: 1\norigin: [0, 0, 0]\nnegate: 0\n"
         "occupied_thresh: 0.65\nfree_thresh: 0.2\n",
@@ -63,7 +63,7 @@ def test_a_pipe_that_a_document_names_is_not_waited_for(tmp_path: Path) -> None:
 def test_standard_input_is_no_file_of_a_document() -> None:
     """``-`` beside a file in the working directory has the path of standard input."""
     with pytest.raises(InputError, match=r"map.file: '-' names no file here"):
-        scenario_of(document({"file": "-"}), Path())
+        parse_scenario(document({"file": "-"}), Path())
 
 
 def test_a_device_that_the_user_names_is_refused() -> None:
@@ -79,7 +79,7 @@ def test_the_size_of_a_file_is_looked_at_first(tmp_path: Path) -> None:
         with pytest.raises(InputError, match="longer than 536870912 bytes"):
             read(tmp_path / "huge.map")
     with pytest.raises(InputError, match="longer than 2 bytes"):
-        content_of(LAYOUTS / "hall.lif.json", 2)
+        read_content(LAYOUTS / "hall.lif.json", 2)
 
 
 @pytest.fixture
@@ -153,7 +153,7 @@ def test_a_message_has_no_characters_that_a_terminal_obeys(text: str, escaped: s
     assert str(InputError([fault], text)) == f"{escaped}: robots[0] ({escaped}): {escaped} is wrong"
     other = {**document(GRID), "rules": {text: 1}}
     with pytest.raises(InputError) as caught:
-        scenario_of(other)
+        parse_scenario(other)
     assert str(caught.value).isprintable()
 
 
@@ -176,7 +176,7 @@ def test_the_wrong_radius_is_refused_before_a_floor_is_cut() -> None:
     robot = {**ROBOT, "home": {"x": 1, "y": 1}, "target": {"x": 2, "y": 2}, "radius": -1}
     assert MapDocument.model_validate(floor)
     with pytest.raises(InputError) as caught:
-        scenario_of(document(floor, [robot]))
+        parse_scenario(document(floor, [robot]))
     assert [fault.place for fault in caught.value.faults] == ["robots[0].radius"]
 
 
@@ -186,4 +186,4 @@ def test_the_pieces_of_a_curve_are_counted_before_any_is_made() -> None:
     lane = {"roadmap": {"vertices": {"A": [0, 0], "B": [10, 0]}, "edges": [edge]}}
     robot = {"name": "R1", "home": "A", "target": "B"}
     with pytest.raises(InputError, match=r"a spacing of 1/1000000000 makes 20+ pieces, more than"):
-        scenario_of(document({**lane, "spacing": "1/1000000000"}, [robot]))
+        parse_scenario(document({**lane, "spacing": "1/1000000000"}, [robot]))

@@ -8,8 +8,8 @@ import pytest
 
 import rightofway
 from rightofway.errors import InputError
-from rightofway.io import scenario_of
-from rightofway.io.tables import heading_key
+from rightofway.io import parse_scenario
+from rightofway.io.tables import find_heading_key
 from tests.builders.broken_files import limited
 
 SCENARIO = """\
@@ -73,7 +73,7 @@ def test_a_table_that_is_not_there_is_reported_at_its_key(tmp_path: Path) -> Non
 def test_a_long_heading_of_brackets_is_read_soon() -> None:
     """A search that began again at each bracket would take a minute of the processor."""
     with limited(5):
-        assert heading_key("[" * 300_000 + " work [s]") == "[" * 300_000 + "_work"
+        assert find_heading_key("[" * 300_000 + " work [s]") == "[" * 300_000 + "_work"
 
 
 def test_a_table_without_a_line_is_refused(tmp_path: Path) -> None:
@@ -84,4 +84,4 @@ def test_a_table_without_a_line_is_refused(tmp_path: Path) -> None:
         "robots": {"table": "fleet.csv"},
     }
     with pytest.raises(InputError):
-        scenario_of(document, tmp_path)
+        parse_scenario(document, tmp_path)

@@ -16,9 +16,9 @@ from openpyxl.styles import PatternFill  # type: ignore[import-untyped]
 
 import rightofway
 from rightofway.errors import InputError
-from rightofway.io import load_with_notes, scenario_of, write_scenario
+from rightofway.io import load_with_notes, parse_scenario, write_scenario
 from rightofway.io.faults import Faults
-from rightofway.io.workbook import workbook_of, write_template
+from rightofway.io.workbook import format_workbook, write_template
 from rightofway.io.workbook.sheets import read_sheets
 from rightofway.io.workbook.writer import TEMPLATE
 from rightofway.model import Rules
@@ -83,7 +83,7 @@ def test_limits_of_edges_are_kept(tmp_path: Path) -> None:
         "map": {"roadmap": {"vertices": vertices, "edges": edges}, "y": "up"},
         "robots": [{"name": "R1", "home": "dock", "target": "shelf"}],
     }
-    scenario = scenario_of(document)
+    scenario = parse_scenario(document)
     write_scenario(scenario, tmp_path / "roadmap.xlsx")
     assert rightofway.load(tmp_path / "roadmap.xlsx") == scenario
 
@@ -123,7 +123,7 @@ def test_later_keys_of_robots_and_rules_are_kept(tmp_path: Path) -> None:
 
 def test_a_document_with_parts_that_no_sheet_holds_is_refused() -> None:
     with pytest.raises(InputError, match=r"a workbook has no place for fleets \(write .yaml"):
-        workbook_of({**TEMPLATE, "fleets": []})
+        format_workbook({**TEMPLATE, "fleets": []})
 
 
 def test_colours_draw_a_map_and_empty_cells_are_noted(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import strategies as st
 
 from rightofway import solve
-from rightofway.model import Scenario, cost_of
+from rightofway.model import Scenario, compute_cost
 from rightofway.planners.bounds import prove_bound
 from rightofway.search import PriceAscent, compute_least_completions
 from tests.builders.any_fleet import any_fleet
@@ -39,7 +39,7 @@ def test_no_plan_of_any_fleet_costs_less_than_prices_say(
     plan = planned(scenario, planner)
     prices = PriceAscent(scenario.problem)
     prices.run(steps=steps)
-    assert prices.bound <= cost_of(scenario, plan.tracks)
+    assert prices.bound <= compute_cost(scenario, plan.tracks)
 
 
 @law(any_fleet(), st.integers(1, 20), st.integers(1, 20))

@@ -12,8 +12,15 @@ from hypothesis import strategies as st
 from rightofway import OutcomeKind, check, solve
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.metrics import compute_alone_completions, find_forced_losses
-from rightofway.model import Objective, Plan, PlannerRun, Scenario, completions_of, cost_of
-from rightofway.model.outcome import minimized
+from rightofway.model import (
+    Objective,
+    Plan,
+    PlannerRun,
+    Scenario,
+    compute_completions,
+    compute_cost,
+)
+from rightofway.model.outcome import choose_objective
 from rightofway.planners.bounds import prove_bound
 from rightofway.search import ConflictBasedSearch, compute_least_completions
 from tests.builders.any_fleet import any_fleet
@@ -172,9 +179,9 @@ def test_robots_count_by_their_weights(seed: int) -> None:
     assert outcome is not None
     assert outcome.bound is not None
     assert least is not None
-    assert outcome.bound <= least <= cost_of(scenario, answer.tracks)
+    assert outcome.bound <= least <= compute_cost(scenario, answer.tracks)
     if outcome.kind is OutcomeKind.OPTIMAL:
-        assert cost_of(scenario, answer.tracks) == least
+        assert compute_cost(scenario, answer.tracks) == least
 
 
 @law(st.sampled_from(["sizes", "three", "trips", "zones"]), seeds)
@@ -197,7 +204,7 @@ def test_the_least_makespan_is_proven(kind: str, seed: int) -> None:
 
 @law(any_fleet())
 def test_two_robots_lose_what_is_forced_in_any_plan(scenario: Scenario) -> None:
-    completions = completions_of(scenario, planned(scenario, "lns").tracks)
+    completions = compute_completions(scenario, planned(scenario, "lns").tracks)
     alone = compute_alone_completions(scenario)
     for loss in find_forced_losses(scenario):
         assert sum(completions[robot] - alone[robot] for robot in loss.robots) >= loss.ticks > 0
@@ -207,12 +214,12 @@ def test_two_robots_lose_what_is_forced_in_any_plan(scenario: Scenario) -> None:
 def test_no_plan_of_any_fleet_is_below_a_proven_bound(scenario: Scenario, nodes: int) -> None:
     plan = planned(scenario, "lns")
     proof, is_reached = prove_bound(scenario, nodes=nodes, steps=nodes)
-    assert proof.objective is minimized(scenario)
-    assert proof.bound <= proof.objective.of(scenario, plan.tracks)
+    assert proof.objective is choose_objective(scenario)
+    assert proof.bound <= proof.objective.compute_cost(scenario, plan.tracks)
     if is_reached:
         answer = _answer(scenario, {"nodes": nodes})
         assert isinstance(answer, Plan)
-        assert proof.bound == cost_of(scenario, answer.tracks)
+        assert proof.bound == compute_cost(scenario, answer.tracks)
 
 
 @law(seeds)

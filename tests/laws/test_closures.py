@@ -6,7 +6,7 @@ import random
 
 from hypothesis import strategies as st
 
-from rightofway.model import Scenario, route_of
+from rightofway.model import Scenario, make_route
 from rightofway.precedence import build_graph
 from rightofway.search import Bookings, Distances, find_earliest_track
 from tests.builders.closures import closed_fleet
@@ -31,7 +31,7 @@ def test_precedence_graphs_have_the_earliest_times_that_keep_clear_of_closures(
         tracks.append(track)
     itineraries = scenario.problem.itineraries
     routes = [
-        route_of(scenario.roadmap, one, track)
+        make_route(scenario.roadmap, one, track)
         for one, track in zip(itineraries, tracks, strict=True)
     ]
     graph = build_graph(scenario.problem, routes)

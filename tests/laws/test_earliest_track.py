@@ -6,7 +6,7 @@ from functools import partial
 
 from hypothesis import strategies as st
 
-from rightofway.model import Scenario, completions_of, cost_of
+from rightofway.model import Scenario, compute_completions, compute_cost
 from rightofway.search import Distances, compute_least_completions, find_earliest_track
 from tests.builders.any_fleet import any_fleet
 from tests.builders.booked import booked_on, table_of
@@ -48,5 +48,5 @@ def test_the_search_finds_the_least_completion_and_surcharges(
     if track is None or len(track) == 1:  # a trip that stays at home needs no time to get there
         assert best is None or track is not None
         return
-    cost, done = cost_of(scenario, [track]), completions_of(scenario, [track])[0]
+    cost, done = compute_cost(scenario, [track]), compute_completions(scenario, [track])[0]
     assert cost == best or (done > HORIZON and (best is None or cost < best))

@@ -146,7 +146,7 @@ def test_two_robots_never_change_places() -> None:
     assert least_flowtime(pair) == "infeasible"
 
 
-def plan_of(scenario: Scenario, enter: Sequence[int], routes: Sequence[Route]) -> Plan:
+def make_plan(scenario: Scenario, enter: Sequence[int], routes: Sequence[Route]) -> Plan:
     """Return a timetable as a plan."""
     ticks = iter(enter)
     tracks = (Track.of(route.vertices, list(islice(ticks, len(route)))) for route in routes)
@@ -162,7 +162,7 @@ def test_the_optimum_is_a_plan_that_the_judge_passes(seed: int) -> None:
 
     assert found != "infeasible"
     assert found.proven
-    plan = plan_of(scenario, found.enter, routes)
+    plan = make_plan(scenario, found.enter, routes)
     assert rightofway.check(plan).faults == ()
     assert measure(plan).flowtime == found.flowtime
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from rightofway.check import check
 from rightofway.metrics.alone import compute_alone_completions
-from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track, completions_of
+from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track, compute_completions
 from rightofway.precedence import build_graph_of_plan
 from rightofway.search import FleetSearch
 from rightofway.site import make_grid_roadmap
@@ -59,14 +59,14 @@ def test_plans_are_sound_better_each_time_and_the_same_on_any_number_of_threads(
             return
     first = searches[0].list_tracks()
     assert judged(scenario, first)
-    assert searches[0].cost == sum(completions_of(scenario, first))
+    assert searches[0].cost == sum(compute_completions(scenario, first))
     for search in searches:
         before = search.cost
         search.improve(3000, patience=10**9)
         assert search.cost <= before
     better = searches[0].list_tracks()
     assert judged(scenario, better)
-    assert searches[0].cost == sum(completions_of(scenario, better))
+    assert searches[0].cost == sum(compute_completions(scenario, better))
     assert all(search.list_tracks() == better for search in searches)
 
 
@@ -96,7 +96,7 @@ def test_retiming_gives_the_timetable_of_the_precedence_graph(
         assert search.list_tracks() == tuple(
             build_graph_of_plan(scenario.problem, before).build_tracks()
         )
-        assert search.cost == sum(completions_of(scenario, search.list_tracks()))
+        assert search.cost == sum(compute_completions(scenario, search.list_tracks()))
 
 
 def test_tracks_that_break_the_rules_are_not_taken_over() -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from hypothesis import strategies as st
 
-from rightofway.io import FOREIGN_FORMATS, foreign_text, load_plan, write_map
+from rightofway.io import FOREIGN_FORMATS, format_foreign, load_plan, write_map
 from rightofway.io.foreign import planviz
 from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track
 from rightofway.site import VertexId
@@ -54,7 +54,7 @@ def test_what_is_written_for_another_program_is_read_back(plan: Plan, name: str)
     with tempfile.TemporaryDirectory() as folder:
         path, map_file = Path(folder, "plan"), Path(folder, "hall.map")
         write_map(HALL, map_file)
-        path.write_text(foreign_text(plan, name), encoding="utf-8")
+        path.write_text(format_foreign(plan, name), encoding="utf-8")
         assert load_plan(path, map_file) == plan
 
 

@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 from rightofway.errors import InputError, InputFault
 from rightofway.io import (
     dump_plan,
-    plan_of,
-    scenario_of,
-    schema,
+    make_schema,
+    parse_plan,
+    parse_scenario,
 )
 from rightofway.io.locations import locate
 from rightofway.io.text import parse_json, parse_yaml
@@ -25,7 +25,8 @@ from rightofway.model import Plan, PlannerRun, Track
 ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / "examples"
 FITS = {
-    kind: jsonschema.Draft202012Validator(schema(kind)).is_valid for kind in ("scenario", "plan")
+    kind: jsonschema.Draft202012Validator(make_schema(kind)).is_valid
+    for kind in ("scenario", "plan")
 }
 
 ROADMAP = {
@@ -114,7 +115,7 @@ def mutated_scenarios(draw: st.DrawFn) -> Any:
 
 @st.composite
 def mutated_plans(draw: st.DrawFn) -> Any:
-    scenario = scenario_of(draw(st.sampled_from([ROADMAP, DOCUMENTS[1]])))
+    scenario = parse_scenario(draw(st.sampled_from([ROADMAP, DOCUMENTS[1]])))
     plan = Plan(
         scenario=scenario,
         tracks=tuple(Track.of([robot.home, 0], [0, 5]) for robot in scenario.robots),
@@ -153,14 +154,14 @@ HALL = ROOT / "tests" / "data" / "bad"
 @given(mutated_scenarios())
 @settings(max_examples=400, deadline=None)
 def test_scenario_documents(document: Any) -> None:
-    if accepts(scenario_of, document, HALL):
+    if accepts(parse_scenario, document, HALL):
         assert FITS["scenario"](document)
 
 
 @given(mutated_plans())
 @settings(max_examples=200, deadline=None)
 def test_plan_documents(document: Any) -> None:
-    if accepts(plan_of, document):
+    if accepts(parse_plan, document):
         assert FITS["plan"](document)
 
 
@@ -173,7 +174,7 @@ def test_marks_say_the_same_faults_with_lines_of_the_text(
         text = json.dumps(document, indent=indent)
     except TypeError:  # no JSON has decimals
         return
-    faults = _faults(scenario_of, parse_json(text), HALL)
+    faults = _faults(parse_scenario, parse_json(text), HALL)
     found = tuple(locate(faults, text))
     assert [(one.place, one.message) for one in found] == [
         (one.place, one.message) for one in faults
@@ -185,8 +186,8 @@ def test_marks_say_the_same_faults_with_lines_of_the_text(
 
 @given(values)
 def test_any_data(data: Any) -> None:
-    assert not accepts(scenario_of, data)
-    assert not accepts(plan_of, data)
+    assert not accepts(parse_scenario, data)
+    assert not accepts(parse_plan, data)
 
 
 @given(st.text(alphabet="[]{}:-,&*!|>'\"\n #ab1.~?%@`\t", max_size=40))

@@ -18,8 +18,8 @@ from rightofway.io import (
     dump_scenario,
     load,
     load_plan,
-    plan_of,
-    scenario_of,
+    parse_plan,
+    parse_scenario,
     write_plan,
     write_scenario,
 )
@@ -199,12 +199,12 @@ def test_fractions(number: Fraction) -> None:
 
 @law(scenarios())
 def test_scenario_documents(scenario: Scenario) -> None:
-    assert scenario_of(dump_scenario(scenario)) == scenario
+    assert parse_scenario(dump_scenario(scenario)) == scenario
 
 
 @law(any_fleet())
 def test_fleets_of_any_kind(scenario: Scenario) -> None:
-    assert scenario_of(dump_scenario(scenario)) == scenario
+    assert parse_scenario(dump_scenario(scenario)) == scenario
 
 
 VALUES: dict[str, st.SearchStrategy[Any]] = {
@@ -263,7 +263,7 @@ def reread(scenario: Scenario, name: str) -> Scenario:
                 for k, stop in enumerate(trip, 1):
                     row |= {f"stop {k}": stop["at"], f"work {k}": stop["work"]}
                 table.writerow([row.get(head, "") for head in heads])
-        return scenario_of({**document, "robots": {"table": name}}, Path(folder))
+        return parse_scenario({**document, "robots": {"table": name}}, Path(folder))
 
 
 def has_a_sheet_for_all(scenario: Scenario) -> bool:
@@ -302,7 +302,7 @@ def test_scenario_files(scenario: Scenario, name: str) -> None:
 
 @law(plans())
 def test_plans(plan: Plan) -> None:
-    assert plan_of(dump_plan(plan, seconds=True)) == plan
+    assert parse_plan(dump_plan(plan, seconds=True)) == plan
     with tempfile.TemporaryDirectory() as folder:
         one, other = Path(folder, "one.json"), Path(folder, "other.json")
         write_plan(plan, one, seconds=True)

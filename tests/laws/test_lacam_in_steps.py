@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 import rightofway
 from rightofway.errors import NoPlanExists
-from rightofway.io import scenario_of
+from rightofway.io import parse_scenario
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track
 from rightofway.planners.lacam import build_timetable
 from rightofway.search import plan_by_lacam
@@ -44,7 +44,7 @@ def places_after_each_step(tracks: list[Track] | None) -> NDArray[np.int32]:
 
 def test_a_robot_goes_round_an_edge_that_is_barred_for_its_type() -> None:
     """Two edges instead of one for R1."""
-    scenario = scenario_of(
+    scenario = parse_scenario(
         {
             "format": "rightofway-scenario/1",
             "map": {
@@ -63,7 +63,7 @@ def test_a_robot_goes_round_an_edge_that_is_barred_for_its_type() -> None:
         }
     )
     for seed in range(20):
-        tracks = plan_by_lacam(scenario.problem.in_steps(), seed=seed, spreads=False)
+        tracks = plan_by_lacam(scenario.problem.as_steps(), seed=seed, spreads=False)
         assert tracks is not None
         names = [scenario.roadmap.name(vertex) for vertex in tracks[0].vertices.tolist()]
         assert names == ["a", "b", "c"]
@@ -72,7 +72,7 @@ def test_a_robot_goes_round_an_edge_that_is_barred_for_its_type() -> None:
 @pytest.mark.parametrize("barred", [["wide"], []])
 def test_a_robot_is_not_pushed_along_an_edge_that_is_barred_for_its_type(barred: list[str]) -> None:
     """R1 wants the place of R2, which can only make room at c."""
-    scenario = scenario_of(
+    scenario = parse_scenario(
         {
             "format": "rightofway-scenario/1",
             "map": {
@@ -90,7 +90,7 @@ def test_a_robot_is_not_pushed_along_an_edge_that_is_barred_for_its_type(barred:
             ],
         }
     )
-    problem = scenario.problem.in_steps()
+    problem = scenario.problem.as_steps()
     if barred:
         with pytest.raises(NoPlanExists):
             plan_by_lacam(problem, spreads=False, ends_anywhere={1})
@@ -106,7 +106,7 @@ def test_steps_are_found_exactly_where_there_are_any(
 ) -> None:
     may_rotate = scenario.rules.occupancy == "one"
     try:
-        tracks = plan_by_lacam(scenario.problem.in_steps(), seed=seed, spreads=spreads)
+        tracks = plan_by_lacam(scenario.problem.as_steps(), seed=seed, spreads=spreads)
     except NoPlanExists:
         assert not can_get_through(scenario, may_rotate=may_rotate)
         return
@@ -119,7 +119,7 @@ def test_steps_are_found_exactly_where_there_are_any(
 @law(fleets())
 def test_the_timetable_of_steps_is_a_plan_without_fault(scenario: Scenario) -> None:
     try:
-        in_steps = plan_by_lacam(scenario.problem.in_steps(), spreads=False)
+        in_steps = plan_by_lacam(scenario.problem.as_steps(), spreads=False)
     except NoPlanExists:
         return
     assert in_steps is not None
@@ -134,7 +134,7 @@ def test_robots_that_may_end_anywhere_only_make_it_easier(scenario: Scenario, ro
     free = robot % len(scenario.robots)
     stages = [one.stages for one in scenario.problem.itineraries]
     try:
-        tracks = plan_by_lacam(scenario.problem.in_steps(), spreads=False, ends_anywhere={free})
+        tracks = plan_by_lacam(scenario.problem.as_steps(), spreads=False, ends_anywhere={free})
     except NoPlanExists:
         assert not can_get_through(scenario, may_rotate=scenario.rules.occupancy == "one")
         return
@@ -148,7 +148,7 @@ def test_robots_that_may_end_anywhere_only_make_it_easier(scenario: Scenario, ro
 def test_a_robot_that_may_end_anywhere_gets_out_of_the_way() -> None:
     """R1 and R2 cannot change places in a corridor; R2 can make room for R1 at its end, N3."""
     trips = [("N0", "N2"), ("N2", "N0")]
-    problem = grid_fleet(["...."], trips, rules=Rules(ends="none")).problem.in_steps()
+    problem = grid_fleet(["...."], trips, rules=Rules(ends="none")).problem.as_steps()
     with pytest.raises(NoPlanExists):
         plan_by_lacam(problem)
     tracks = plan_by_lacam(problem, ends_anywhere={1})
@@ -160,5 +160,5 @@ def test_a_search_that_ends_after_some_steps_proves_nothing() -> None:
     """Two robots change places in a corridor: impossible, but not proven before all is tried."""
     scenario = grid_fleet(["." * 40], [("N0", "N39"), ("N39", "N0")])
     with pytest.raises(NoPlanExists):
-        plan_by_lacam(scenario.problem.in_steps())
-    assert plan_by_lacam(scenario.problem.in_steps(), most_effort=1) is None
+        plan_by_lacam(scenario.problem.as_steps())
+    assert plan_by_lacam(scenario.problem.as_steps(), most_effort=1) is None

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from rightofway.check import check
 from rightofway.metrics import compute_alone_completions, compute_lost_time, waits
 from rightofway.metrics.waits import find_freeing_visits
-from rightofway.model import Plan, Scenario, Track, stays_of
+from rightofway.model import Plan, Scenario, Track, find_stays
 from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import STRICT, planned
 from tests.builders.laws import law
@@ -106,7 +106,7 @@ def test_a_wait_that_is_a_tick_shorter_breaks_the_right_of_way_that_is_its_cause
 
 def bound_visit(plan: Plan, robot: int, waited: int) -> int:
     """Return the visit after a wait that cannot begin a tick earlier."""
-    frees = find_freeing_visits(plan.scenario, plan.tracks, stays_of(plan.scenario, plan.tracks))
+    frees = find_freeing_visits(plan.scenario, plan.tracks, find_stays(plan.scenario, plan.tracks))
     first = sum(len(track) for track in plan.tracks[:robot])
     own = frees[first : first + len(plan.tracks[robot])]
     return waited + 1 + int(np.flatnonzero(own[waited + 1 :] >= 0)[0])

@@ -65,7 +65,7 @@ def test_a_bound_of_an_objective_is_not_above_its_optimum_and_an_optimum_is_one(
         assert answer is None or least is None
         return
     assert check(answer).ok
-    outcome, value = answer.run.outcome, OF[name].of(scenario, answer.tracks)
+    outcome, value = answer.run.outcome, OF[name].compute_cost(scenario, answer.tracks)
     assert least is not None
     assert outcome is not None
     assert outcome.objective is OF[name]
@@ -86,7 +86,7 @@ def test_planners_that_prove_plans_find_the_optimum_of_any_objective(
     if answer.run.outcome.kind is not OutcomeKind.OPTIMAL:
         leave("the trees have more nodes than the planner expands")
     least = joint_space.least_value(OF[name], answer.scenario)
-    assert OF[name].of(answer.scenario, answer.tracks) == least
+    assert OF[name].compute_cost(answer.scenario, answer.tracks) == least
 
 
 @law(any_fleet(), st.sampled_from(["auto", "lns"]), names, st.integers(0, 3))
@@ -101,7 +101,7 @@ def test_a_plan_does_not_get_worse_by_the_objective_of_its_improvement(
         assert scenario.roadmap.has_surcharges
         return
     assert check(better).ok
-    value, before = (OF[name].of(scenario, each.tracks) for each in (better, plan))
+    value, before = (OF[name].compute_cost(scenario, each.tracks) for each in (better, plan))
     assert value <= before
     outcome = better.run.outcome
     assert outcome is not None

@@ -15,10 +15,10 @@ import pytest
 from rightofway.cyclic import GroupResult, ParameterCurve, compute_parameter_curves, run_laps
 from rightofway.cyclic.sensitivity import find_stages_at
 from rightofway.errors import InputError
-from rightofway.io import scenario_of
+from rightofway.io import parse_scenario
 from rightofway.model import Lap, Rules, Scenario, Tick
 from rightofway.model.lap import compute_turns_of_lap
-from rightofway.model.route import drives_along
+from rightofway.model.route import compute_drives_along
 from rightofway.native import BookedRows
 from rightofway.planners import make_planning_problem
 from rightofway.precedence import TimedEventGraph
@@ -60,7 +60,7 @@ def period_by_hand(group: GroupResult, scenario: Scenario) -> Fraction | None:
             sum((itinerary.stages[k].work + itinerary.stages[k].turn for k, _ in stages), turn)
             for stages, turn in zip(at, turns, strict=True)
         ]
-        drive = drives_along(scenario.roadmap, itinerary, [lap.vertices[-1], *lap.vertices])
+        drive = compute_drives_along(scenario.roadmap, itinerary, [lap.vertices[-1], *lap.vertices])
         laps.append(
             Lap(
                 vertices=lap.vertices,
@@ -153,7 +153,7 @@ def on_limited_lanes(draw: random.Random) -> Scenario:
         {"name": f"R{k}", "home": home, "target": stop, "work": k, "speed": speed}
         for k, (home, stop, speed) in enumerate(zip(homes, stops, [1, "1/2", 2], strict=True))
     ]
-    return scenario_of(
+    return parse_scenario(
         {
             "format": "rightofway-scenario/1",
             "map": {"roadmap": {"vertices": at, "edges": edges}},

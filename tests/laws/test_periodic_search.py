@@ -9,7 +9,15 @@ from fractions import Fraction
 from hypothesis import strategies as st
 
 from rightofway.cyclic.route import make_cyclic_routes
-from rightofway.model import BookingRules, Itinerary, Lap, Rules, Scenario, Tick, drives_along
+from rightofway.model import (
+    BookingRules,
+    Itinerary,
+    Lap,
+    Rules,
+    Scenario,
+    Tick,
+    compute_drives_along,
+)
 from rightofway.model.lap import compute_turns_of_lap
 from rightofway.planners import make_planning_problem
 from rightofway.precedence import CyclicSchedule
@@ -56,7 +64,7 @@ def crowd(
 def does_its_work(scenario: Scenario, itinerary: Itinerary, lap: Lap) -> bool:
     """Tell whether a lap of one stop is on the roadmap and serves what is to be done."""
     stop, home = itinerary.stages
-    drives = drives_along(scenario.roadmap, itinerary, [lap.vertices[-1], *lap.vertices])
+    drives = compute_drives_along(scenario.roadmap, itinerary, [lap.vertices[-1], *lap.vertices])
     dwells = (lap.dwell - compute_turns_of_lap(scenario.roadmap, itinerary, lap.vertices)).tolist()
     served = [(v, dwell) for v, dwell in zip(lap.vertices, dwells, strict=True) if dwell]
     due = [(one.vertex, one.work + one.turn) for one in (home, stop)]

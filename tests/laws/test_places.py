@@ -8,7 +8,7 @@ from math import floor
 from hypothesis import strategies as st
 
 from rightofway.errors import InputError
-from rightofway.io import dump_scenario, scenario_of
+from rightofway.io import dump_scenario, parse_scenario
 from rightofway.model import Robot, Scenario, Stop
 from rightofway.site import Roadmap, VertexId, make_grid_roadmap
 from rightofway.site.places import Spot, find_vertex_at
@@ -77,6 +77,6 @@ def test_a_scenario_with_points_is_the_one_with_names(
         key: dict(zip("xy", map(str, roadmap.get_point(vertex)), strict=True))
         for key, vertex in (("home", home), ("target", target))
     }
-    scenario = scenario_of(document)
-    assert scenario == scenario_of({**document, "robots": [{**named, **points}]})
+    scenario = parse_scenario(document)
+    assert scenario == parse_scenario({**document, "robots": [{**named, **points}]})
     assert scenario.roadmap == roadmap

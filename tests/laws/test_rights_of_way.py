@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from rightofway import solve
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.execution import delay_model_of, read_delays, simulate
-from rightofway.io import scenario_of
+from rightofway.io import parse_scenario
 from rightofway.model import NEVER, Plan, Scenario
 from rightofway.planners.routing import find_shortest_routes
 from rightofway.precedence import (
@@ -108,7 +108,7 @@ def excluded_crosswise() -> Scenario:
         {"name": name, "home": home, "target": target, "work": 0, "radius": "0.3"}
         for name, (home, target) in ends.items()
     ]
-    return scenario_of(
+    return parse_scenario(
         {
             "format": "rightofway-scenario/1",
             "map": {"roadmap": {"vertices": points, "edges": edges}, "spacing": 2},

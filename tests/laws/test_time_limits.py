@@ -139,7 +139,7 @@ def find_route(scenario: Scenario, limit: float) -> None:
 
 
 def lacam(scenario: Scenario, limit: float) -> None:
-    for problem in (scenario.problem, scenario.problem.in_steps()):
+    for problem in (scenario.problem, scenario.problem.as_steps()):
         with suppress(NoPlanExists):
             plan_by_lacam(problem, time_limit=limit)
 

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 import rightofway
 from rightofway.errors import InputError
-from rightofway.io import scenario_of
-from rightofway.model import Plan, Scenario, cost_of
+from rightofway.io import parse_scenario
+from rightofway.model import Plan, Scenario, compute_cost
 from rightofway.planners import Feature, find_all
 from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import STRICT, broken, by_both_judges, planned
@@ -33,7 +33,7 @@ def changed(old: Plan, change: str, chance: int) -> Scenario:
         leave("the change does not fit to the fleet")
 
 
-CLOSED_SOON = scenario_of(
+CLOSED_SOON = parse_scenario(
     {
         "format": "rightofway-scenario/1",
         "map": {
@@ -61,7 +61,7 @@ def test_plans_of_changed_scenarios_keep_all_rules(
     assert plan.run.start.tracks <= plan.run.start.routes <= len(plan.tracks)
 
 
-WITHOUT_ROTATIONS = scenario_of(
+WITHOUT_ROTATIONS = parse_scenario(
     {
         "format": "rightofway-scenario/1",
         "map": {"grid": ["........", "@...@.@@", "........", ".....@.@", ".@@.....", "......@."]},
@@ -82,7 +82,7 @@ def test_a_plan_of_the_same_scenario_is_at_least_as_good(
 ) -> None:
     old = planned(fleet, planner)
     new = planned(replace(fleet), starter, start=old)
-    assert cost_of(new.scenario, new.tracks) <= cost_of(old.scenario, old.tracks)
+    assert compute_cost(new.scenario, new.tracks) <= compute_cost(old.scenario, old.tracks)
 
 
 # On grids, where robots turn for as long as they drive a cell. On lanes a robot that has made room

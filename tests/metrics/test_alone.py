@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from rightofway.errors import NoPlanExists
 from rightofway.metrics import compute_alone_completions
-from rightofway.model import Robot, Rules, Scenario, Stop, route_of
+from rightofway.model import Robot, Rules, Scenario, Stop, make_route
 from rightofway.search import Bookings, Distances, compute_least_completions, find_earliest_track
 from rightofway.site import Edge, Roadmap, VertexId, make_grid_roadmap, make_roadmap
 from tests.builders.any_fleet import any_fleet
@@ -182,6 +182,6 @@ def test_the_bound_of_a_robot_alone_is_what_it_reaches_alone(scenario: Scenario)
     for robot, least in enumerate(native.tolist()):
         track = find_earliest_track(robot, Bookings(scenario.problem), Distances(scenario.roadmap))
         assert track is not None
-        work = route_of(scenario.roadmap, scenario.problem.itineraries[robot], track).dwell[-1]
+        work = make_route(scenario.roadmap, scenario.problem.itineraries[robot], track).dwell[-1]
         completion = int(track.enter[-1]) + work
         assert completion >= least if scenario.roadmap.has_surcharges else completion == least

@@ -64,21 +64,21 @@ def test_with_longer_work_they_never_meet() -> None:
     assert door([3, 1], [2, 0]) == []
 
 
-def plan_of(scenario: Scenario, *trips: tuple[Sequence[int], Sequence[int]]) -> Plan:
+def make_plan(scenario: Scenario, *trips: tuple[Sequence[int], Sequence[int]]) -> Plan:
     tracks = tuple(Track.of(vertices, enter) for vertices, enter in trips)
     return Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand"))
 
 
 def test_free_running_keeps_routes_and_work_and_drops_all_waits() -> None:
     scenario = grid_fleet(OPEN, [("N0", "N1")], work=[3])
-    plan = plan_of(scenario, ([0, 3, 4, 1, 0], [2, 5, 9, 10, 40]))
+    plan = make_plan(scenario, ([0, 3, 4, 1, 0], [2, 5, 9, 10, 40]))
     # Three edges to N1, 3 of work, 1 of turning, 1 edge home.
     assert free_running(plan) == (Track.of([0, 3, 4, 1, 0], [0, 1, 2, 3, 8]),)
 
 
 def test_free_running_leaves_the_plan_alone() -> None:
     scenario = grid_fleet(OPEN, [("N0", "N1")])
-    plan = plan_of(scenario, ([0, 1, 0], [0, 4, 9]))
+    plan = make_plan(scenario, ([0, 1, 0], [0, 4, 9]))
     free_running(plan)
     assert plan.tracks == (Track.of([0, 1, 0], [0, 4, 9]),)
 
@@ -86,7 +86,7 @@ def test_free_running_leaves_the_plan_alone() -> None:
 def met(*trips: tuple[Sequence[int], Sequence[int]], **rules: Any) -> list[Collision]:
     ends = [(f"N{vertices[0]}", f"N{vertices[-1]}") for vertices, _ in trips]
     scenario = grid_fleet(OPEN, ends, rules=Rules(ends="none", **rules))
-    return list(find_collisions(scenario, plan_of(scenario, *trips).tracks))
+    return list(find_collisions(scenario, make_plan(scenario, *trips).tracks))
 
 
 def spans(found: list[Collision]) -> list[tuple[tuple[int, int], int, int, int | None]]:

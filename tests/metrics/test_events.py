@@ -26,7 +26,7 @@ def corridor(*stops: Stop, laps: int = 1, speed: Fraction = Fraction(1)) -> Scen
     return Scenario(roadmap=grid.roadmap, robots=(robot,), rules=Rules())
 
 
-def plan_of(scenario: Scenario, vertices: list[int], enter: list[int]) -> Plan:
+def make_plan(scenario: Scenario, vertices: list[int], enter: list[int]) -> Plan:
     tracks = (Track.of(vertices, enter),)
     return Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand"))
 
@@ -34,7 +34,7 @@ def plan_of(scenario: Scenario, vertices: list[int], enter: list[int]) -> Plan:
 def test_a_visit_says_what_it_is_for() -> None:
     """Works 2 at the middle and turns 1, then stops at the end, turns, and comes home."""
     stops = (Stop(at=VertexId(1), work=Fraction(2)), Stop(at=VertexId(2)))
-    plan = plan_of(corridor(*stops), [0, 1, 2, 1, 0], [0, 1, 5, 7, 9])
+    plan = make_plan(corridor(*stops), [0, 1, 2, 1, 0], [0, 1, 5, 7, 9])
     assert [(event.purpose, event.enter, event.leave) for event in list_events(plan)] == [
         ("home", 0, 1),
         ("work at stop 1, turn", 1, 5),
@@ -45,7 +45,7 @@ def test_a_visit_says_what_it_is_for() -> None:
 
 
 def test_laps_are_counted_and_home_between_them_is_named_once() -> None:
-    plan = plan_of(corridor(Stop(at=VertexId(1)), laps=2), [0, 1, 0, 1, 0], [0, 1, 3, 5, 7])
+    plan = make_plan(corridor(Stop(at=VertexId(1)), laps=2), [0, 1, 0, 1, 0], [0, 1, 3, 5, 7])
     assert [event.purpose for event in list_events(plan)] == [
         "home", "stop 1 of lap 1, turn", "home, turn", "stop 1 of lap 2, turn", "home",
     ]  # fmt: skip
@@ -64,7 +64,7 @@ def test_a_wait_names_the_robot_and_the_place_that_it_has_to_leave() -> None:
 
 def test_columns_have_times_in_the_scenario_unit_and_exact_ticks() -> None:
     """At speed 2 a cell takes half a time unit, which is the tick."""
-    plan = plan_of(
+    plan = make_plan(
         corridor(Stop(at=VertexId(1), work=Fraction(1)), speed=Fraction(2)), [0, 1, 0], [0, 1, 5]
     )
     columns = make_event_columns(plan)
@@ -77,7 +77,7 @@ def test_a_visit_says_that_a_robot_turns_on_the_spot() -> None:
     """East, then south: 2 for the corner, which is waited for, too; 4 to come back."""
     fleet = rightofway.FleetBuilder(grid=["..", "@."], turn_rate=45)
     scenario = fleet.add_robot("R", home="N0", target="N3", work=1).build_scenario()
-    plan = plan_of(scenario, [0, 1, 2, 1, 0], [0, 1, 4, 10, 14])
+    plan = make_plan(scenario, [0, 1, 2, 1, 0], [0, 1, 4, 10, 14])
     assert [(event.purpose, event.enter, event.waits) for event in list_events(plan)] == [
         ("home", 0, 0),
         ("turn", 1, 0),

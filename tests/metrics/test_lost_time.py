@@ -18,7 +18,7 @@ Trip = tuple[Sequence[int], Sequence[int]]
 ONE_WAY = {"ends": "none"}
 
 
-def plan_of(grid: Sequence[str], *trips: Trip, **rules: Any) -> Plan:
+def make_plan(grid: Sequence[str], *trips: Trip, **rules: Any) -> Plan:
     """Return robots that go one way, from the first to the last vertex of their trips."""
     ends = [(f"N{vertices[0]}", f"N{vertices[-1]}") for vertices, _ in trips]
     scenario = grid_fleet(grid, ends, rules=Rules(**ONE_WAY | rules))
@@ -48,7 +48,7 @@ def test_a_robot_that_waits_loses_its_wait() -> None:
 
 
 def test_a_longer_way_is_a_detour() -> None:
-    plan = plan_of(["...", "..."], ([0, 3, 4, 5, 2], [0, 1, 2, 3, 4]))
+    plan = make_plan(["...", "..."], ([0, 3, 4, 5, 2], [0, 1, 2, 3, 4]))
     assert parts(plan) == [(2, 2, 0, 0)]
     assert compute_lost_time(plan)[0].losses == ()
 
@@ -57,7 +57,7 @@ def test_a_robot_that_steps_aside_makes_room_for_the_one_that_comes_then() -> No
     """R1 leaves N1 for N4 while R2 passes, waits there for 1 tick, and goes on to N2."""
     aside = ([0, 1, 4, 1, 2], [0, 1, 2, 4, 5])
     passing = ([3, 0, 1], [0, 2, 3])
-    plan = plan_of(["...", "..."], aside, passing)
+    plan = make_plan(["...", "..."], aside, passing)
     (first, second) = compute_lost_time(plan)[0].losses
     assert parts(plan)[0] == (2, 0, 2, 1)
     assert (first.kind, first.vertex, first.towards) == ("makes room", 1, 4)
@@ -94,7 +94,7 @@ def test_waits_behind_one_robot_along_one_way_are_one() -> None:
 
 def test_waits_for_one_robot_that_goes_another_way_stay_two() -> None:
     """R1 goes from N1 round by N4 and N5 to N2; R2 waits in N0 until 2 and in N1 until 6."""
-    plan = plan_of(
+    plan = make_plan(
         ["...", "..."],
         ([1, 4, 5, 2, 5], [0, 2, 3, 4, 6]),
         ([0, 1, 2], [0, 2, 6]),
@@ -108,7 +108,7 @@ def test_waits_for_one_robot_that_goes_another_way_stay_two() -> None:
 
 def test_a_wait_whose_reason_lies_further_on_names_that_place() -> None:
     """R2 waits in N0, and so comes to N3 as R1 leaves; N1 and N2 are free all the time."""
-    plan = plan_of(["....", "...."], ([7, 3, 7], [0, 1, 6]), ([0, 1, 2, 3], [0, 4, 5, 6]))
+    plan = make_plan(["....", "...."], ([7, 3, 7], [0, 1, 6]), ([0, 1, 2, 3], [0, 4, 5, 6]))
     loss = compute_lost_time(plan)[1].losses[0]
     assert (loss.kind, loss.vertex, loss.towards) == ("waits", 0, 1)
     assert (loss.freed, loss.for_robot, loss.ticks) == (3, 0, 3)
@@ -116,21 +116,21 @@ def test_a_wait_whose_reason_lies_further_on_names_that_place() -> None:
 
 def test_two_waits_for_one_leaving_are_one() -> None:
     """R2 waits in N0 and in N2 until R1 leaves N3."""
-    plan = plan_of(["....", "...."], ([7, 3, 7], [0, 1, 6]), ([0, 1, 2, 3], [0, 3, 4, 6]))
+    plan = make_plan(["....", "...."], ([7, 3, 7], [0, 1, 6]), ([0, 1, 2, 3], [0, 3, 4, 6]))
     (loss,) = compute_lost_time(plan)[1].losses
     assert (loss.kind, loss.ticks, loss.count) == ("waits", 3, 2)
     assert (loss.vertex, loss.until_vertex, loss.freed) == (0, 2, 3)
 
 
 def test_a_wait_that_nothing_compels_has_no_cause() -> None:
-    loss = only_loss(plan_of(["..."], ([0, 1, 2], [0, 1, 4])))
+    loss = only_loss(make_plan(["..."], ([0, 1, 2], [0, 1, 4])))
     assert (loss.for_robot, loss.freed, loss.ticks) == (None, None, 2)
 
 
 def test_where_rotations_are_forbidden_a_robot_comes_one_tick_after_the_other() -> None:
     """R1 leaves N4 at tick 2; planners let R2 enter it at tick 3."""
     trips = (([3, 4, 5], [0, 1, 2]), ([1, 4, 7], [0, 3, 4]))
-    loss = only_loss(plan_of(["..."] * 3, *trips, rotations=False))
+    loss = only_loss(make_plan(["..."] * 3, *trips, rotations=False))
     assert (loss.for_robot, loss.freed, loss.ticks) == (0, 4, 2)
 
 
@@ -172,7 +172,7 @@ def test_work_at_the_end_is_no_loss() -> None:
 
 def test_of_a_plan_that_jumps_the_parts_still_sum_up() -> None:
     """From N0 to N2 at once: 1 tick of 2, so the way is 1 tick shorter than the shortest."""
-    (lost,) = compute_lost_time(plan_of(["..."], ([0, 2], [0, 1])))
+    (lost,) = compute_lost_time(make_plan(["..."], ([0, 2], [0, 1])))
     assert lost.completion == 1
     assert (lost.alone, lost.lost) == (2, -1)
 

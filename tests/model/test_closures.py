@@ -105,4 +105,4 @@ def test_closures_that_overlap_or_touch_are_one() -> None:
     other = replace(at("B"), from_=Fraction(4), until=Fraction(8))
     closures = replace(scenario, closures=(other, one)).problem.closures
     assert closures is not None
-    assert closures.at_vertex(0, scenario.roadmap.get_vertex("B")) == [(0, 4)]
+    assert closures.list_at_vertex(0, scenario.roadmap.get_vertex("B")) == [(0, 4)]

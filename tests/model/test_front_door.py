@@ -21,7 +21,7 @@ DOOR = ["...", "@.@", "..."]
 robot: Any = Robot
 stop: Any = Stop
 rules: Any = Rules
-scenario_of: Any = Scenario
+parse_scenario: Any = Scenario
 solve: Any = rightofway.solve
 improve: Any = rightofway.improve
 
@@ -54,7 +54,7 @@ def test_points_units_and_the_frame_are_those_of_a_file() -> None:
     shape = {"grid": DOOR, "y": "up", "origin": [10, "20.5"]}
     robots = [{"name": "R1", "home": "N6", "stops": [{"at": "N2", "work": 4}]}]
     document = {"format": "rightofway-scenario/1", "map": shape, "robots": robots}
-    assert built == rightofway.io.scenario_of({**document, "units": {"length": "m"}})
+    assert built == rightofway.io.parse_scenario({**document, "units": {"length": "m"}})
 
 
 def test_edges_without_a_length_share_one_step() -> None:
@@ -74,7 +74,7 @@ def test_lists_are_kept_as_tuples_so_that_the_fleet_can_be_measured_and_written(
     tmp_path: Path,
 ) -> None:
     robots = [robot(name="R1", home=0, stops=[stop(at=4)])]
-    plan = solve(scenario_of(roadmap=make_grid_roadmap(DOOR), robots=robots))
+    plan = solve(parse_scenario(roadmap=make_grid_roadmap(DOOR), robots=robots))
     assert plan.scenario.robots == tuple(robots)
     assert rightofway.measure(plan).flowtime == plan.flowtime
     rightofway.write_plan(plan, tmp_path / "plan.json")
@@ -137,15 +137,15 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
         "rules: rotations: 'yes' is neither true nor false",
     ),
     "the roadmap is text": (
-        lambda: scenario_of(roadmap="door.map", robots=[]),
+        lambda: parse_scenario(roadmap="door.map", robots=[]),
         "roadmap: 'door.map' is no roadmap",
     ),
     "a robot is a name": (
-        lambda: scenario_of(roadmap=make_grid_roadmap(DOOR), robots=["R1"]),
+        lambda: parse_scenario(roadmap=make_grid_roadmap(DOOR), robots=["R1"]),
         r"robots\[0\]: 'R1' is no robot \(give a Robot\)",
     ),
     "the fleet is one robot": (
-        lambda: scenario_of(
+        lambda: parse_scenario(
             roadmap=make_grid_roadmap(DOOR), robots=robot(name="R1", home=0, stops=())
         ),
         "robots: .* is no fleet",

@@ -17,7 +17,7 @@ def scenario(*trips: tuple[str, str], units: Units = METRES) -> Scenario:
 
 def test_a_cell_without_a_unit_of_length_keeps_its_number() -> None:
     place = PlaceNames(scenario(("N0", "N3"), units=Units()))
-    assert (place(0), place(5), place.where(0)) == ("N0", "N5", "N0")
+    assert (place(0), place(5), place.describe_place(0)) == ("N0", "N5", "N0")
 
 
 def test_a_cell_of_a_measured_grid_goes_by_its_middle() -> None:
@@ -29,7 +29,7 @@ def test_homes_and_only_stops_go_by_their_robot() -> None:
     assert [place(vertex) for vertex in (0, 3, 4, 7)] == [
         "the home of R1", "the stop of R1", "the home of R2", "the stop of R2",
     ]  # fmt: skip
-    assert place.where(0) == "(0.5, 0.5)"
+    assert place.describe_place(0) == "(0.5, 0.5)"
 
 
 def test_numbered_names_have_the_number_that_tables_have() -> None:
@@ -37,7 +37,7 @@ def test_numbered_names_have_the_number_that_tables_have() -> None:
     assert [place(vertex) for vertex in (0, 3, 5)] == [
         "the home of R1 (N0)", "the stop of R1 (N3)", "N5 (1.5, 1.5)",
     ]  # fmt: skip
-    assert place.where(0) == "N0 (0.5, 0.5)"
+    assert place.describe_place(0) == "N0 (0.5, 0.5)"
     assert PlaceNames(scenario(("N0", "N3"), units=Units()), numbered=True)(5) == "N5"
 
 

@@ -104,9 +104,9 @@ def test_rows_exclude_what_the_definition_does_unless_the_ends_of_edges_do(
     for i, j in permutations(range(len(scenario.robots)), 2):
         excludes = cache(partial(_incompatible, scenario, i, j))
         for x, one in enumerate(shapes):
-            found = set(list_excluded(resources, resources.vertex_row(i, x)))
+            found = set(list_excluded(resources, resources.get_vertex_row(i, x)))
             for y, other in enumerate(shapes):
-                if resources.vertex_row(j, y) in found:
+                if resources.get_vertex_row(j, y) in found:
                     assert excludes(one, other)
                 elif excludes(one, other):
                     ends = product(with_ends(one), with_ends(other))

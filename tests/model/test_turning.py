@@ -11,7 +11,7 @@ import pytest
 from rightofway import solve
 from rightofway.errors import InputError
 from rightofway.fleet_builder import FleetBuilder
-from rightofway.model import Clock, Robot, Rules, Scenario, Stop, Track, route_through
+from rightofway.model import Clock, Robot, Rules, Scenario, Stop, Track, make_route_through
 from rightofway.model.turning import compute_turnings, measure_angles
 from rightofway.site import Edge, Roadmap, VertexId, make_grid_roadmap, make_roadmap
 from tests.builders.fleets import grid_fleet
@@ -105,7 +105,7 @@ def test_a_route_turns_at_corners_and_stops_alike() -> None:
     scenario = corner(Rules(turn_rate=Fraction(90)))
     roadmap, itinerary = scenario.roadmap, scenario.problem.itineraries[0]
     vertices = [roadmap.get_vertex(name) for name in ("N0", "N1", "N3", "N1", "N0")]
-    assert route_through(roadmap, itinerary, vertices).dwell == (0, 1, 2, 1, 0)
+    assert make_route_through(roadmap, itinerary, vertices).dwell == (0, 1, 2, 1, 0)
 
 
 @pytest.mark.parametrize(

@@ -30,8 +30,8 @@ def test_the_shortest_duration_has_at_most_1000_ticks_and_the_rest_is_rounded_up
     # 1 and 1.0001 share only ticks of 1/10000; 1000 ticks for the shortest duration are the limit.
     clock = choose_clock([Fraction(1), Fraction(10001, 10000)])
     assert clock == Clock(tick=Fraction(1, 1000), exact=False)
-    assert clock.ticks(Fraction(10001, 10000)) == 1001
-    assert clock.time(1001) == Fraction(1001, 1000)
+    assert clock.count_ticks(Fraction(10001, 10000)) == 1001
+    assert clock.convert_to_time(1001) == Fraction(1001, 1000)
 
 
 def test_exactly_1000_ticks_for_the_shortest_duration_are_still_exact() -> None:

@@ -18,7 +18,7 @@ from itertools import chain, count, groupby, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model import NEVER, Itinerary, Scenario, Tick, least_dwell
+from rightofway.model import NEVER, Itinerary, Scenario, Tick, compute_least_dwell
 from rightofway.model.turning import Turning
 from rightofway.site import Roadmap, VertexId
 
@@ -85,8 +85,8 @@ def least_dwell_of_trip(itinerary: Itinerary) -> int:
         The trip; stages that follow each other at one vertex share a visit.
     """
     visits = [list(stages) for _, stages in groupby(itinerary.stages, lambda stage: stage.vertex)]
-    moving = sum(least_dwell(stages, leaves=True) for stages in visits[:-1])
-    return moving + least_dwell(visits[-1], leaves=False)
+    moving = sum(compute_least_dwell(stages, leaves=True) for stages in visits[:-1])
+    return moving + compute_least_dwell(visits[-1], leaves=False)
 
 
 def _by_ticks(roadmap: Roadmap, wanted: Mapping[Pace, set[Leg]]) -> dict[Pace, dict[Leg, int]]:

@@ -87,7 +87,7 @@ def earliest_times(
         for visit, robot in enumerate(robot_of):
             index, route = visit - first[robot], routes[robot]
             if index:
-                enter[visit] = max(enter[visit], enter[visit - 1] + route.least(index - 1))
+                enter[visit] = max(enter[visit], enter[visit - 1] + route.compute_least(index - 1))
             gap = headway + (route.drive[index] if ahead else 0)
             enter[visit] = max(
                 [enter[visit], *(enter[a + 1] + gap for a, b in given if b == visit)]

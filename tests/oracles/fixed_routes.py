@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from ortools.sat.python import cp_model
 
-from rightofway.model import route_of
+from rightofway.model import make_route
 from tests.oracles.precedence import System
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ def routes_of(plan: Plan) -> list[Route]:
     """Return the routes of a plan, without its times."""
     scenario = plan.scenario
     pairs = zip(scenario.problem.itineraries, plan.tracks, strict=True)
-    return [route_of(scenario.roadmap, itinerary, track) for itinerary, track in pairs]
+    return [make_route(scenario.roadmap, itinerary, track) for itinerary, track in pairs]
 
 
 def system_of(scenario: Scenario, routes: Sequence[Route]) -> System:
@@ -59,7 +59,7 @@ def system_of(scenario: Scenario, routes: Sequence[Route]) -> System:
     ahead = scenario.problem.booking_rules.books_ahead
     return System(
         routes=tuple(route.vertices for route in routes),
-        least=tuple(route.least(visit) for route in routes for visit in range(len(route))),
+        least=tuple(route.compute_least(visit) for route in routes for visit in range(len(route))),
         approach=tuple(int(drive) if ahead else 0 for route in routes for drive in route.drive),
         headway=scenario.problem.booking_rules.headway,
         active=(True,) * len(routes),

@@ -25,7 +25,7 @@ def event_arcs(timetable: CyclicSchedule, *, headway: int, books_ahead: bool) ->
     at: dict[int, list[tuple[int, int, int]]] = {}
     for robot, (lap, enter) in enumerate(zip(timetable.laps, timetable.enter, strict=True)):
         for index, tick in enumerate((enter % timetable.period).tolist()):
-            least, after = lap.least(index % len(lap)), (index + 1) % len(enter)
+            least, after = lap.compute_least(index % len(lap)), (index + 1) % len(enter)
             leave = tick + lasts(timetable, robot, index)
             arcs.append(((robot, index), (robot, after), least, leave // timetable.period))
             at.setdefault(lap.vertices[index % len(lap)], []).append((tick, robot, index))

@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Sequence
 from itertools import pairwise
 
-from rightofway.model import Plan, stays_of
+from rightofway.model import Plan, find_stays
 
 __all__ = ["causes", "ticks_by_activity"]
 
@@ -21,7 +21,7 @@ Holders = dict[tuple[int, int], int]
 def ticks_by_activity(plan: Plan) -> list[Counter[str]]:
     """Return for each robot how many ticks it works, drives, drives to make room, and waits."""
     found = []
-    for track, stay in zip(plan.tracks, stays_of(plan.scenario, plan.tracks), strict=True):
+    for track, stay in zip(plan.tracks, find_stays(plan.scenario, plan.tracks), strict=True):
         vertices, enter = track.vertices.tolist(), track.enter.tolist()
         room = _edges_of_loops(vertices, sorted({0, *stay.serves, len(vertices) - 1}))
         ticks: Counter[str] = Counter(works=int(stay.dwell[-1]))
@@ -59,7 +59,7 @@ def _edges_of_loops(vertices: Sequence[int], stops: Sequence[int]) -> set[int]:
 
 def causes(plan: Plan) -> Counter[tuple[int, int | None]]:
     """Return how long each robot waits for each other one, None where no robot is the cause."""
-    stays = stays_of(plan.scenario, plan.tracks)
+    stays = find_stays(plan.scenario, plan.tracks)
     holders = _holders(plan)
     ahead = plan.scenario.problem.booking_rules.books_ahead
     found: Counter[tuple[int, int | None]] = Counter()

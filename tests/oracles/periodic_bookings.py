@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rightofway.model import Itinerary, Lap, drives_along
+from rightofway.model import Itinerary, Lap, compute_drives_along
 from rightofway.precedence import CyclicSchedule
 from rightofway.site import Roadmap
 
@@ -39,7 +39,7 @@ def faults(timetable: CyclicSchedule, *, headway: int, books_ahead: bool) -> lis
         found += [
             f"too fast at visit {k}"
             for k in range(len(enter))
-            if times[k + 1] - times[k] < lap.least(k % len(lap))
+            if times[k + 1] - times[k] < lap.compute_least(k % len(lap))
         ]
     for one, other in combinations(range(len(timetable.laps)), 2):
         found += _meetings(timetable, one, other, headway=headway, books_ahead=books_ahead)
@@ -143,9 +143,9 @@ def has_a_route(
         vertex, stage, enter, before = state
         for edge in range(int(roadmap.indptr[vertex]), int(roadmap.indptr[vertex + 1])):
             head = int(roadmap.heads[edge])
-            drive = drives_along(roadmap, itinerary, [vertex, head])[0]
+            drive = compute_drives_along(roadmap, itinerary, [vertex, head])[0]
             ahead = drive if books_ahead else 0
-            turns = itinerary.turning.of(before, edge) if itinerary.turning else 0
+            turns = itinerary.turning.compute_turn(before, edge) if itinerary.turning else 0
             for leave in range(enter + dwell + turns + drive, end + 1):
                 if not free(vertex, enter, leave + headway):
                     break
@@ -205,7 +205,7 @@ def _closes(
         here, then = lap.vertices[k], (k + 1) % n
         later = set()
         for enter in at:
-            for leave in range(enter + lap.least(k), start + period + 1):
+            for leave in range(enter + lap.compute_least(k), start + period + 1):
                 if not free(here, enter, leave + headway):
                     break
                 fits = free(lap.vertices[then], leave - drives[then], leave + 1 + headway)

@@ -49,7 +49,7 @@ def is_kept(cycle: Cycle, period: int) -> bool:
     """Return whether no stay of a robot is too short."""
     leaves, n = [*cycle.enter[1:], cycle.enter[0] + period], len(cycle.lap)
     visits = enumerate(zip(cycle.enter, leaves, strict=True))
-    return all(leave - enter >= cycle.lap.least(k % n) for k, (enter, leave) in visits)
+    return all(leave - enter >= cycle.lap.compute_least(k % n) for k, (enter, leave) in visits)
 
 
 def overlap(one: Booked, other: Booked, period: int) -> bool:
@@ -77,7 +77,7 @@ def all_cycles(robot: int, lap: Lap, period: int, *, phases: Sequence[int]) -> I
         if sum(waits) <= spare:
             enter = [phase]
             for k, wait in enumerate(waits):
-                enter.append(enter[-1] + lap.least(k) + wait)
+                enter.append(enter[-1] + lap.compute_least(k) + wait)
             yield Cycle(robot, lap, tuple(enter))
 
 
@@ -123,7 +123,7 @@ def load(scenario: Scenario, timetable: CyclicSchedule) -> int:
         for lap, count in zip(timetable.laps, timetable.counts, strict=True):
             inside = [int(vertex) in clique for vertex in lap.vertices]
             used = sum(
-                lap.least(k) + (lap.drive[k] if ahead and not inside[k - 1] else 0)
+                lap.compute_least(k) + (lap.drive[k] if ahead and not inside[k - 1] else 0)
                 for k in range(len(lap))
                 if inside[k]
             )

@@ -39,7 +39,7 @@ def arcs_of(timetable: CyclicSchedule, *, headway: int, books_ahead: bool) -> li
         for k in range(size):
             visit = starts[robot] + k
             after, wraps = starts[robot] + (k + 1) % size, int(k == size - 1)
-            arcs.append(Arc(visit, after, lap.least(k % len(lap)), wraps))
+            arcs.append(Arc(visit, after, lap.compute_least(k % len(lap)), wraps))
             approach[visit] = lap.drive[k % len(lap)] if books_ahead else 0
             bookings += [
                 _Booking(

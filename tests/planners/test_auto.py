@@ -8,7 +8,7 @@ import pytest
 
 import rightofway
 from rightofway.bench.fleets import make_scenario_document
-from rightofway.io import load_plan, scenario_of, write_plan
+from rightofway.io import load_plan, parse_scenario, write_plan
 from rightofway.metrics import measure
 from rightofway.model import Plan, Rules
 from tests.builders.fleets import grid_fleet, random_fleet
@@ -56,7 +56,7 @@ def test_where_lacam_finds_no_plan_the_cheap_plan_is_first(planner: str) -> None
     problem = {"random": {"width": 32, "height": 32, "walls": 0.2, "seed": 1}}
     speeds = ["1", "1/2", "1/3"]
     fleet = {"speeds": speeds, "work": [0, 5], "rules": {}, "by_seed": True}
-    scenario = scenario_of(make_scenario_document(problem, fleet, robots=100, seed=2))
+    scenario = parse_scenario(make_scenario_document(problem, fleet, robots=100, seed=2))
     plans: list[Plan] = []
     options = {"iterations": 20} | ({"nodes": 1} if planner == "auto" else {})
     found = rightofway.solve(

@@ -10,7 +10,7 @@ import pytest
 
 from rightofway import FleetBuilder, check, improve, solve
 from rightofway.errors import InputError, NoPlanExists
-from rightofway.model import Closure, Scenario, cost_of
+from rightofway.model import Closure, Scenario, compute_cost
 from rightofway.planners import find_all
 
 
@@ -104,13 +104,15 @@ def test_every_planner_takes_the_way_of_least_time_and_surcharge(planner: str) -
     assert cheap["R1"].vertices == ("A", "B", "C")
     assert costly["R1"].vertices == ("A", "D", "C")
     assert cheap.flowtime == cheap.lower_bound == costly.lower_bound < costly.flowtime
-    assert cost_of(cheap.scenario, cheap.tracks) > cheap.flowtime
+    assert compute_cost(cheap.scenario, cheap.tracks) > cheap.flowtime
 
 
 def test_improving_never_raises_flowtime_and_surcharges_together() -> None:
     first = solve(two_ways(surcharge="1.1"), "two-level")
     better = improve(first, time_limit=1, iterations=20)
-    assert cost_of(better.scenario, better.tracks) <= cost_of(first.scenario, first.tracks)
+    assert compute_cost(better.scenario, better.tracks) <= compute_cost(
+        first.scenario, first.tracks
+    )
 
 
 def _few(planner: str) -> dict[str, int] | None:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 import rightofway
 from rightofway.check import check
 from rightofway.errors import GaveUp
-from rightofway.model import Plan, Rules, Scenario, Tick, completions_of
+from rightofway.model import Plan, Rules, Scenario, Tick, compute_completions
 from rightofway.planners.flip import Flipped, flip_right_of_way
 from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import STRICT, by_both_judges, planned
@@ -42,7 +42,7 @@ def test_where_both_share_a_door_the_routes_stay() -> None:
     waits, goes_first, end = longest_wait(plan)
     answer = flip_right_of_way(plan, waits, goes_first, end)
     assert answer.keeps_routes
-    before, after = (completions_of(fleet, one) for one in (plan.tracks, answer.tracks))
+    before, after = (compute_completions(fleet, one) for one in (plan.tracks, answer.tracks))
     assert (before[waits], before[goes_first]) == (5, 4)
     assert (after[waits], after[goes_first]) == (4, 5)
 

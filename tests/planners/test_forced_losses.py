@@ -9,7 +9,7 @@ import pytest
 
 import rightofway
 from rightofway.errors import InputError
-from rightofway.io import dump_plan, plan_of
+from rightofway.io import dump_plan, parse_plan
 from rightofway.metrics import find_forced_losses
 from rightofway.model import ForcedLoss, Outcome, OutcomeKind, Plan, Scenario, Tick
 from rightofway.report.plan import summarize_plan
@@ -81,9 +81,9 @@ def test_three_robots_lose_more_together_than_their_pairs() -> None:
 def test_forced_losses_are_kept_in_files_and_older_files_open_without_them() -> None:
     plan = rightofway.solve(DOOR, "cbs", time_limit=None)
     document = dump_plan(plan)
-    assert plan_of(document).run.forced_losses == plan.run.forced_losses
+    assert parse_plan(document).run.forced_losses == plan.run.forced_losses
     del document["planner"]["forced_losses"]
-    assert plan_of(document).run.forced_losses == ()
+    assert parse_plan(document).run.forced_losses == ()
 
 
 @pytest.mark.parametrize(
@@ -102,5 +102,5 @@ def test_a_forced_loss_that_cannot_be_is_refused_with_its_place(
     document = dump_plan(rightofway.solve(DOOR, "cbs", time_limit=None))
     document["planner"]["forced_losses"][0] |= change
     with pytest.raises(InputError) as caught:
-        plan_of(document)
+        parse_plan(document)
     assert fault in str(caught.value)

@@ -11,7 +11,7 @@ import pytest
 import rightofway
 from rightofway.errors import GaveUp
 from rightofway.metrics import measure
-from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track, cost_of
+from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track, compute_cost
 from rightofway.planners import Deadline, PrioritizedOptions, Task
 from rightofway.planners.lns import lns
 from rightofway.planners.prioritized import prioritized
@@ -83,9 +83,9 @@ def test_the_search_sums_costs_by_weights() -> None:
     search = FleetSearch(fleet.problem)
     assert search.prioritize(range(len(robots)), searches=10_000, time_limit=None)
     before = search.cost
-    assert before == cost_of(fleet, search.list_tracks())
+    assert before == compute_cost(fleet, search.list_tracks())
     search.improve(40, patience=1000)
-    assert search.cost == cost_of(fleet, search.list_tracks()) < before
+    assert search.cost == compute_cost(fleet, search.list_tracks()) < before
 
 
 def test_progress_tells_flowtime_gap_and_rate() -> None:

@@ -12,7 +12,7 @@ import rightofway
 from rightofway import FleetBuilder, Outcome, OutcomeKind, improve, solve
 from rightofway.cli.main import main
 from rightofway.errors import InvalidPlan
-from rightofway.io.plan.reader import plan_of
+from rightofway.io.plan.reader import parse_plan
 from rightofway.io.plan.writer import dump_plan
 from rightofway.metrics import derive_outcome
 from rightofway.model import Objective, Proof, Scenario, Tick
@@ -115,9 +115,9 @@ def test_plan_files_keep_the_outcome_and_older_ones_open_without_it() -> None:
     assert document["planner"]["outcome"] == {
         "kind": "best found", "objective": "flowtime", "bound": 4,
     }  # fmt: skip
-    assert plan_of(document).run.outcome == plan.run.outcome
+    assert parse_plan(document).run.outcome == plan.run.outcome
     del document["planner"]["outcome"]
-    old = plan_of(document)
+    old = parse_plan(document)
     assert old.run.outcome is None
     assert derive_outcome(old) == plan.run.outcome
 
@@ -141,7 +141,7 @@ def test_an_improved_plan_has_an_outcome() -> None:
 def test_objectives_are_measured_by_one_method() -> None:
     """One robot takes 2 ticks, the other one waits for it: 3."""
     plan = solve(crossing(), "fixed-priority")
-    values = [objective.of(plan.scenario, plan.tracks) for objective in Objective]
+    values = [objective.compute_cost(plan.scenario, plan.tracks) for objective in Objective]
     assert values == [5, 5, 5, 3, 2 * 3 + 5]
     assert classify_cost(Tick(5), Proof(bound=Tick(5))).kind is OutcomeKind.OPTIMAL
 

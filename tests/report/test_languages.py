@@ -49,12 +49,12 @@ def test_notes_of_a_reader_are_said_in_german() -> None:
     assert note == "floor cut into 24 x 16 = 384 cells of 0.5 m"
     assert translate(note, "de") == "Boden in 24 x 16 = 384 Zellen von 0.5 m geteilt"
     draft = LayoutDraft("LIF layout")
-    level = draft.level()
+    level = draft.begin_level()
     for name, x in (("A", 0), ("B", 2)):
         level.vertices[name] = LayoutVertex(name=name, at=(Fraction(x), Fraction(0)))
     for _ in range(2):
         draft.repair(Phrase("a number is written as text"))
-    layout = draft.layout()
+    layout = draft.make_layout()
     assert layout.notes == ("2 times: a number is written as text",)
     assert translate(layout.notes[0], "de") == "2-mal: eine Zahl ist als Text geschrieben"
     assert describe_layout(layout) == "a LIF layout with 2 vertices"

@@ -26,7 +26,7 @@ def report(plan: Plan) -> list[str]:
     return text.splitlines()
 
 
-def plan_of(grid: Sequence[str], *trips: Trip, speeds: Sequence[str] = ("1",)) -> Plan:
+def make_plan(grid: Sequence[str], *trips: Trip, speeds: Sequence[str] = ("1",)) -> Plan:
     ends = [(f"N{vertices[0]}", f"N{vertices[-1]}") for vertices, _ in trips]
     scenario = grid_fleet(
         grid, ends, rules=Rules(ends="none"), speeds=[Fraction(speed) for speed in speeds]
@@ -62,18 +62,18 @@ def test_on_request_times_are_in_ticks_and_the_length_of_a_tick_is_given() -> No
 def test_a_robot_behind_a_slower_one_follows_it() -> None:
     slow = ([1, 2, 3, 4, 5], [0, 2, 4, 6, 8])
     quick = ([0, 1, 2, 3, 4], [0, 2, 4, 6, 8])
-    plan = plan_of(["......"], slow, quick, speeds=["1/2", "1"])
+    plan = make_plan(["......"], slow, quick, speeds=["1/2", "1"])
     assert report(plan)[-1] == "At 0 s, R2 follows R1 from N0 to N3, loses 4 s."
 
 
 def test_a_wait_for_a_place_further_on_names_that_place() -> None:
-    plan = plan_of(["....", "...."], ([7, 3, 7], [0, 1, 6]), ([0, 1, 2, 3], [0, 4, 5, 6]))
+    plan = make_plan(["....", "...."], ([7, 3, 7], [0, 1, 6]), ([0, 1, 2, 3], [0, 4, 5, 6]))
     sentence = "At 0 s, R2 waits 3 s in N0 for R1 to leave N3, further on its way."
     assert sentence in report(plan)
 
 
 def test_a_wait_that_nothing_compels_says_so() -> None:
-    plan = plan_of(["..."], ([0, 1, 2], [0, 1, 4]))
+    plan = make_plan(["..."], ([0, 1, 2], [0, 1, 4]))
     assert report(plan)[-1] == (
         "At 1 s, R1 waits 2 s in N1, though no place on its way becomes free just then."
     )
@@ -81,10 +81,12 @@ def test_a_wait_that_nothing_compels_says_so() -> None:
 
 def test_a_detour_and_a_robot_that_makes_room_each_have_a_sentence() -> None:
     aside = ([0, 1, 4, 1, 2], [0, 1, 2, 4, 5])
-    lines = report(plan_of(["...", "..."], aside, ([3, 0, 1], [0, 2, 3])))
+    lines = report(make_plan(["...", "..."], aside, ([3, 0, 1], [0, 2, 3])))
     room = "At 2 s, R1 leaves N1 to make room for R2 and comes back, loses 2 s."
     assert room in lines
-    assert report(plan_of(["...", "..."], ([0, 3, 4, 5, 2], range(5))))[-1] == ("Detours: R1 2 s.")
+    assert report(make_plan(["...", "..."], ([0, 3, 4, 5, 2], range(5))))[-1] == (
+        "Detours: R1 2 s."
+    )
 
 
 def test_waits_of_several_laps_are_summed_up() -> None:
@@ -143,7 +145,7 @@ def test_a_log_tells_no_decisions_from_no_meetings() -> None:
         " (`--planner two-level` plans with a reason for each decision;"
         " `rightofway table PLAN --events` lists each wait and the robot waited for)."
     )
-    apart = plan_of(["...", "..."], ([0, 1], [0, 1]), ([3, 4], [0, 1]))
+    apart = make_plan(["...", "..."], ([0, 1], [0, 1]), ([3, 4], [0, 1]))
     assert report_decisions(apart, apart.scenario.quantities).startswith("No decision was needed")
 
 
@@ -168,7 +170,7 @@ def test_of_a_large_fleet_the_robots_that_lose_time_are_listed() -> None:
     """R22 is one tick late; of the others, each is as fast as alone."""
     rows = [[3 * row, 3 * row + 1, 3 * row + 2] for row in range(22)]
     trips = [(row, [0, 1, 2]) for row in rows[:21]]
-    lines = report(plan_of(["..."] * 22, *trips, (rows[21], [0, 1, 3])))
+    lines = report(make_plan(["..."] * 22, *trips, (rows[21], [0, 1, 3])))
     table = lines.index("times of the robots that lose most [s]")
     assert [line.split()[0] for line in lines[table + 1 : table + 4]] == ["robot", "R22", "…"]
     assert lines[table + 3] == "… and 21 more robots that lose less time (--json lists all)"
@@ -177,7 +179,7 @@ def test_of_a_large_fleet_the_robots_that_lose_time_are_listed() -> None:
 def test_of_many_robots_that_lose_time_ten_are_listed() -> None:
     """Each of twelve robots waits a tick for nobody, on a row of its own."""
     rows = [[3 * row, 3 * row + 1, 3 * row + 2] for row in range(12)]
-    lines = report(plan_of(["..."] * 12, *((row, [0, 1, 3]) for row in rows)))
+    lines = report(make_plan(["..."] * 12, *((row, [0, 1, 3]) for row in rows)))
     table = lines.index("times of the robots that lose most [s]")
     assert [line.split()[0] for line in lines[table + 2 : table + 12]] == [
         f"R{robot}" for robot in range(1, 11)
@@ -187,7 +189,7 @@ def test_of_many_robots_that_lose_time_ten_are_listed() -> None:
 
 
 def test_a_plan_without_lost_time_is_called_optimal() -> None:
-    lines = report(plan_of(["..."], ([0, 1, 2], [0, 1, 2])))
+    lines = report(make_plan(["..."], ([0, 1, 2], [0, 1, 2])))
     assert lines[:4] == [
         "planner    by hand; optimal, no robot loses time",
         "flowtime   2 s, the least possible",

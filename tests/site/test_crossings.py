@@ -14,8 +14,8 @@ import pytest
 
 from rightofway import FleetBuilder, InputError, check, solve
 from rightofway.cli.main import run
-from rightofway.io import dump_plan, dump_scenario, load_with_notes, plan_of, scenario_of
-from rightofway.io.text import json_text
+from rightofway.io import dump_plan, dump_scenario, load_with_notes, parse_plan, parse_scenario
+from rightofway.io.text import format_json
 from rightofway.site import Edge
 from rightofway.site.crossings import MOST_CUTS, choose_spacing, find_crossed
 from rightofway.site.nearness import Lines
@@ -44,7 +44,7 @@ def cross(**changes: Any) -> dict[str, Any]:
 
 def joints(document: dict[str, Any]) -> set[str]:
     """Return the lanes that are split, by the names of the vertices between their pieces."""
-    labels = scenario_of(document).roadmap.labels
+    labels = parse_scenario(document).roadmap.labels
     assert labels is not None
     return {name.rpartition("/")[0] for name in labels if "/" in name}
 
@@ -53,7 +53,7 @@ def test_lanes_that_cross_are_split_into_pieces_of_three_distances() -> None:
     """D = 0.8, so pieces are at most 2.4 long: 12 / 2.4 = 5 of them. E to F crosses nothing."""
     document = cross()
     assert joints(document) == {"A-B", "C-D"}
-    roadmap = scenario_of(document).roadmap
+    roadmap = parse_scenario(document).roadmap
     assert len(roadmap.lanes) == 4, "both directions of two lanes"
     assert {len(lane.pieces) for lane in roadmap.lanes} == {5}
     assert roadmap.n_vertices == 6 + 2 * 4
@@ -63,7 +63,7 @@ def test_robots_in_pieces_pass_a_crossing_soon_after_each_other() -> None:
     """A whole lane is booked for 12; a piece across the middle for 2.4, from 4.8 to 7.2."""
     lost = {}
     for spacing in ("auto", "whole"):
-        plan = solve(scenario_of(cross(spacing=spacing)), time_limit=5)
+        plan = solve(parse_scenario(cross(spacing=spacing)), time_limit=5)
         assert not check(plan).faults
         time = plan.scenario.problem.clock.tick
         lost[spacing] = (plan.flowtime - plan.lower_bound) * time
@@ -98,7 +98,7 @@ def test_a_vertex_beside_a_lane_splits_it() -> None:
 
 def test_the_reader_reports_what_is_split(tmp_path: Path) -> None:
     path = tmp_path / "cross.json"
-    path.write_text(json_text(cross() | {"units": {"length": "m", "time": "s"}}))
+    path.write_text(format_json(cross() | {"units": {"length": "m", "time": "s"}}))
     (note,) = load_with_notes(path).notes
     assert note == (
         "2 lanes are booked in pieces of at most 2.4 m, because others cross far from the ends"
@@ -111,32 +111,32 @@ def test_a_name_that_is_taken_leaves_the_lane_whole() -> None:
     document = cross()
     document["map"]["roadmap"]["vertices"]["A-B/1"] = [0, 30]
     document["map"]["roadmap"]["edges"].append(["A-B/1", "E"])
-    assert len(scenario_of(document).roadmap.lanes) == 2, "both directions of C to D"
+    assert len(parse_scenario(document).roadmap.lanes) == 2, "both directions of C to D"
     document["map"]["spacing"] = 3
     with pytest.raises(InputError, match="'A-B/1' is the name of a piece of a lane"):
-        scenario_of(document)
+        parse_scenario(document)
 
 
 def test_no_lane_has_more_than_eight_pieces() -> None:
     """D = 0.2: pieces of 0.6 would be 20."""
-    roadmap = scenario_of(cross(robot={"radius": "0.1"})).roadmap
+    roadmap = parse_scenario(cross(robot={"radius": "0.1"})).roadmap
     assert {len(lane.pieces) for lane in roadmap.lanes} == {8}
 
 
 def test_a_scenario_that_is_written_keeps_its_lanes_as_they_are() -> None:
     """Smaller robots would cut lanes more often; what is written is read as it was."""
-    scenario = scenario_of(cross())
+    scenario = parse_scenario(cross())
     document = dump_scenario(scenario)
     assert document["map"]["spacing"] == "whole"
-    assert scenario_of(document) == scenario
-    assert "spacing" not in dump_scenario(scenario_of(cross(robot={"radius": 0})))["map"]
+    assert parse_scenario(document) == scenario
+    assert "spacing" not in dump_scenario(parse_scenario(cross(robot={"radius": 0})))["map"]
 
 
 def test_a_plan_of_an_earlier_version_keeps_whole_lanes() -> None:
     """It names no spacing, and its robots drive from A to B in one go."""
-    document = dump_plan(solve(scenario_of(cross(spacing="whole")), time_limit=5))
+    document = dump_plan(solve(parse_scenario(cross(spacing="whole")), time_limit=5))
     del document["scenario"]["map"]["spacing"]
-    plan = plan_of(document)
+    plan = parse_plan(document)
     assert not plan.scenario.roadmap.lanes
     assert not check(plan).faults
 
@@ -150,7 +150,7 @@ def test_a_fleet_that_is_built_is_split_as_one_that_is_read() -> None:
         fleet.add_edge("A", "B").add_edge("C", "D").add_edge("E", "F")
         fleet.add_robot("R1", home="A", target="B", radius="0.4")
         fleet.add_robot("R2", home="C", target="D", radius="0.4")
-        read = scenario_of(cross(spacing=spacing))
+        read = parse_scenario(cross(spacing=spacing))
         assert fleet.build_scenario().roadmap == read.roadmap, spacing
 
 
@@ -271,6 +271,6 @@ def test_a_winding_lane_and_a_graph_without_positions_stay_whole() -> None:
 
 def test_inspect_reports_what_is_split(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "cross.json"
-    path.write_text(json_text(cross()))
+    path.write_text(format_json(cross()))
     assert run(["inspect", str(path)]) == 0
     assert "2 lanes are booked in pieces of at most 2.4" in capsys.readouterr().out

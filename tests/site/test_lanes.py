@@ -14,7 +14,7 @@ import pytest
 import rightofway
 from rightofway import FleetBuilder
 from rightofway.errors import InputError
-from rightofway.io import dump_scenario, scenario_of
+from rightofway.io import dump_scenario, parse_scenario
 from rightofway.model import Scenario
 from rightofway.planners import Feature, find_all
 from rightofway.site import Edge, Roadmap
@@ -59,14 +59,14 @@ def test_every_planner_keeps_speed_limits(planner: str) -> None:
 def test_limits_are_written_and_read() -> None:
     document = dump_scenario(limited())
     assert document["map"]["roadmap"]["edges"][2]["max_speed"] == "1/2"
-    assert scenario_of(document) == limited()
+    assert parse_scenario(document) == limited()
 
 
 def test_a_limit_is_above_zero() -> None:
     document = dump_scenario(limited())
     document["map"]["roadmap"]["edges"][2]["max_speed"] = 0
     with pytest.raises(InputError, match=r"edges\[2\].max_speed: 0 is not positive"):
-        scenario_of(document)
+        parse_scenario(document)
 
 
 def test_both_directions_of_a_lane_share_its_pieces() -> None:
@@ -120,7 +120,7 @@ def test_a_roadmap_keeps_the_pieces_of_each_lane_that_it_split() -> None:
 def test_a_file_keeps_the_pieces_of_lanes_by_their_names() -> None:
     """The ends of a lane are found although one of them has a dash in its name."""
     scenario = split_both_ways()
-    read = scenario_of(dump_scenario(scenario))
+    read = parse_scenario(dump_scenario(scenario))
     assert read == scenario
     assert read.roadmap.lanes == scenario.roadmap.lanes != ()
 
@@ -128,7 +128,7 @@ def test_a_file_keeps_the_pieces_of_lanes_by_their_names() -> None:
 def test_pieces_of_a_file_that_are_split_again_are_pieces_of_the_whole_lane() -> None:
     document = dump_scenario(split_both_ways())
     document["map"]["spacing"] = 1
-    roadmap = scenario_of(document).roadmap
+    roadmap = parse_scenario(document).roadmap
     pieces = {tuple(names(roadmap, lane.ends)): len(lane.pieces) for lane in roadmap.lanes}
     assert pieces["A", "B-1"] == pieces["B-1", "A"] == 6
     assert pieces["B-1", "C"] == 4
@@ -211,7 +211,7 @@ def test_a_convoy_on_a_lane_of_40_drives_as_close_as_its_pieces_allow(
         ],
         "rules": {"return": "none"},
     }
-    scenario = scenario_of(document)
+    scenario = parse_scenario(document)
     pieces = ceil(Fraction(40) / spacing)
     lane = [label for label in scenario.roadmap.labels or () if label.startswith("A-B/")]
     assert len(lane) == pieces - 1
@@ -234,7 +234,7 @@ def test_a_lane_is_not_split_without_end() -> None:
     drawn = {"roadmap": lane, "spacing": 0.001}
     document = {"format": "rightofway-scenario/1", "map": drawn, "robots": robots}
     with pytest.raises(InputError, match="makes 1000000000000 pieces, more than 100000"):
-        scenario_of(document)
+        parse_scenario(document)
 
 
 def test_a_lane_far_longer_than_its_drawing_is_not_split() -> None:

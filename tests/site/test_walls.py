@@ -9,7 +9,7 @@ import pytest
 
 import rightofway
 from rightofway.errors import InputError, NoPlanExists
-from rightofway.io import dump_scenario, scenario_of
+from rightofway.io import dump_scenario, parse_scenario
 from rightofway.metrics import Site, inspect
 from rightofway.model import Scenario
 from rightofway.site import make_grid_roadmap
@@ -20,7 +20,7 @@ HALL = ["......", "......", "..@...", "......", "......"]
 
 def hall(radius: str, walls: str = "strict", home: str = "N13", target: str = "N16") -> Scenario:
     robot = {"name": "R1", "home": home, "target": target, "radius": radius}
-    return scenario_of(
+    return parse_scenario(
         {
             "format": "rightofway-scenario/1",
             "map": {"grid": HALL},
@@ -61,7 +61,7 @@ def test_a_plan_keeps_out_of_walls_and_survives_a_file() -> None:
     visited = {scenario.roadmap.name(vertex) for vertex in plan.tracks[0].vertices.tolist()}
     assert visited == {"N9", "N10", "N16", "N22"}
     assert rightofway.check(plan).ok
-    again = scenario_of(dump_scenario(scenario))
+    again = parse_scenario(dump_scenario(scenario))
     assert again.roadmap == scenario.roadmap
     assert again.rules.walls == "strict"
 
@@ -90,7 +90,7 @@ def test_strict_walls_need_a_grid() -> None:
         "rules": {"walls": "strict"},
     }
     with pytest.raises(InputError, match=r"rules\.walls: 'strict' needs a grid"):
-        scenario_of(document)
+        parse_scenario(document)
 
 
 def test_an_inspection_says_where_robots_reach_into_walls() -> None:

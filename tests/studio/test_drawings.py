@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from rightofway import load, solve
-from rightofway.io import plan_of, plan_text
+from rightofway.io import format_plan, parse_plan
 from rightofway.io.text import parse_json
 from rightofway.studio.tasks.drawings import Origin, as_drawn
 from rightofway.viz.page.payload import make_payload
@@ -34,7 +34,7 @@ def test_a_plan_on_a_ros_map_is_shown_over_its_picture(
     (tmp_path / "site.json").write_text(json.dumps(document))
     monkeypatch.chdir(tmp_path)
     plan = solve(load(tmp_path / "site.json"), time_limit=1)
-    bare = plan_of(parse_json(plan_text(plan)))
+    bare = parse_plan(parse_json(format_plan(plan)))
     assert "background" not in make_payload(bare)["map"]
     drawn = as_drawn(bare, Origin(document=document, folder="."))
     assert make_payload(drawn)["map"]["background"]["href"].startswith("data:image/png")

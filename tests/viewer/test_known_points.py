@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from PIL import Image
 
-from rightofway.io import scenario_of
+from rightofway.io import parse_scenario
 from rightofway.model import Plan
 from rightofway.solve import solve
 from rightofway.viz import Background
@@ -26,7 +26,7 @@ MILLIMETRE = 0.001
 def plan_on(shape: dict[str, Any], home: Any, target: Any, base: Path | None) -> Plan:
     robots = [{"name": "R1", "home": home, "target": target}]
     document = {"format": "rightofway-scenario/1", "map": shape, "robots": robots}
-    return solve(scenario_of(document, base))
+    return solve(parse_scenario(document, base))
 
 
 def site_of_pixel(
@@ -135,13 +135,13 @@ def test_a_point_drives_along_the_curve_of_its_lane(show: Opener, tmp_path: Path
         "map": {"layout": "route.geojson"},
         "robots": [{"name": "R1", "home": "0", "target": "1", "return": "none"}],
     }
-    viewer = show(solve(scenario_of(document, tmp_path)))
+    viewer = show(solve(parse_scenario(document, tmp_path)))
     viewer.seek(viewer.end / 4)
     places = [viewer.on_site((disc.x, disc.y)) for disc in viewer.discs() if disc.is_filled]
     assert any(place == pytest.approx((0, 2), abs=MILLIMETRE) for place in places)
     assert viewer.complaints == []
     document["robots"][0]["radius"] = 1  # judged, and so drawn, on the straight line
-    viewer = show(solve(scenario_of(document, tmp_path)))
+    viewer = show(solve(parse_scenario(document, tmp_path)))
     ways = [tuple(map(viewer.on_site, line.points)) for line in viewer.lines()]
     corner = pytest.approx((0, 4), abs=MILLIMETRE)
     assert not any(point == corner for way in ways for point in way)

@@ -6,7 +6,7 @@ from itertools import combinations
 
 import pytest
 
-from rightofway.io import scenario_of
+from rightofway.io import parse_scenario
 from rightofway.solve import solve
 from tests.builders.payloads import CROSS, cross
 from tests.builders.plans import crowd, door
@@ -71,7 +71,7 @@ def test_names_of_stations_zones_and_limits_do_not_cover_each_other(show: Opener
         ],
     }  # fmt: skip
     plan = cross(**{key: value for key, value in more.items() if key != "edges"})
-    limited = scenario_of({
+    limited = parse_scenario({
         "format": "rightofway-scenario/1",
         "map": {"roadmap": {**CROSS, **more}, "y": "up"},
         "robots": [{"name": "R1", "home": "A", "target": "B", "radius": 1}],
@@ -93,7 +93,7 @@ def test_a_closure_is_drawn_and_named(show: Opener) -> None:
         "robots": [{"name": "R1", "home": "A", "target": "B"}],
         "closures": [{"edge": ["C", "D"], "from": 8, "until": 24, "radius": 1}],
     }
-    plan = solve(scenario_of(document))
+    plan = solve(parse_scenario(document))
     viewer = show(plan)
     viewer.page.mouse.move(*viewer.at((4, 2)))  # in the lane from C to D, beside the crossing
     assert "C to D closed from time 8 until time 24" in viewer.text("#hover")

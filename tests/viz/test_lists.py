@@ -12,7 +12,7 @@ import pytest
 import rightofway
 from rightofway.errors import InputError
 from rightofway.metrics import NamedCollision, free_running, name_collisions
-from rightofway.model import Plan, Tick, completions_of
+from rightofway.model import Plan, Tick, compute_completions
 from rightofway.planners.routing import free_running_tracks
 from rightofway.quantities import Units
 from rightofway.viz.table import (
@@ -105,7 +105,7 @@ def test_the_swap_that_the_published_method_leaves_is_listed() -> None:
 def test_conflicts_before_the_first_decision_are_counted_tick_by_tick(case: dict[str, Any]) -> None:
     plan = published(case["name"])
     scenario, tracks = plan.scenario, free_running_tracks(plan.scenario)
-    end = max(completions_of(scenario, tracks))
+    end = max(compute_completions(scenario, tracks))
     listed = tabulate_collision_ticks(name_collisions(scenario, tracks), scenario.quantities, end)
     assert count_conflicts_before(plan)[0] == [row[4] for row in listed.list_rows()].count(
         "collision"

@@ -12,7 +12,7 @@ import pytest
 from PIL import Image, ImageColor
 
 from rightofway.errors import InputError
-from rightofway.io import scenario_of
+from rightofway.io import parse_scenario
 from rightofway.model import Plan, Robot, Scenario, Stop
 from rightofway.site import Edge, VertexId, make_roadmap
 from rightofway.site.drawing import Drawing, Picture
@@ -193,7 +193,7 @@ def test_robots_with_a_size_have_it_in_a_picture(tmp_path: Path) -> None:
         "map": {"roadmap": {"vertices": {"A": [0, 0], "B": [4, 0]}, "edges": [["A", "B"]]}},
         "robots": [{"name": "R1", "home": "A", "target": "B", "radius": 2, "return": "none"}],
     }
-    write_png(solve(scenario_of(document)), tmp_path / "a.png", scale=40)
+    write_png(solve(parse_scenario(document)), tmp_path / "a.png", scale=40)
     with Image.open(tmp_path / "a.png") as image:
         # the robot reaches no farther than the half unit round the map: no margin more
         assert image.size == (2 * MARGIN + 80, 2 * MARGIN + 40)
@@ -211,7 +211,7 @@ def test_a_zone_lies_below_its_lanes(tmp_path: Path) -> None:
         "map": {"roadmap": shape},
         "robots": [{"name": "R1", "home": "A", "target": "B"}],
     }
-    scene = Scene(solve(scenario_of(document)), LIGHT)
+    scene = Scene(solve(parse_scenario(document)), LIGHT)
     write_png(scene.plan, tmp_path / "a.png", scale=40)
     tint = scene.fade(LIGHT.zone, 0.35)
     assert tint in {colour_at(tmp_path / "a.png", 0.5, 0.01 * y) for y in range(20, 50)}

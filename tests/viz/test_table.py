@@ -25,7 +25,7 @@ WAYS_OUT = {
 """The paper's routes, from home to target; robots return the same way."""
 
 
-def plan_of(scenario: Scenario, *trips: tuple[Sequence[int], Sequence[int]]) -> Plan:
+def make_plan(scenario: Scenario, *trips: tuple[Sequence[int], Sequence[int]]) -> Plan:
     """Make a plan of cells and enter."""
     vertex = scenario.roadmap.get_vertex
     tracks = (Track.of([vertex(f"N{cell}") for cell in cells], enter) for cells, enter in trips)
@@ -36,7 +36,7 @@ def leisurely(case: dict[str, Any]) -> Plan:
     """Return the routes of a case at times that leave room for everything."""
     ways = WAYS_OUT[case["name"].split("-")[0]].values()
     trips = [(way + way[-2::-1], range(0, 100 * (2 * len(way) - 1), 100)) for way in ways]
-    return plan_of(paper_scenario(case), *trips)
+    return make_plan(paper_scenario(case), *trips)
 
 
 def published(name: str) -> Plan:
@@ -45,7 +45,7 @@ def published(name: str) -> Plan:
     for row in CASES[name]["final"].values():
         enter = [tick for tick, cell in enumerate(row) if not tick or row[tick - 1] != cell]
         trips.append(([row[tick] for tick in enter], enter))
-    return plan_of(paper_scenario(CASES[name]), *trips)
+    return make_plan(paper_scenario(CASES[name]), *trips)
 
 
 def rows(table: TimeSpaceTable, kind: str) -> dict[str, Row]:
@@ -86,14 +86,14 @@ def test_collisions_are_marked_in_planned_rows_and_waits_in_final_ones() -> None
 def test_a_conflict_left_in_the_plan_is_marked_in_its_final_row() -> None:
     scenario = grid_fleet(["...", "..."], [("N0", "N1"), ("N2", "N4")], rules=Rules(ends="none"))
     # R2 passes N1 in [2, 3), where R1 is from tick 1 on for ever.
-    table = make_table(plan_of(scenario, ([0, 1], [0, 1]), ([2, 1, 4], [0, 2, 3])))
+    table = make_table(make_plan(scenario, ([0, 1], [0, 1]), ([2, 1, 4], [0, 2, 3])))
     assert marked(rows(table, "final")["R2"], "collision") == [2]
 
 
 def test_a_collision_outdoes_a_wait() -> None:
     scenario = grid_fleet(["...", "..."], [("N0", "N1"), ("N2", "N4")], rules=Rules(ends="none"))
     # R2 waits in N1 in [2, 4), which is R1's for ever.
-    table = make_table(plan_of(scenario, ([0, 1], [0, 1]), ([2, 1, 4], [0, 2, 5])))
+    table = make_table(make_plan(scenario, ([0, 1], [0, 1]), ([2, 1, 4], [0, 2, 5])))
     final = rows(table, "final")["R2"]
     assert (marked(final, "collision"), marked(final, "wait")) == ([2, 3, 4], [0])
 
@@ -101,7 +101,7 @@ def test_a_collision_outdoes_a_wait() -> None:
 def test_a_row_ends_at_the_completion() -> None:
     # One way: in N1 from tick 1, and 3 of work.
     scenario = grid_fleet(["..."], [("N0", "N1")], rules=Rules(ends="none"), work=[3])
-    table = make_table(plan_of(scenario, ([0, 1], [0, 1])))
+    table = make_table(make_plan(scenario, ([0, 1], [0, 1])))
     assert table.last_tick == 4
     assert table.rows[0].places == [0, 1, 1, 1, 1]
 
@@ -234,18 +234,18 @@ def test_wide_letters_take_two_columns_and_a_tick_of_its_own_length_is_reported(
 
 def test_a_table_of_a_thousand_years_is_made_but_not_written_out() -> None:
     scenario = grid_fleet(["..."], [("N0", "N1")], rules=Rules(ends="none"))
-    table = make_table(plan_of(scenario, ([0, 1], [0, 10**11])))
+    table = make_table(make_plan(scenario, ([0, 1], [0, 10**11])))
     assert table.last_tick == 10**11
     with pytest.raises(InputError, match=r"choose fewer with --from and --to"):
         as_text(table, max_lines=None)
-    short = as_text(make_table(plan_of(scenario, ([0, 1], [0, 10**11])), last_tick=2))
+    short = as_text(make_table(make_plan(scenario, ([0, 1], [0, 10**11])), last_tick=2))
     assert "left out" not in short
 
 
 def test_a_long_text_is_cut_and_says_where_and_how_to_see_the_rest() -> None:
     scenario = grid_fleet(["..."], [("N0", "N1")], rules=Rules(ends="none"))
     enter = [10**6 + k for k in range(100)]
-    text = as_text(make_table(plan_of(scenario, ([0, 1] * 50, [0, *enter[1:]]))), max_lines=8)
+    text = as_text(make_table(make_plan(scenario, ([0, 1] * 50, [0, *enter[1:]]))), max_lines=8)
     # Columns of "1000099" and a sign, 80 - 12 - 2 + 1 over 9: 7 columns in each of two blocks.
     assert text.splitlines()[-3:] == [
         "… columns after 13, up to 1000099 are left out",
@@ -257,14 +257,14 @@ def test_a_long_text_is_cut_and_says_where_and_how_to_see_the_rest() -> None:
 
 def test_a_table_of_many_robots_says_that_rows_are_left_out() -> None:
     scenario = grid_fleet(["." * 60], [(f"N{k}", f"N{k}") for k in range(60)])
-    table = make_table(plan_of(scenario, *(([k], [0]) for k in range(60))), last_tick=1)
+    table = make_table(make_plan(scenario, *(([k], [0]) for k in range(60))), last_tick=1)
     assert "… rows are left out\n" in as_text(table, max_lines=20)
     assert "left out" not in as_text(table, max_lines=121)
 
 
 def test_a_long_text_leaves_out_columns_without_a_change() -> None:
     scenario = grid_fleet(["..."], [("N0", "N1")], rules=Rules(ends="none"))
-    table = make_table(plan_of(scenario, ([0, 1], [0, 10**6])))
+    table = make_table(make_plan(scenario, ([0, 1], [0, 10**6])))
     assert as_text(table).splitlines() == [
         "time              0        1   999999  1000000",
         "R1 planned        0        1",
@@ -276,7 +276,7 @@ def test_a_long_text_leaves_out_columns_without_a_change() -> None:
 
 def test_a_table_of_too_many_robots_is_not_written_out() -> None:
     scenario = grid_fleet(["." * 60], [(f"N{k}", f"N{k}") for k in range(60)])
-    table = make_table(plan_of(scenario, *(([k], [0]) for k in range(60))), last_tick=20_000)
+    table = make_table(make_plan(scenario, *(([k], [0]) for k in range(60))), last_tick=20_000)
     with pytest.raises(InputError) as raised:
         as_text(table, max_lines=None)
     assert str(raised.value) == (

@@ -17,7 +17,7 @@ from rightofway.viz.table import make_table, write_csv, write_xlsx
 from tests.builders.fleets import grid_fleet
 
 
-def plan_of(scenario: Scenario, *trips: tuple[Sequence[int], Sequence[int]]) -> Plan:
+def make_plan(scenario: Scenario, *trips: tuple[Sequence[int], Sequence[int]]) -> Plan:
     tracks = tuple(Track.of(vertices, enter) for vertices, enter in trips)
     return Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="by hand"))
 
@@ -25,7 +25,7 @@ def plan_of(scenario: Scenario, *trips: tuple[Sequence[int], Sequence[int]]) -> 
 def crossing() -> Plan:
     """Return two robots that meet in N4 at tick 1 unless R2 waits a tick, as it does."""
     scenario = grid_fleet(["..."] * 3, [("N3", "N5"), ("N1", "N7")], rules=Rules(ends="none"))
-    return plan_of(scenario, ([3, 4, 5], [0, 1, 2]), ([1, 4, 7], [0, 2, 3]))
+    return make_plan(scenario, ([3, 4, 5], [0, 1, 2]), ([1, 4, 7], [0, 2, 3]))
 
 
 def test_comma_separated_values_are_bare_places_and_marks_in_rows_of_their_own(
@@ -94,7 +94,7 @@ def named(place: str) -> Plan:
         roadmap=make_roadmap({place: (0.0, 0.0), "bay": (1.0, 0.0)}, edges),
         robots=(Robot(name="Shuttle 1", home=VertexId(0), stops=(Stop(at=VertexId(1)),)),),
     )
-    return plan_of(scenario, ([0, 1, 0], [0, 2, 3]))
+    return make_plan(scenario, ([0, 1, 0], [0, 2, 3]))
 
 
 @pytest.mark.parametrize(
@@ -109,7 +109,7 @@ def test_names_are_text_whatever_they_look_like(tmp_path: Path, name: str, shown
 
 def test_a_plan_longer_than_a_sheet_is_refused_and_nothing_written(tmp_path: Path) -> None:
     scenario = grid_fleet(["..."], [("N0", "N1")], rules=Rules(ends="none"))
-    plan = plan_of(scenario, ([0, 1], [0, 16_382]))
+    plan = make_plan(scenario, ([0, 1], [0, 16_382]))
     with pytest.raises(InputError) as raised:
         write_xlsx(make_table(plan), tmp_path / "table.xlsx")
     assert str(raised.value) == (
@@ -124,6 +124,6 @@ def test_a_table_that_is_refused_leaves_the_old_file_alone(tmp_path: Path) -> No
     old.write_text("old", encoding="utf-8")
     scenario = grid_fleet(["..."], [("N0", "N1")], rules=Rules(ends="none"))
     with pytest.raises(InputError):
-        write_csv(make_table(plan_of(scenario, ([0, 1], [0, 10**9]))), old)
+        write_csv(make_table(make_plan(scenario, ([0, 1], [0, 10**9]))), old)
     assert old.read_text(encoding="utf-8") == "old"
     assert list(tmp_path.iterdir()) == [old]

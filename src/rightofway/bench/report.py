@@ -250,8 +250,8 @@ def _ratios(rows: Sequence[Row], figure: Any) -> None:
         axes.axhline(1, color="#888888", linestyle=":", linewidth=1)
     figure.supxlabel("robots", fontsize="medium")
     figure.supylabel("flowtime / lower bound", fontsize="medium")
-    lines_of, labels = grid.flat[0].get_legend_handles_labels()
-    figure.legend(lines_of, labels, loc="outside upper center", ncols=min(3, len(labels)))
+    add_lines, labels = grid.flat[0].get_legend_handles_labels()
+    figure.legend(add_lines, labels, loc="outside upper center", ncols=min(3, len(labels)))
 
 
 def _draw_planner(

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from rightofway.arguments import checks_arguments
 from rightofway.bench.fleets import Cell, draw_grid, find_largest_part, make_scenario_document
 from rightofway.errors import InputError, Steps, Where, locate_faults, name_file
-from rightofway.io import dump_scenario, load, scenario_of
+from rightofway.io import dump_scenario, load, parse_scenario
 from rightofway.io.faults import Faults, validate
 from rightofway.io.formats import SCENARIO_FORMAT, SUITE_FORMAT, check_format
 from rightofway.io.text import parse_toml, read_text
@@ -118,7 +118,7 @@ class Case:
     def make_scenario(self) -> Scenario:
         """Make the scenario."""
         document = make_scenario_document(self.problem, self.fleet_data, self.robots, self.seed)
-        return scenario_of(document)
+        return parse_scenario(document)
 
 
 @checks_arguments
@@ -239,7 +239,7 @@ def _with_rows(document: MapCasesDocument, index: int, counts: tuple[int, ...], 
         "robots": {"scen": scen, "count": max(counts)},
     }
     try:
-        scenario = scenario_of(whole, base)
+        scenario = parse_scenario(whole, base)
     except InputError as error:
         keys: dict[Steps, Where] = {
             ("map", "file"): ("file",),
@@ -263,7 +263,7 @@ def _with_rows(document: MapCasesDocument, index: int, counts: tuple[int, ...], 
 
 def _fleet(document: SuiteFleetDocument) -> _Fleet:
     """Return the name and the data of a fleet."""
-    given = document.own(Rules)
+    given = document.get_own_attributes(Rules)
     rules = {
         attribute.key: format_number(own)
         if isinstance(own := given[attribute.name], Fraction)
@@ -290,7 +290,7 @@ def _try_out(speeds: Sequence[Fraction], rules: Mapping[str, Any]) -> None:
     grid = {"grid": ["." * len(robots)]}
     document = {"format": SCENARIO_FORMAT, "map": grid, "robots": robots, "rules": dict(rules)}
     try:
-        scenario_of(document)
+        parse_scenario(document)
     except InputError as error:
         first = error.faults[0]  # the robots are alike, and so are their faults
         section, *rest = first.path

@@ -13,7 +13,7 @@ from rightofway.check.tracks import judge_drives, judge_trips, judge_turns
 from rightofway.check.visits import lay_out_visits
 from rightofway.check.zones import judge_zones
 from rightofway.model import Plan
-from rightofway.model.given import checked_plan, require_number
+from rightofway.model.given import require_number, require_plan
 from rightofway.quantities import Quantities
 from rightofway.values import make_class_reader, read_at
 
@@ -55,7 +55,7 @@ def check(plan: Plan, *, limit: int = 1000, quantities: Quantities | None = None
 
     A closure is a booking of nobody without headway; a robot's booking has its own.
     """
-    visits = lay_out_visits(checked_plan(plan))
+    visits = lay_out_visits(require_plan(plan))
     limit = require_number("limit", limit, 0, 2**31 - 1)
     if quantities is not None:
         read = make_class_reader(Quantities, "no quantities", "give Quantities, or None")

@@ -67,7 +67,7 @@ def collisions(
     follow, with the conflicts before and after each. A file of - is standard input.
     """
     from rightofway.metrics import free_running, name_collisions
-    from rightofway.model import Scenario, completions_of
+    from rightofway.model import Scenario, compute_completions
     from rightofway.planners.routing import free_running_tracks
     from rightofway.solve import solve
     from rightofway.viz.table import (
@@ -86,7 +86,7 @@ def collisions(
     quantities = choose_quantities(scenario, in_ticks=in_ticks)
     listed = name_collisions(scenario, tracks)
     if each_tick:
-        end = max(completions_of(scenario, tracks))
+        end = max(compute_completions(scenario, tracks))
         lists = [tabulate_collision_ticks(listed, quantities, end)]
     else:
         lists = [tabulate_collisions(listed, quantities)]

@@ -271,7 +271,7 @@ def _playing(plan: Plan, time_scale: float) -> Callable[[int], None]:
 
     def wait_until(tick: int) -> None:
         if time_scale < math.inf:
-            planned = float(clock.time(tick) * (seconds or 1)) / time_scale
+            planned = float(clock.convert_to_time(tick) * (seconds or 1)) / time_scale
             time.sleep(max(began + planned - time.monotonic(), 0))
 
     return wait_until

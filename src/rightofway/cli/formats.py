@@ -60,10 +60,10 @@ def _radius(
     _context: click.Context, _parameter: click.Parameter, given: str | None
 ) -> Fraction | None:
     """Return the radius as an exact number."""
-    from rightofway.io.fields import positive
+    from rightofway.io.fields import read_positive
 
     try:
-        return None if given is None else positive(given)
+        return None if given is None else read_positive(given)
     except ValueError as error:
         raise click.BadParameter(str(error)) from None
 
@@ -169,7 +169,7 @@ def _refuse_layout_format(source: str, name: str | None) -> None:
 
 def _write_layout(source: str, path: str, name: str | None, radius: Fraction | None) -> None:
     """Write a layout in another format, or without one a scenario that has it as its map."""
-    from rightofway.io import LAYOUT_WRITERS, layout_text, read_layout
+    from rightofway.io import LAYOUT_WRITERS, format_layout, read_layout
     from rightofway.site.layout import Layout
 
     if name is None:
@@ -183,7 +183,7 @@ def _write_layout(source: str, path: str, name: str | None, radius: Fraction | N
         remedy = "give a name that ends in .yaml for a scenario"
         raise click.UsageError(f"{source} is {kind}, which is not written as {name} ({remedy})")
     try:
-        text, losses = layout_text(layout, name)
+        text, losses = format_layout(layout, name)
     except InputError as error:
         raise InputError(fault.name_file(source) for fault in error.faults) from None
     put_text(text, path)
@@ -193,11 +193,11 @@ def _write_layout(source: str, path: str, name: str | None, radius: Fraction | N
 
 def _write_example(source: str, path: str, radius: Fraction) -> None:
     from rightofway.files import write_whole
-    from rightofway.io import example_of_layout
+    from rightofway.io import format_example
 
     if path != "-" and not path.lower().endswith((".yaml", ".yml", ".json")):
         raise click.UsageError(f"{source} is a layout (give a name that ends in .yaml or .json)")
-    text = example_of_layout(source, path, radius)
+    text = format_example(source, path, radius)
     if path == "-":
         click.echo(text, nl=False)
         return
@@ -206,15 +206,15 @@ def _write_example(source: str, path: str, radius: Fraction) -> None:
 
 
 def _write_plan(plan: Plan, path: str, name: str | None) -> None:
-    from rightofway.io import SITE_PLAN_FORMATS, foreign_text, site_plan_text
+    from rightofway.io import SITE_PLAN_FORMATS, format_foreign, format_site_plan
 
     if name in SITE_PLAN_FORMATS:
-        text, notes = site_plan_text(plan, name)
+        text, notes = format_site_plan(plan, name)
         put_text(text, path)
         for note in notes:
             say_of(path, note)
     elif name is not None:
-        put_text(foreign_text(plan, name), path)
+        put_text(format_foreign(plan, name), path)
         stages = [itinerary.stages for itinerary in plan.scenario.problem.itineraries]
         if any(len(own) > 1 or own[0].work for own in stages):
             say_of(
@@ -231,10 +231,10 @@ def _write_plan(plan: Plan, path: str, name: str | None) -> None:
 
 
 def _write_scenario(scenario: Scenario, path: str) -> None:
-    from rightofway.io import scenario_text, write_scenario
+    from rightofway.io import format_scenario, write_scenario
 
     if path == "-":
-        click.echo(scenario_text(scenario), nl=False)
+        click.echo(format_scenario(scenario), nl=False)
     elif path.lower().endswith(".scen"):
         _write_pair(scenario, Path(path))
     else:
@@ -263,6 +263,6 @@ def _write_pair(scenario: Scenario, path: Path) -> None:
 @click.argument("kind", type=click.Choice(["scenario", "plan", "suite"]))
 def schema(kind: Literal["scenario", "plan", "suite"]) -> None:
     """Print the JSON Schema of scenario, plan or suite files."""
-    from rightofway.io import schema as schema_of
+    from rightofway.io import make_schema
 
-    put_json(schema_of(kind))
+    put_json(make_schema(kind))

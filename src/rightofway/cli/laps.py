@@ -113,7 +113,7 @@ def laps(
         run_laps,
     )
     from rightofway.deadline import limit_work
-    from rightofway.model.steady_state import within
+    from rightofway.model.steady_state import keep_within
     from rightofway.report.laps import report_laps
     from rightofway.report.laps_data import make_laps_data
 
@@ -152,6 +152,6 @@ def laps(
         say_written(page)
     if output:
         plan, steady = plan_of_laps(run), make_excerpt(run)[1]
-        write(replace(plan, steady=within(steady, list(map(len, plan.tracks)))), output)
+        write(replace(plan, steady=keep_within(steady, list(map(len, plan.tracks)))), output)
     ends = {group.ends for group in run.groups}
     return 1 if "deadlock" in ends else 3 if "open" in ends else 0

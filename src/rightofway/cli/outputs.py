@@ -106,10 +106,10 @@ def put_text(text: str, path: str) -> None:
 
 def write(plan: Plan, output: str | None) -> None:
     """Write a plan to a file, to standard output, or nowhere."""
-    from rightofway.io import plan_text
+    from rightofway.io import format_plan
 
     if output == "-":
-        click.echo(plan_text(plan), nl=False)
+        click.echo(format_plan(plan), nl=False)
     elif output:
         PLAN_WRITERS.get(Path(output).suffix.lower(), _write_json)(plan, output)
         say_written(output)

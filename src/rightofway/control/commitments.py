@@ -8,7 +8,7 @@ from typing import NamedTuple
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive
 from rightofway.model import Scenario
-from rightofway.model.route import drives_along
+from rightofway.model.route import compute_drives_along
 
 __all__ = ["RobotCommitment", "StopToMake", "list_stops_to_make", "make_robot_commitment"]
 
@@ -79,7 +79,7 @@ def make_robot_commitment(
         if job not in own.finished
     )
     itinerary = scenario.problem.itineraries[robot]
-    drives = drives_along(roadmap, itinerary, vertices) if length > 1 else []
+    drives = compute_drives_along(roadmap, itinerary, vertices) if length > 1 else []
     return RobotCommitment(
         route=replace(
             route,

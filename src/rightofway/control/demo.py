@@ -226,7 +226,7 @@ class _Demo:
     def _timestamp(self) -> str:
         """Return the simulated time as messages have it: a time unit is a second after 1970."""
         if self._stamp[0] != self._now:
-            seconds = float(self._plan.scenario.problem.clock.time(self._now))
+            seconds = float(self._plan.scenario.problem.clock.convert_to_time(self._now))
             moment = datetime.fromtimestamp(0, UTC) + timedelta(seconds=seconds)
             text = f"{moment:%Y-%m-%dT%H:%M:%S}.{moment.microsecond // 1000:03d}Z"
             self._stamp = (self._now, text)

@@ -29,7 +29,7 @@ from rightofway.control.operator import Operator
 from rightofway.control.order_map import OrderMap
 from rightofway.control.story import Story
 from rightofway.errors import InputError
-from rightofway.io import plan_text
+from rightofway.io import format_plan
 from rightofway.model import Plan
 from rightofway.phrases import Phrase, to_parts
 
@@ -301,4 +301,4 @@ class Driver:
 def _digest(plan: Plan, maps: Sequence[OrderMap]) -> str:
     """Return a name of all that decides on the content of orders."""
     document = json.dumps([order_map.to_document() for order_map in maps], sort_keys=True)
-    return hashlib.sha256(f"{plan_text(plan)}\n{document}".encode()).hexdigest()[:12]
+    return hashlib.sha256(f"{format_plan(plan)}\n{document}".encode()).hexdigest()[:12]

@@ -16,8 +16,8 @@ from pydantic import AfterValidator, Field
 
 from rightofway.errors import InputError, find_nearest, name_file, quote
 from rightofway.io.faults import Faults, validate
-from rightofway.io.fields import Angle, Document, NotNegative, optional
-from rightofway.io.scenario.writer import yaml_of
+from rightofway.io.fields import Angle, Document, NotNegative, make_optional
+from rightofway.io.scenario.writer import format_yaml
 from rightofway.io.text import parse_document, read_text
 from rightofway.site.geometry import Frame
 
@@ -132,35 +132,37 @@ TopicPart = Annotated[str, AfterValidator(_topic_part)]
 class _FrameDocument(Document):
     """Where the frame of a robot's map lies in the site's frame."""
 
-    x: Angle = optional("its origin in the site's frame [m]")
-    y: Angle = optional("its origin in the site's frame, upwards [m]")
-    yaw: Angle = optional("the angle by which it is turned, counterclockwise [rad]")
+    x: Angle = make_optional("its origin in the site's frame [m]")
+    y: Angle = make_optional("its origin in the site's frame, upwards [m]")
+    yaw: Angle = make_optional("the angle by which it is turned, counterclockwise [rad]")
 
 
 class _WorkDocument(Document):
     """What a robot does at a stop."""
 
     action: str = Field(min_length=1, description="the type of the action")
-    parameters: dict[str, Any] = optional("parameters of the action")
+    parameters: dict[str, Any] = make_optional("parameters of the action")
 
 
 class _SharedDocument(Document):
     """What holds for all robots, or for one."""
 
-    manufacturer: TopicPart = optional("the maker of the robot, as topics have it")
-    version: Literal["2.0.0", "2.1.0", "3.0.0"] = optional(
+    manufacturer: TopicPart = make_optional("the maker of the robot, as topics have it")
+    version: Literal["2.0.0", "2.1.0", "3.0.0"] = make_optional(
         f"the version of VDA 5050: {', '.join(VERSIONS)}; 2.1.0 by default"
     )
-    interface: TopicPart = optional(
+    interface: TopicPart = make_optional(
         "the first part of topics; uagv by default, vda5050 from 3.0.0 on"
     )
-    map: str = optional("the name of the robot's map; map by default")
-    frame: _FrameDocument = optional("{x, y, yaw} of the frame of that map in the site's frame")
-    deviation: NotNegative = optional(
+    map: str = make_optional("the name of the robot's map; map by default")
+    frame: _FrameDocument = make_optional(
+        "{x, y, yaw} of the frame of that map in the site's frame"
+    )
+    deviation: NotNegative = make_optional(
         "how far from a place the robot may call itself arrived [m]; half the clearance by default"
     )
-    work: _WorkDocument = optional("{action, parameters} of what a robot does at a stop")
-    repeats_work: bool = optional(
+    work: _WorkDocument = make_optional("{action, parameters} of what a robot does at a stop")
+    repeats_work: bool = make_optional(
         "true, or false for robots that do work twice which the next update of an order repeats"
     )
 
@@ -227,15 +229,16 @@ def load_identities(path: Path | str, names: Sequence[str]) -> list[Identity]:
 
 def _identity(own: _RobotDocument, shared: _SharedDocument) -> Identity:
     keys = _SharedDocument.model_fields
-    given = {**shared.given(*keys), **own.given(*keys)}
+    given = {**shared.get_given(*keys), **own.get_given(*keys)}
     if "manufacturer" not in given:
         raise InputError.at("manufacturer", "is missing (give it here, or for all robots)")
     frame, work = given.pop("frame", None), given.pop("work", None)
     if frame is not None:
-        given["frame"] = Frame(**frame.given("x", "y", "yaw"))
+        given["frame"] = Frame(**frame.get_given("x", "y", "yaw"))
     if work is not None:
         given["work"] = Work(
-            action=work.action, parameters=_as_json(work.given("parameters").get("parameters", {}))
+            action=work.action,
+            parameters=_as_json(work.get_given("parameters").get("parameters", {})),
         )
     if "map" in given:
         given["map_id"] = given.pop("map")
@@ -288,4 +291,4 @@ def format_identities(names: Sequence[str], identities: Sequence[Identity]) -> s
             for name, identity in zip(names, identities, strict=True)
         },
     }
-    return yaml_of(document)
+    return format_yaml(document)

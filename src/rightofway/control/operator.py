@@ -82,7 +82,7 @@ class Operator:
         robot, lasts = command.get("robot"), command.get("work")
         places = [str(command[key]) for key in ("name", "to") if key in command]
         clock = dispatcher.plan.scenario.problem.clock
-        ticks = None if lasts is None else clock.ticks(Fraction(lasts))
+        ticks = None if lasts is None else clock.count_ticks(Fraction(lasts))
         if kind == "list":
             return [], {"done": True, "text": "", "jobs": list_jobs(dispatcher.ledger)}
         changes: dict[str, Callable[[], list[Message]]] = {

@@ -24,8 +24,8 @@ from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.execution.replan import list_held
-from rightofway.model import Plan, PlannerRun, Robot, Scenario, Stop, Tick, Track, route_of
-from rightofway.model.route import route_through
+from rightofway.model import Plan, PlannerRun, Robot, Scenario, Stop, Tick, Track, make_route
+from rightofway.model.route import make_route_through
 from rightofway.planners.lacam import build_timetable_if_possible
 from rightofway.planners.local_search import LocalSearch
 from rightofway.planners.task import Task, make_planning_problem
@@ -163,7 +163,7 @@ class RestPlanner:
         ]
         whole = replace(self._scenario, robots=tuple(fleet))
         visited = [
-            route_through(
+            make_route_through(
                 whole.roadmap,
                 itinerary,
                 [whole.roadmap.get_vertex(place) for place in routes[robot].places],
@@ -320,7 +320,7 @@ class RestPlanner:
         self, robot: int, home: int, end: int, busy: int, stops: Sequence[StopToMake]
     ) -> Robot:
         """Return a robot that is busy at the end of what it keeps, and then makes its stops."""
-        time = self._scenario.problem.clock.time
+        time = self._scenario.problem.clock.convert_to_time
         work = [Stop(at=VertexId(end), work=time(Tick(busy)))]
         for stop in stops:
             vertex = self._scenario.roadmap.get_vertex(stop.place)
@@ -344,7 +344,7 @@ class RestPlanner:
     ) -> RouteToDrive:
         """Return the route of a whole track, with its jobs and ends of laps."""
         route, last = commitment.route, len(commitment.vertices) - 1
-        serves = route_of(whole.roadmap, whole.problem.itineraries[index], track).serves[1:]
+        serves = make_route(whole.roadmap, whole.problem.itineraries[index], track).serves[1:]
         jobs = [*map(list, route.jobs), *([] for _ in range(last + 1, len(track)))]
         work = [*map(list, route.work), *([] for _ in range(last + 1, len(track)))]
         lap_ends = set(route.lap_ends)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from rightofway.model import Plan, route_of
+from rightofway.model import Plan, make_route
 
 __all__ = ["RouteToDrive", "make_route_from", "make_routes_to_drive"]
 
@@ -152,7 +152,7 @@ def make_routes_to_drive(plan: Plan) -> list[RouteToDrive]:
     for robot, itinerary, track in zip(
         scenario.robots, scenario.problem.itineraries, plan.tracks, strict=True
     ):
-        route = route_of(scenario.roadmap, itinerary, track)
+        route = make_route(scenario.roadmap, itinerary, track)
         jobs: list[list[str]] = [[] for _ in route.vertices]
         work: list[list[int]] = [[] for _ in route.vertices]
         stages_of_lap = len(itinerary.stages) // (robot.laps or scenario.rules.laps)

@@ -12,7 +12,7 @@ from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive, make_routes_to_drive
 from rightofway.execution import replay
 from rightofway.model import ExecutionTrace, Plan, Tick
-from rightofway.model.route import drives_along
+from rightofway.model.route import compute_drives_along
 
 __all__ = ["Durations", "TimedRobot"]
 
@@ -56,7 +56,7 @@ class Durations:
         if key not in self._drives:
             ends = [int(self._roadmap.get_vertex(place)) for place in key[1:]]
             itinerary = self._plan.scenario.problem.itineraries[robot]
-            self._drives[key] = drives_along(self._roadmap, itinerary, ends)[0]
+            self._drives[key] = compute_drives_along(self._roadmap, itinerary, ends)[0]
         return self._drives[key]
 
     def _planned(self, robot: int, visit: int) -> tuple[int, int]:

@@ -13,7 +13,7 @@ from itertools import pairwise
 from typing import Literal
 
 from rightofway.arguments import checks_arguments
-from rightofway.model import Plan, SteadyState, Tick, stays_of
+from rightofway.model import Plan, SteadyState, Tick, find_stays
 from rightofway.precedence import TimedEventGraph
 from rightofway.site import VertexId
 
@@ -171,7 +171,7 @@ def list_pieces_of_plan(plan: Plan, steady: SteadyState) -> tuple[Piece, ...]:
     steady
         The steady state of some of its robots.
     """
-    tracks, stays = plan.tracks, stays_of(plan.scenario, plan.tracks)
+    tracks, stays = plan.tracks, find_stays(plan.scenario, plan.tracks)
     pieces = list[Piece]()
     for (robot, visit), (following, visit_after) in pairwise(
         (*steady.critical, *steady.critical[:1])

@@ -412,7 +412,7 @@ class _SeamClosing:
         """Book the visits at the seam; if unknown, both stays at home."""
         stretch, leave = (
             self._kept[robot],
-            self._kept[robot].begins + self._kept[robot].lap.least(0),
+            self._kept[robot].begins + self._kept[robot].lap.compute_least(0),
         )
         stays = [(stretch.begins, leave), (stretch.until, stretch.leave)]
         if stretch.through is not None:

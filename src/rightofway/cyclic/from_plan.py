@@ -12,7 +12,7 @@ from dataclasses import replace
 from rightofway.cyclic.problem import Candidate, CyclicProblem, RobotCycle
 from rightofway.cyclic.route import make_lap_rows
 from rightofway.errors import GaveUp
-from rightofway.model import Itinerary, Scenario, Track, lap_of, route_of
+from rightofway.model import Itinerary, Scenario, Track, make_lap, make_route
 from rightofway.planners import Task
 from rightofway.planners.lacam import lacam
 from rightofway.planners.prioritized import prioritized
@@ -52,8 +52,8 @@ def repeat_plan(problem: CyclicProblem) -> Candidate | None:
     laps, cycles = [], []
     for robot, track in zip(context.robots, tracks, strict=True):
         once, enter = take_one_lap(scenario, robot), track.enter * factor.numerator
-        route = route_of(scenario.roadmap, once, Track(vertices=track.vertices, enter=enter))
-        laps.append((lap_of(scenario.roadmap, once, route), enter))
+        route = make_route(scenario.roadmap, once, Track(vertices=track.vertices, enter=enter))
+        laps.append((make_lap(scenario.roadmap, once, route), enter))
         if not problem.forbidden.isdisjoint(make_lap_rows(scenario, robot, laps[-1][0]).booked):
             return None
     apart = context.booking_rules.end(0) + max(max(lap.drive) + lap.dwell[0] for lap, _ in laps)

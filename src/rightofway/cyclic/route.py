@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, InputFault
-from rightofway.model import BookingRules, Lap, Robot, Route, Scenario, Tick, lap_of
+from rightofway.model import BookingRules, Lap, Robot, Route, Scenario, Tick, make_lap
 from rightofway.native import BookedRows, list_excluded
 from rightofway.planners.routing import (
     clear_routes,
@@ -53,7 +53,7 @@ class CyclicRoute:
     _within: tuple[int, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "_within", tuple(accumulate(self.lap.leasts(), initial=0)))
+        object.__setattr__(self, "_within", tuple(accumulate(self.lap.compute_leasts(), initial=0)))
 
     def __len__(self) -> int:
         return len(self.lap)
@@ -73,7 +73,7 @@ class CyclicRoute:
 
     def compute_least(self, visit: int) -> Tick:
         """Return the least time from the enter of a visit to the enter of the next one [ticks]."""
-        return self.lap.least(visit % len(self.lap)) if visit else self.first_least
+        return self.lap.compute_least(visit % len(self.lap)) if visit else self.first_least
 
     def compute_undelayed(self, visits: range) -> NDArray[np.int64]:
         """Return the enters of visits of a robot that never waits [ticks]."""
@@ -157,7 +157,9 @@ class GroupContext:
         vertex, following = route.get_vertex(visit), route.get_vertex(visit + 1)
         edge = self.scenario.roadmap.find_edge(vertex, following)
         assert edge is not None, "laps lead along edges"
-        return resources.vertex_row(route.robot, vertex), resources.edge_row(route.robot, edge)
+        return resources.get_vertex_row(route.robot, vertex), resources.get_edge_row(
+            route.robot, edge
+        )
 
     def list_excluding(self, index: int, visit: int) -> tuple[int, ...]:
         """Return the rows of other robots that keep a robot from the drive into a visit."""
@@ -293,7 +295,7 @@ def _repeated(once: Scenario, routes: Sequence[Route]) -> list[CyclicRoute]:
     return [
         CyclicRoute(
             robot=robot,
-            lap=lap_of(once.roadmap, itineraries[robot], route),
+            lap=make_lap(once.roadmap, itineraries[robot], route),
             first_dwell=route.dwell[0],
         )
         for robot, route in enumerate(routes)
@@ -309,7 +311,7 @@ def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
     avoiding, roadmap, resources = list(routes), scenario.roadmap, scenario.problem.resources
     itineraries = scenario.problem.itineraries
     at_home = [
-        frozenset(list_excluded(resources, resources.vertex_row(robot, itinerary.home)))
+        frozenset(list_excluded(resources, resources.get_vertex_row(robot, itinerary.home)))
         for robot, itinerary in enumerate(itineraries)
     ]
     owners = defaultdict[int, list[int]](list)  # of homes, by the rows that exclude them
@@ -318,7 +320,7 @@ def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
             owners[row].append(robot)
 
     def passed(robot: int) -> frozenset[int]:
-        rows = resources.rows_of_lap(roadmap, robot, avoiding[robot].vertices[:-1])
+        rows = resources.list_rows_of_lap(roadmap, robot, avoiding[robot].vertices[:-1])
         return frozenset(np.concatenate(rows).tolist())
 
     booked = [passed(robot) for robot in range(len(avoiding))]
@@ -333,7 +335,9 @@ def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
         if all(at_home[robot].isdisjoint(booked[neighbour]) for neighbour in met):
             continue
         shut = {row for row, homes in owners.items() if homes != [robot]}
-        own = np.arange(resources.n_vertices + resources.n_edges) + resources.vertex_row(robot, 0)
+        own = np.arange(resources.n_vertices + resources.n_edges) + resources.get_vertex_row(
+            robot, 0
+        )
         is_shut = np.isin(own, list(shut))
         edges = np.flatnonzero(is_shut[resources.n_vertices :] | is_shut[roadmap.heads])
         ends = zip(tails[edges].tolist(), roadmap.heads[edges].tolist(), strict=True)
@@ -395,7 +399,7 @@ def make_lap_rows(scenario: Scenario, robot: int, lap: Lap) -> LapRows:
     """Return what a lap of a robot books and excludes."""
     resources = scenario.problem.resources
     booked = frozenset(
-        np.concatenate(resources.rows_of_lap(scenario.roadmap, robot, lap.vertices)).tolist()
+        np.concatenate(resources.list_rows_of_lap(scenario.roadmap, robot, lap.vertices)).tolist()
     )
     excluded = (list_excluded(resources, row) for row in booked)
     return LapRows(booked, frozenset(chain.from_iterable(excluded)))

@@ -17,8 +17,8 @@ from rightofway.cyclic.route import (
 from rightofway.cyclic.rules import NATIVE_RULES, RULES
 from rightofway.cyclic.simulator import CyclicSimulator, Deadlock
 from rightofway.errors import GaveUp, report_kernel_limits
-from rightofway.model import Scenario, checked_time_limit
-from rightofway.model.given import checked_scenario, require_functions
+from rightofway.model import Scenario, require_time_limit
+from rightofway.model.given import require_functions, require_scenario
 from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import Phrase
 from rightofway.planners import Deadline
@@ -76,11 +76,11 @@ def run_laps(
     Exact: a pattern is reported after a state has recurred, hence the pattern repeats for ever. A
     group without a recurrence within the limit is open. Deterministic below the limit.
     """
-    checked_scenario(scenario)
+    require_scenario(scenario)
     require_functions(report=report)
     read_at("rule", make_word_reader(tuple(RULES)), rule)
     read_at("routes", make_word_reader(ROUTES), routes)
-    deadline = Deadline.after(checked_time_limit(time_limit))
+    deadline = Deadline.after(require_time_limit(time_limit))
     scenario = take_out_closed_places(scenario)
     groups = split_groups(scenario, make_cyclic_routes(scenario, routes))
     simulations = [

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
-from rightofway.model import Itinerary, Lap, Scenario, Stage, serving_visits
+from rightofway.model import Itinerary, Lap, Scenario, Stage, find_serving_visits
 from rightofway.model.lap import compute_dwell_between_laps, compute_turns_of_lap
 from rightofway.precedence import (
     Sensitivity,
@@ -154,6 +154,6 @@ def find_stages_at(
     spare[0] -= ends
     vertices = np.array((*lap.vertices, lap.vertices[0]), np.int32)
     at: list[list[tuple[int, Stage]]] = [[] for _ in lap.vertices]
-    for number, visit in enumerate(serving_visits(stages[:n], vertices, spare)):
+    for number, visit in enumerate(find_serving_visits(stages[:n], vertices, spare)):
         at[visit % len(lap)].append((number, stages[number]))
     return at

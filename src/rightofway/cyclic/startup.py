@@ -92,7 +92,7 @@ def _passes(scenario: Scenario, timetable: CyclicSchedule) -> dict[int, NDArray[
     owners = defaultdict[int, list[int]](list)  # of homes, by the rows that exclude them
     booked = list[list[tuple[int, ...]]]()  # of each visit of each lap
     for index, (robot, lap) in enumerate(zip(timetable.robots, timetable.laps, strict=True)):
-        rows = resources.rows_of_lap(scenario.roadmap, robot, lap.vertices)
+        rows = resources.list_rows_of_lap(scenario.roadmap, robot, lap.vertices)
         for row in list_excluded(resources, int(rows[0][0])):
             owners[row].append(index)
         booked.append(list(zip(rows[0].tolist(), rows[1].tolist(), strict=True)))

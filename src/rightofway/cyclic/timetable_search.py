@@ -30,8 +30,8 @@ from rightofway.cyclic.rules import TIMETABLE
 from rightofway.cyclic.run import advance, make_simulation
 from rightofway.cyclic.startup import start
 from rightofway.errors import GaveUp, InputError, report_kernel_limits
-from rightofway.model import Scenario, Tick, checked_time_limit
-from rightofway.model.given import checked_scenario, require_functions, require_number, require_seed
+from rightofway.model import Scenario, Tick, require_time_limit
+from rightofway.model.given import require_functions, require_number, require_scenario, require_seed
 from rightofway.phrases import Phrase
 from rightofway.planners import Deadline
 from rightofway.precedence import unroll_schedule
@@ -114,7 +114,7 @@ def find_best_timetable(
     Never below the pattern of first come first served, if this pattern is fair and found in its
     share of the time. Deterministic for a seed if the rounds end before the limit. Not optimal.
     """
-    n_robots, seed = len(checked_scenario(scenario).robots), require_seed(seed)
+    n_robots, seed = len(require_scenario(scenario).robots), require_seed(seed)
     require_functions(report=report)
     weights = _checked_weights(weights, n_robots)
     least_fairness = read_at("least_fairness", read_number, least_fairness)
@@ -122,7 +122,7 @@ def find_best_timetable(
         raise InputError.at("least_fairness", f"{least_fairness} is not from 0 to 1")
     if rounds is not None:
         rounds = require_number("rounds", rounds, 0, 2**31 - 1)
-    time_limit = checked_time_limit(time_limit)
+    time_limit = require_time_limit(time_limit)
     scenario = take_out_closed_places(scenario)
     if time_limit is None and rounds is None:
         raise InputError.at("rounds", "neither they nor the time are limited (limit one of them)")
@@ -254,12 +254,12 @@ def _round_trip(
     forbidden = {
         vertex
         for vertex in range(roadmap.n_vertices)
-        if resources.vertex_row(robot, vertex) in taken
+        if resources.get_vertex_row(robot, vertex) in taken
     }
     for tail in range(roadmap.n_vertices):
         for edge in range(int(roadmap.indptr[tail]), int(roadmap.indptr[tail + 1])):
             ends = (int(roadmap.heads[edge]), tail)
-            if resources.edge_row(robot, edge) in taken and forbidden.isdisjoint(ends):
+            if resources.get_edge_row(robot, edge) in taken and forbidden.isdisjoint(ends):
                 free = [vertex for vertex in ends if vertex not in places]
                 if not free:
                     return None
@@ -271,7 +271,7 @@ def _choose(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) ->
     """Choose the timetable of one group."""
     if len(problem) == 1:
         lap = min(problem.ways[0], key=lambda lap: lap.duration)
-        enter = np.cumsum([0, *(lap.least(visit) for visit in range(len(lap) - 1))])
+        enter = np.cumsum([0, *(lap.compute_least(visit) for visit in range(len(lap) - 1))])
         alone = Candidate.as_it_is(problem.join_cycles([RobotCycle(lap, 1, enter)], lap.duration))
         return _started(problem, alone, "repeats", problem.compute_value(alone))
     if len(problem) > params.large and (closed := _closed_run(problem)):

@@ -148,7 +148,7 @@ class Window:
         for route, start, stretch in zip(
             self.context.routes, self.starts, self.routes, strict=True
         ):
-            rows = resources.rows_of_lap(scenario.roadmap, route.robot, route.lap.vertices)
+            rows = resources.list_rows_of_lap(scenario.roadmap, route.robot, route.lap.vertices)
             places = np.arange(start, start + len(stretch) - 1) % len(route)
             at_vertex += [rows[0][places], beyond]
             along_edge += [rows[1][places[:-1]], np.full(2, -1, np.int32)]

@@ -173,7 +173,7 @@ def delay_model_of(delays: Sequence[Delay], scenario: Scenario) -> DelayModel:
     scenario
         The problem; it gives robots by name and the tick.
     """
-    ticks = scenario.problem.clock.ticks
+    ticks = scenario.problem.clock.count_ticks
     pace = {robot.name: 1.0 for robot in scenario.robots}
     stoppages: dict[str, list[Stoppage]] = {name: [] for name in pace}
     random = []

@@ -119,7 +119,7 @@ class Forecast:
         is_ready = self.progress.activity[robot] == Activity.WAITS
         more = self.progress.get_delay(robot) or 0
         if not self.books_ahead:
-            least = route.least(index)
+            least = route.compute_least(index)
             return max(since, least) if is_ready else _with_overdue(least + more, since)
         if self.booked[visit + 1]:
             stayed = int(start[visit + 1] - enter[visit])

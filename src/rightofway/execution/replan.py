@@ -43,8 +43,8 @@ from rightofway.model import (
     Stop,
     Tick,
     Track,
-    route_of,
-    turns_along,
+    compute_turns_along,
+    make_route,
 )
 from rightofway.native import find_clashes, list_excluded
 from rightofway.planners import Deadline, Task
@@ -106,7 +106,7 @@ def find_commitment(forecast: Forecast, robot: int, stages: Sequence[Stage]) -> 
     if is_driving and forecast.may_turn_back:
         # Towards a free vertex, the robot continues as if it had a booking; else it may turn back.
         before, closures = adg.comes_after(first + index + 1), adg.scenario.problem.closures
-        closed = closures.at_vertex(robot, route.vertices[index + 1]) if closures else []
+        closed = closures.list_at_vertex(robot, route.vertices[index + 1]) if closures else []
         is_closed = any(end > forecast.now for _, end in closed)
         is_driving = False
         index += not is_closed and all(forecast.entered[other + 1] for other in before)
@@ -156,9 +156,9 @@ def list_held(scenario: Scenario, paths: Mapping[int, Sequence[int]]) -> Held:
         return Held(vertices=vertices)
     rows = set[int]()
     for robot, path in paths.items():
-        own = [resources.vertex_row(robot, vertex) for vertex in path]
+        own = [resources.get_vertex_row(robot, vertex) for vertex in path]
         own += (
-            resources.edge_row(robot, edge)
+            resources.get_edge_row(robot, edge)
             for ends in pairwise(path)
             if (edge := roadmap.find_edge(*ends)) is not None
         )
@@ -290,7 +290,7 @@ def _together(
 ) -> Sequence[Track] | None:
     """Return the plan that LaCAM finds in steps."""
     return plan_by_lacam(
-        rest.problem.in_steps(),
+        rest.problem.as_steps(),
         seed=seed,
         most_effort=MOST_STEPS * len(rest.robots),
         time_limit=deadline.measure_seconds_left(),
@@ -373,7 +373,7 @@ def _closures_after(scenario: Scenario, roadmap: Roadmap, now: Tick) -> tuple[Cl
     None where broken robots have taken the edges of a closed lane, and the radius of its closure
     reaches farther: its place is no part of the roadmap that is left.
     """
-    passed = scenario.problem.clock.time(now)
+    passed = scenario.problem.clock.convert_to_time(now)
     after = []
     for closure in scenario.closures:
         until = None if closure.until is None else closure.until - passed
@@ -389,7 +389,7 @@ def _closures_after(scenario: Scenario, roadmap: Roadmap, now: Tick) -> tuple[Cl
 
 def _rest(scenario: Scenario, roadmap: Roadmap, commitments: Sequence[Commitment]) -> Scenario:
     """Return the scenario of the rest; turning becomes work, since a turn may have begun."""
-    time = scenario.problem.clock.time
+    time = scenario.problem.clock.convert_to_time
 
     def one_way(robot: Robot, commitment: Commitment) -> Robot:
         stops = [Stop(at=commitment.vertex, work=time(commitment.busy))]
@@ -424,7 +424,7 @@ def _turn_aside(
     if not came or not ahead or ahead == planned[:1]:
         return 0
     path = np.array([*came, commitment.free_from, *ahead], np.int32)
-    return int(turns_along(scenario.roadmap, scenario.problem.itineraries[robot], path)[1])
+    return int(compute_turns_along(scenario.roadmap, scenario.problem.itineraries[robot], path)[1])
 
 
 def _spliced(
@@ -438,13 +438,13 @@ def _spliced(
     routes, tracks, sinces = [], [], []
     for robot, (commitment, old) in enumerate(zip(commitments, adg.routes, strict=True)):
         itinerary, track = plan.scenario.problem.itineraries[robot], plan.tracks[robot]
-        new = route_of(plan.scenario.roadmap, itinerary, track)
+        new = make_route(plan.scenario.roadmap, itinerary, track)
         is_driving = commitment.drives_to is not None
         # The new route's visit at the end of the commitment is the last visit of the old route.
         begins, n_begun = new.serves[is_driving], commitment.visit + 1 + is_driving
         before = 0 if is_driving else old.dwell[commitment.visit] - commitment.busy
         # The new route does not know where the robot has come from.
-        known = turns_along(plan.scenario.roadmap, itinerary, track.vertices)[begins]
+        known = compute_turns_along(plan.scenario.roadmap, itinerary, track.vertices)[begins]
         aside = _turn_aside(
             adg.scenario, robot, commitment, old, new.vertices[begins + 1 : begins + 2]
         )

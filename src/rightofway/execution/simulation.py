@@ -21,7 +21,7 @@ from rightofway.execution.statistics import (
     SimulationResult,
     join_batches,
 )
-from rightofway.model import NEVER, ExecutionTrace, Plan, checked_time_limit
+from rightofway.model import NEVER, ExecutionTrace, Plan, require_time_limit
 from rightofway.model.given import require_number, require_seed, require_truths
 from rightofway.phrases import Phrase
 from rightofway.planners import Deadline
@@ -94,7 +94,7 @@ def simulate(
     For delays of any length, bookings never overlap, and robots never deadlock, because the plan
     has no deadlock. Collisions and deadlocks are counted nevertheless.
     """
-    time_limit = checked_time_limit(time_limit)
+    time_limit = require_time_limit(time_limit)
     read_at("report", read_function, report)
     require_truths(switch=switch, replan=replan, keep_runs=keep_runs)
     judged = check(plan)

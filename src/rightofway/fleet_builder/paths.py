@@ -8,7 +8,7 @@ from typing import Any
 
 from rightofway.errors import InputError, find_nearest, locate_faults, quote
 from rightofway.model import Plan, PlannerRun, Scenario, Track
-from rightofway.model.given import checked_scenario
+from rightofway.model.given import require_scenario
 from rightofway.site.places import as_place, find_vertex_at
 from rightofway.values import list_of, read_at
 
@@ -46,7 +46,7 @@ def plan_of_paths(scenario: Scenario, paths: Mapping[str, Sequence[Any]]) -> Pla
     >>> plan == plan_of_paths(scenario, {"R1": [("N0", 0), ("N1", 2), ("N2", 3)]})
     True
     """
-    names = [robot.name for robot in checked_scenario(scenario).robots]
+    names = [robot.name for robot in require_scenario(scenario).robots]
     if not isinstance(paths, Mapping):
         remedy = 'give each robot its path by its name, like {"R1": ["N0", "N1"]}'
         raise InputError.at("paths", f"{quote(paths)} are no paths ({remedy})")

@@ -1,8 +1,9 @@
 """Files: scenarios and plans, read with every fault reported and written whole; MovingAI files.
 
-``load_…`` reads a file and ``write_…`` writes one; ``…_of`` reads plain data, as JSON has them, and
-``dump_…`` makes them. Pydantic and PyYAML are imported when the first file is read, and nowhere
-else in the package; readers and writers of other formats when the first such file is.
+``load_…`` reads a file and ``write_…`` writes one; ``parse_…`` reads plain data, as JSON has them,
+``dump_…`` makes them, and ``format_…`` makes a file's text. Pydantic and PyYAML are imported when
+the first file is read, and nowhere else in the package; readers and writers of other formats when
+the first such file is.
 """
 
 from __future__ import annotations
@@ -11,37 +12,43 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from rightofway.io.foreign import FOREIGN_FORMATS, foreign_text, is_foreign
-    from rightofway.io.formats import schema
+    from rightofway.io.foreign import FOREIGN_FORMATS, format_foreign, is_foreign
+    from rightofway.io.formats import make_schema
     from rightofway.io.layouts import (
         LAYOUT_WRITERS,
+        format_layout,
         is_layout,
-        layout_of_graph,
-        layout_text,
+        make_layout_of_graph,
         read_layout,
     )
     from rightofway.io.movingai import load_map, load_scen, write_map, write_scen
-    from rightofway.io.plan.reader import plan_of
-    from rightofway.io.plan.writer import dump_plan, plan_text, write_plan
+    from rightofway.io.plan.reader import parse_plan
+    from rightofway.io.plan.writer import dump_plan, format_plan, write_plan
     from rightofway.io.readers import load, load_either, load_plan, load_with_notes
-    from rightofway.io.scenario.example import example_of_layout
-    from rightofway.io.scenario.reader import Loaded, scenario_of
-    from rightofway.io.scenario.writer import dump_scenario, scenario_text, write_scenario
-    from rightofway.io.site_plans import SITE_PLAN_FORMATS, site_plan_text
+    from rightofway.io.scenario.example import format_example
+    from rightofway.io.scenario.reader import Loaded, parse_scenario
+    from rightofway.io.scenario.writer import dump_scenario, format_scenario, write_scenario
+    from rightofway.io.site_plans import SITE_PLAN_FORMATS, format_site_plan
     from rightofway.io.text import DELAY_FILES, load_delays
 
 _MODULES = {
-    "foreign": ("FOREIGN_FORMATS", "foreign_text", "is_foreign"),
-    "formats": ("schema",),
-    "layouts": ("LAYOUT_WRITERS", "is_layout", "layout_of_graph", "layout_text", "read_layout"),
+    "foreign": ("FOREIGN_FORMATS", "format_foreign", "is_foreign"),
+    "formats": ("make_schema",),
+    "layouts": (
+        "LAYOUT_WRITERS",
+        "is_layout",
+        "make_layout_of_graph",
+        "format_layout",
+        "read_layout",
+    ),
     "movingai": ("load_map", "load_scen", "write_map", "write_scen"),
-    "plan.reader": ("plan_of",),
-    "plan.writer": ("dump_plan", "plan_text", "write_plan"),
+    "plan.reader": ("parse_plan",),
+    "plan.writer": ("dump_plan", "format_plan", "write_plan"),
     "readers": ("load", "load_either", "load_plan", "load_with_notes"),
-    "scenario.example": ("example_of_layout",),
-    "scenario.reader": ("Loaded", "scenario_of"),
-    "scenario.writer": ("dump_scenario", "scenario_text", "write_scenario"),
-    "site_plans": ("SITE_PLAN_FORMATS", "site_plan_text"),
+    "scenario.example": ("format_example",),
+    "scenario.reader": ("Loaded", "parse_scenario"),
+    "scenario.writer": ("dump_scenario", "format_scenario", "write_scenario"),
+    "site_plans": ("SITE_PLAN_FORMATS", "format_site_plan"),
     "text": ("DELAY_FILES", "load_delays"),
 }
 
@@ -53,12 +60,14 @@ __all__ = [
     "Loaded",
     "dump_plan",
     "dump_scenario",
-    "example_of_layout",
-    "foreign_text",
+    "format_example",
+    "format_foreign",
+    "format_layout",
+    "format_plan",
+    "format_scenario",
+    "format_site_plan",
     "is_foreign",
     "is_layout",
-    "layout_of_graph",
-    "layout_text",
     "load",
     "load_delays",
     "load_either",
@@ -66,13 +75,11 @@ __all__ = [
     "load_plan",
     "load_scen",
     "load_with_notes",
-    "plan_of",
-    "plan_text",
+    "make_layout_of_graph",
+    "make_schema",
+    "parse_plan",
+    "parse_scenario",
     "read_layout",
-    "scenario_of",
-    "scenario_text",
-    "schema",
-    "site_plan_text",
     "write_map",
     "write_plan",
     "write_scen",

@@ -34,7 +34,7 @@ class Faults:
             self._faults += [fault.nest(where) for fault in error.faults]
             return None
 
-    def part(
+    def read_part(
         self, document: Mapping[str, Any], key: str, read: Callable[..., T], *arguments: Any
     ) -> T | None:
         """Attempt to read the part under a key; the document's frame reports a missing key."""
@@ -173,7 +173,7 @@ def _fields(model: type[BaseModel]) -> dict[str, FieldInfo]:
     return {field.alias or name: field for name, field in fields}
 
 
-def keys_of(model: type[BaseModel]) -> list[str]:
+def list_keys(model: type[BaseModel]) -> list[str]:
     """Return the keys of a document, in the order in which it declares them."""
     return [field.alias or name for name, field in model.model_fields.items()]
 

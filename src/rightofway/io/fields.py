@@ -75,21 +75,21 @@ class Document(BaseModel):
         json_schema_extra=finish_schema(),
     )
 
-    def given(self, *fields: str) -> dict[str, Any]:
+    def get_given(self, *fields: str) -> dict[str, Any]:
         """Return those of the fields that were written."""
         return {name: getattr(self, name) for name in fields if name in self.model_fields_set}
 
-    def own(self, owner: type) -> dict[str, Any]:
+    def get_own_attributes(self, owner: type) -> dict[str, Any]:
         """Return those of the attributes of robots or rules that were written."""
-        return self.given(*(attribute.name for attribute in list_attributes(owner)))
+        return self.get_given(*(attribute.name for attribute in list_attributes(owner)))
 
 
-def optional(description: str, **limits: Any) -> Any:
+def make_optional(description: str, **limits: Any) -> Any:
     """Return a field that may be left out, and holds None then; a written null is refused."""
     return Field(default=None, description=description, **limits)
 
 
-def exactly_one_of(document: Document, kinds: tuple[str, ...]) -> str:
+def choose_exactly_one(document: Document, kinds: tuple[str, ...]) -> str:
     """Return which one of several keys for a map was written; ValueError if not exactly one."""
     given_kinds = [kind for kind in kinds if kind in document.model_fields_set]
     if len(given_kinds) != 1:
@@ -98,7 +98,7 @@ def exactly_one_of(document: Document, kinds: tuple[str, ...]) -> str:
     return given_kinds[0]
 
 
-def positive(value: object) -> Fraction:
+def read_positive(value: object) -> Fraction:
     """Return a number above 0; ValueError for any other value."""
     number = read_exact(value)
     if number <= 0:
@@ -129,7 +129,7 @@ _ANY = _number_schema()
 _NOT_NEGATIVE = _number_schema(minimum=0)
 _POSITIVE = _number_schema(exclusiveMinimum=0)
 
-Positive = Annotated[Fraction, Kind(positive, _POSITIVE)]
+Positive = Annotated[Fraction, Kind(read_positive, _POSITIVE)]
 NotNegative = Annotated[Fraction, Kind(_not_negative, _NOT_NEGATIVE)]
 Share = Annotated[Fraction, Kind(_share, _number_schema(minimum=0, maximum=1))]
 Angle = Annotated[Fraction, Kind(read_exact, _ANY)]
@@ -154,10 +154,10 @@ def _or_word(number: Callable[[object], Fraction], schema: Schema, *words: str) 
 
 CellSize = Annotated[
     Fraction | Literal["clustered", "adaptive"],
-    _or_word(positive, _POSITIVE, "clustered", "adaptive"),
+    _or_word(read_positive, _POSITIVE, "clustered", "adaptive"),
 ]
 Spacing = Annotated[
-    Fraction | Literal["auto", "whole"], _or_word(positive, _POSITIVE, "auto", "whole")
+    Fraction | Literal["auto", "whole"], _or_word(read_positive, _POSITIVE, "auto", "whole")
 ]
 Turning = Annotated[Fraction | Literal["cell"], _or_word(_not_negative, _NOT_NEGATIVE, "cell")]
 
@@ -246,14 +246,14 @@ KINDS: dict[str, Any] = {
 D = TypeVar("D", bound=type[Document])
 
 
-def with_attributes(owner: type, but: str = "") -> Callable[[D], D]:
+def add_attributes(owner: type, but: str = "") -> Callable[[D], D]:
     """Return a decorator that adds the attributes of robots or rules to a document, ``but`` one."""
 
     def add(document: D) -> D:
         fields: dict[str, Any] = {
             attribute.name: (
                 KINDS.get(attribute.kind, attribute.kind),
-                optional(
+                make_optional(
                     attribute.description,
                     **({} if attribute.key == attribute.name else {"alias": attribute.key}),
                 ),

@@ -43,7 +43,7 @@ def _not_wanted(value: object, known: str) -> str:
 
 
 @checks_arguments
-def schema(kind: Literal["scenario", "plan", "suite"]) -> dict[str, Any]:
+def make_schema(kind: Literal["scenario", "plan", "suite"]) -> dict[str, Any]:
     """Return the JSON Schema (2020-12) of a kind of document.
 
     Parameters

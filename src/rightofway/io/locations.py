@@ -29,17 +29,17 @@ _JSON_ONLY = re.compile(r"\\u[dD][89a-fA-F][0-9a-fA-F]{2}|\\/|\t")
 
 
 @contextmanager
-def document_of(path: Path, text: str | None = None) -> Iterator[Any]:
+def open_document(path: Path, text: str | None = None) -> Iterator[Any]:
     """Yield the data of a YAML or JSON file; faults raised inside name the file and the line."""
     with name_file(str(path)):
         text = read_text(path) if text is None else text
         data = parse_document(text, path)
-        with lines_of(text):
+        with add_lines(text):
             yield data
 
 
 @contextmanager
-def lines_of(text: str) -> Iterator[None]:
+def add_lines(text: str) -> Iterator[None]:
     """Add lines and names to the faults that are raised inside."""
     try:
         yield

@@ -60,7 +60,7 @@ def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
         return load_workbook_scenario(path)
     # What a kind of files needs is imported with the first one: a `.scen` file needs none of it.
     from rightofway.io.layouts import refuse_layout
-    from rightofway.io.locations import document_of
+    from rightofway.io.locations import open_document
 
     with name_file(str(path)):
         _refuse_count(count)
@@ -68,7 +68,7 @@ def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
         text = read_text(path)
         _refuse_foreign(text)
         refuse_layout(path, text)
-    with document_of(path, text) as document:
+    with open_document(path, text) as document:
         return read_scenario(document, path.parent)
 
 
@@ -93,8 +93,8 @@ def load_plan(
         With every independent fault, its place, value and remedy. A plan that breaks rules is not
         at fault here: `rightofway.check` judges it.
     """
-    from rightofway.io.locations import document_of
-    from rightofway.io.plan.reader import plan_of
+    from rightofway.io.locations import open_document
+    from rightofway.io.plan.reader import parse_plan
 
     path = as_path(path)
     kinds = {".scen": "a .scen file", **dict.fromkeys(WORKBOOKS, "a workbook")}
@@ -104,8 +104,8 @@ def load_plan(
     text, foreign = _foreign(path, map_file, scen)
     if foreign is not None:
         return foreign
-    with document_of(path, text) as document:
-        return plan_of(document, pictures=path.parent)
+    with open_document(path, text) as document:
+        return parse_plan(document, pictures=path.parent)
 
 
 @checks_arguments
@@ -134,19 +134,19 @@ def load_either(
     path = as_path(path)
     if path.suffix.lower() in {".scen", *WORKBOOKS}:
         return load_with_notes(path, count)
-    from rightofway.io.locations import document_of
-    from rightofway.io.plan.reader import plan_of
+    from rightofway.io.locations import open_document
+    from rightofway.io.plan.reader import parse_plan
 
     with name_file(str(path)):
         _refuse_count(count)
     text, foreign = _foreign(path, map_file, scen)
     if foreign is not None:
         return foreign
-    with document_of(path, text) as document:
+    with open_document(path, text) as document:
         kind = document.get("format") if isinstance(document, dict) else None
         is_plan = isinstance(kind, str) and kind.startswith("rightofway-plan/")
         if is_plan:
-            return plan_of(document, pictures=path.parent)
+            return parse_plan(document, pictures=path.parent)
         return read_scenario(document, path.parent)
 
 

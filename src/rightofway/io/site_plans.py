@@ -21,7 +21,7 @@ from fractions import Fraction
 from typing import Any
 
 from rightofway.arguments import checks_arguments, get_value
-from rightofway.io.text import json_line
+from rightofway.io.text import format_json_line
 from rightofway.metrics.events import list_events
 from rightofway.model import Plan, Stays, Track
 
@@ -59,7 +59,7 @@ class SitePlanFormat:
 
 
 @checks_arguments
-def site_plan_text(plan: Plan, name: str) -> tuple[str, tuple[str, ...]]:
+def format_site_plan(plan: Plan, name: str) -> tuple[str, tuple[str, ...]]:
     """Return a plan as the text of a file for a program on the site.
 
     Parameters
@@ -131,15 +131,15 @@ class _Site:
         self.down = -1 if y_up and not self.roadmap.frame.y_up else 1
         self.stays = plan.stays
 
-    def point(self, vertex: int) -> tuple[Fraction, Fraction]:
+    def locate_vertex(self, vertex: int) -> tuple[Fraction, Fraction]:
         """Return where a vertex is [m]."""
         x, y = self.roadmap.get_point(vertex)
         return x * self.metre, y * self.metre * self.down
 
-    def poses(self, robot: int) -> Iterator[Pose]:
+    def list_poses(self, robot: int) -> Iterator[Pose]:
         """Yield the poses of a robot in order of time, each at an instant of its own."""
         track, stays = self.plan.tracks[robot], self.stays[robot]
-        points = [self.point(vertex) for vertex in track.vertices.tolist()]
+        points = [self.locate_vertex(vertex) for vertex in track.vertices.tolist()]
         headings, speeds = self._drives(points, stays)
         came, last = headings[0], len(points) - 1
         for visit, ((x, y), (arrives, departs)) in enumerate(
@@ -194,7 +194,8 @@ def _events(plan: Plan) -> str:
     came: dict[int, float] = {}
     rows = list[tuple[int, int, tuple[Any, ...]]]()
     headings = [
-        {pose.visit: pose.heading for pose in site.poses(robot)} for robot in range(len(robots))
+        {pose.visit: pose.heading for pose in site.list_poses(robot)}
+        for robot in range(len(robots))
     ]
     for event in list_events(plan):
         stays, robot, now = site.stays[event.robot], event.robot, int(event.enter)
@@ -212,7 +213,7 @@ def _events(plan: Plan) -> str:
         if is_last:
             steps.append((int(stays.completion), "done", came.get(robot, goes), ""))
         came[robot] = goes
-        x, y = map(_rounded, site.point(event.vertex))
+        x, y = map(_rounded, site.locate_vertex(event.vertex))
         for tick, doing, heading, for_robot in steps:
             row = (
                 _rounded(tick * site.second), robots[robot].name, doing, name(event.vertex), x, y,
@@ -231,7 +232,7 @@ def _nav2(plan: Plan) -> str:
     site, names = _Site(plan, y_up=True), plan.scenario.roadmap.name
     robots = {}
     for robot, track in enumerate(plan.tracks):
-        poses = list(site.poses(robot))
+        poses = list(site.list_poses(robot))
         nodes = [names(int(track.vertices[pose.visit])) for pose in poses]
         path = {
             "header": _header(Fraction(0)),
@@ -264,7 +265,7 @@ def _open_rmf(plan: Plan) -> str:
     site, itineraries = _Site(plan, y_up=True), {}
     for robot in range(len(plan.tracks)):
         waypoints, yaw = list[dict[str, Any]](), 0.0
-        for pose in site.poses(robot):
+        for pose in site.list_poses(robot):
             yaw += math.remainder(pose.heading - yaw, math.tau)  # the shorter way round
             velocity = pose.speed * math.cos(yaw), pose.speed * math.sin(yaw)
             waypoints.append(
@@ -283,11 +284,13 @@ def _spread(value: Any, margin: str = "\n") -> str:
     """Return JSON with one pose or waypoint on a line."""
     inner = margin + "  "
     if isinstance(value, dict) and not {"pose", "position", "stamp"} & set(value):
-        pairs = (f"{json_line(key)}: {_spread(child, inner)}" for key, child in value.items())
+        pairs = (
+            f"{format_json_line(key)}: {_spread(child, inner)}" for key, child in value.items()
+        )
         return f"{{{inner}{f',{inner}'.join(pairs)}{margin}}}"
     if isinstance(value, list) and value and isinstance(value[0], dict):
         return f"[{inner}{f',{inner}'.join(_spread(item, inner) for item in value)}{margin}]"
-    return json_line(value)
+    return format_json_line(value)
 
 
 SITE_PLAN_FORMATS: dict[str, SitePlanFormat] = {

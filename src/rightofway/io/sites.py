@@ -12,7 +12,7 @@ from rightofway.errors import InputError, name_file
 from rightofway.io.faults import validate
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.layouts import describe_layout, is_layout, read_layout
-from rightofway.io.locations import document_of
+from rightofway.io.locations import open_document
 from rightofway.io.readers import load_with_notes
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.reader import read_scenario
@@ -53,7 +53,7 @@ class Choice:
     vehicle_type: str | None = None
     cell_size: Fraction | None = None
 
-    def keys(self) -> dict[str, Any]:
+    def list_keys(self) -> dict[str, Any]:
         """Return the keys that are given."""
         level_of = {
             "level": self.level,
@@ -73,13 +73,13 @@ def read_sites(path: Path | str, choice: Choice, robots: Path | str | None = Non
     """
     path = Path(path)
     if str(path) == "-" or not is_layout(path):
-        if given := choice.keys():
+        if given := choice.list_keys():
             message = f"{next(iter(given))} is for layouts, and this is none (leave it out)"
             raise InputError.at("", message, str(path))
         return _of_scenario(path, robots)
     layout = read_layout(path)
     if robots is not None:
-        keys = choice.keys()
+        keys = choice.list_keys()
         if isinstance(layout, Layout):
             level = _level(path, layout, choice)
             if choice.vehicle_type is None and (name := _usual_type(level)):
@@ -148,7 +148,7 @@ def _usual_type(level: Level) -> str | None:
 def _of_cells(path: Path, cells: Any, choice: Choice) -> Sites:
     from rightofway.io.scenario.shape import MapDocument
 
-    document = validate(MapDocument, {"layout": str(path.resolve()), **choice.keys()})
+    document = validate(MapDocument, {"layout": str(path.resolve()), **choice.list_keys()})
     loaded = map_of(document, Path(), Units())
     assert loaded, "only a floor needs speeds"
     site = Site(roadmap=loaded.roadmap, units=loaded.units)
@@ -158,13 +158,13 @@ def _of_cells(path: Path, cells: Any, choice: Choice) -> Sites:
 def _of_scenario(path: Path, robots: Path | str | None) -> Sites:
     if robots is None:
         loaded = load_with_notes(path)
-        return sites_of(loaded.scenario, loaded.notes)
+        return make_sites(loaded.scenario, loaded.notes)
     if path.suffix.lower() in {".xlsx", ".xlsm", ".scen"}:
         message = (
             "has robots of its own (give --robots with a layout, or a scenario as YAML or JSON)"
         )
         raise InputError.at("", message, str(path))
-    with document_of(path) as document:
+    with open_document(path) as document:
         drawn = document.get("map") if isinstance(document, dict) else None
         if drawn is None:
             raise InputError.at("", "this is neither a layout nor a scenario with a map")
@@ -177,8 +177,8 @@ def _with_fleet(drawn: Any, base: Path, robots: Path) -> Sites:
     if robots.suffix.lower() == ".csv":
         document["robots"] = {"table": str(robots.resolve())}
         loaded = read_scenario(document, base)
-        return sites_of(loaded.scenario, loaded.notes)
-    with document_of(robots, read_text(robots)) as robots_document:
+        return make_sites(loaded.scenario, loaded.notes)
+    with open_document(robots, read_text(robots)) as robots_document:
         fleet = (
             {"robots": robots_document} if isinstance(robots_document, list) else robots_document
         )
@@ -186,10 +186,10 @@ def _with_fleet(drawn: Any, base: Path, robots: Path) -> Sites:
             raise InputError.at("", "no robots are in it (give robots: [{name: R1, home: …}, …])")
         parts = {key: fleet[key] for key in ("homes", "robots", "rules", "units") if key in fleet}
         loaded = read_scenario({**document, **parts}, base)
-    return sites_of(loaded.scenario, loaded.notes)
+    return make_sites(loaded.scenario, loaded.notes)
 
 
-def sites_of(scenario: Scenario, notes: tuple[Phrase, ...]) -> Sites:
+def make_sites(scenario: Scenario, notes: tuple[Phrase, ...]) -> Sites:
     """Return a scenario as the one site that it is about."""
     site = Site(
         roadmap=scenario.roadmap,

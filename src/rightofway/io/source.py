@@ -37,17 +37,17 @@ class Source:
         """Its place in the file."""
         return Location(path=self.path, line=self.line)
 
-    def fault(self, message: str) -> InputError:
+    def make_fault(self, message: str) -> InputError:
         """Return the fault that this value is."""
         return InputError.at(self.location, message)
 
-    def child(self, step: str | int, value: Any) -> Source:
+    def make_child(self, step: str | int, value: Any) -> Source:
         """Return a value inside this one."""
         return Source(value, (*self.path, step), self.line)
 
     def get(self, *keys: str) -> Source | None:
         """Return the value under the first of several keys that has one, or None."""
-        mapping = self.value if type(self.value) is dict else self.mapping()
+        mapping = self.value if type(self.value) is dict else self.read_mapping()
         for key in keys:
             value = mapping.get(key)
             if value is not None:
@@ -58,38 +58,40 @@ class Source:
         """Return the value under the first of several keys that has one."""
         value_found = self.get(*keys)
         if value_found is None:
-            raise self.child(keys[0], None).fault("is missing (add it)")
+            raise self.make_child(keys[0], None).make_fault("is missing (add it)")
         return value_found
 
-    def mapping(self) -> dict[str, Any]:
+    def read_mapping(self) -> dict[str, Any]:
         """Return the value as a mapping."""
         if not isinstance(self.value, dict):
-            raise self.fault(f"{quote(self.value)} is not a mapping of keys to values (mend it)")
+            raise self.make_fault(
+                f"{quote(self.value)} is not a mapping of keys to values (mend it)"
+            )
         return self.value
 
-    def entries(self) -> Iterator[tuple[str, Source]]:
+    def read_entries(self) -> Iterator[tuple[str, Source]]:
         """Yield keys and values of a mapping."""
-        for key, value in self.mapping().items():
-            yield key, self.child(key, value)
+        for key, value in self.read_mapping().items():
+            yield key, self.make_child(key, value)
 
-    def items(self) -> list[Source]:
+    def read_items(self) -> list[Source]:
         """Return the items of a list."""
         if not isinstance(self.value, list):
-            raise self.fault(f"{quote(self.value)} is not a list (mend it)")
-        return [self.child(index, item) for index, item in enumerate(self.value)]
+            raise self.make_fault(f"{quote(self.value)} is not a list (mend it)")
+        return [self.make_child(index, item) for index, item in enumerate(self.value)]
 
-    def items_under(self, *keys: str) -> list[Source]:
+    def read_items_under(self, *keys: str) -> list[Source]:
         """Return the items of all lists that stand under some keys; none for a missing one."""
         lists = (self.get(key) for key in keys)
-        return [item for listed in lists if listed is not None for item in listed.items()]
+        return [item for listed in lists if listed is not None for item in listed.read_items()]
 
-    def text(self) -> str:
+    def read_text(self) -> str:
         """Return the value as text that can be shown; whole numbers count as text."""
         value = self.value
         if isinstance(value, int) and not isinstance(value, bool):
             value = str(value)
         if not isinstance(value, str) or not is_printable(value) or len(value) > LONGEST_NAME:
-            raise self.fault(f"{quote(self.value)} is no name (give printable text)")
+            raise self.make_fault(f"{quote(self.value)} is no name (give printable text)")
         return value
 
     def number(self) -> Fraction:
@@ -98,23 +100,23 @@ class Source:
         try:
             return _number(value) if isinstance(value, Hashable) else _number.__wrapped__(value)
         except ValueError as error:
-            raise self.fault(str(error)) from None
+            raise self.make_fault(str(error)) from None
 
     def read_whole(self, least: int, most: int) -> int:
         """Return the value as a whole number within bounds."""
         if type(self.value) is not int or not least <= self.value <= most:
             message = f"{quote(self.value)} does not fit"
-            raise self.fault(f"{message} (give a whole number from {least} to {most})")
+            raise self.make_fault(f"{message} (give a whole number from {least} to {most})")
         return self.value
 
-    def flag(self) -> bool:
+    def read_flag(self) -> bool:
         """Return the value as true or false; 0 and 1 count, too."""
         word = self.value.lower() if isinstance(self.value, str) else self.value
         if word in (True, *TRUE):
             return True
         if word in (False, *FALSE):
             return False
-        raise self.fault(f"{quote(self.value)} is neither true nor false (mend it)")
+        raise self.make_fault(f"{quote(self.value)} is neither true nor false (mend it)")
 
 
 @lru_cache(maxsize=2**16, typed=True)  # the numbers of a site repeat

@@ -14,9 +14,9 @@ from rightofway.io.fields import (
     Kind,
     Name,
     Positive,
-    exactly_one_of,
+    choose_exactly_one,
     finish_schema,
-    optional,
+    make_optional,
 )
 from rightofway.io.scenario.shape import RulesDocument
 from rightofway.values import read_exact
@@ -93,20 +93,20 @@ class MapCasesDocument(Document):
         )
     )
 
-    name: Name = optional("a name of its own in results; the file's by default")
-    file: Name = optional("a .map file, relative to the suite's own")
-    scens: list[Name] = optional(
+    name: Name = make_optional("a name of its own in results; the file's by default")
+    file: Name = make_optional("a .map file, relative to the suite's own")
+    scens: list[Name] = make_optional(
         "a list of .scen files; the first k rows of one are its fleet of k robots", min_length=1
     )
-    random: RandomGridDocument = optional("{size, walls, seed}")
-    scenario: Name = optional("a scenario file, whose fleet is taken as it is")
-    counts: Distinct[Count] = optional(
+    random: RandomGridDocument = make_optional("{size, walls, seed}")
+    scenario: Name = make_optional("a scenario file, whose fleet is taken as it is")
+    counts: Distinct[Count] = make_optional(
         "a list of how many robots, 1 or more; that of the suite by default"
     )
 
     @model_validator(mode="after")
     def _check_one_map(self) -> Self:
-        kind = exactly_one_of(self, MAPS)
+        kind = choose_exactly_one(self, MAPS)
         if kind == "file" and self.scens is None:
             raise ValueError("file is given without scens (give a list of .scen files too)")
         if kind != "file" and self.scens is not None:
@@ -120,7 +120,7 @@ class SuiteFleetDocument(RulesDocument):
     """What the robots of a fleet are like, and their rules."""
 
     name: Name = Field(description="a name of its own in results")
-    speeds: list[Positive] = optional("speeds of the robots; 1 by default", min_length=1)
+    speeds: list[Positive] = make_optional("speeds of the robots; 1 by default", min_length=1)
     deal: Literal["in turn", "by seed"] = Field(
         default="in turn",
         description="in turn: the first speed for R1, and so on round; by seed: drawn at random",
@@ -144,13 +144,13 @@ class SuiteDocument(Document):
     format: Literal["rightofway-suite/1"] = Field(description="rightofway-suite/1")
     maps: list[MapCasesDocument] = Field(min_length=1, description="one or more maps")
     planners: list[SuitePlannerDocument] = Field(min_length=1, description="one or more planners")
-    fleets: list[SuiteFleetDocument] = optional(
+    fleets: list[SuiteFleetDocument] = make_optional(
         "one or more fleets; one of speed 1 by default", min_length=1
     )
-    counts: Distinct[Count] = optional("a list of how many robots, 1 or more")
+    counts: Distinct[Count] = make_optional("a list of how many robots, 1 or more")
     seeds: Distinct[Seed] = Field(
         default=[0],
         description="a list; each draws its own homes and targets on random grids, speeds, work,"
         " and is the planner's",
     )
-    limits: Distinct[Positive] = optional("a list of time limits [s], above 0; 10 by default")
+    limits: Distinct[Positive] = make_optional("a list of time limits [s], above 0; 10 by default")

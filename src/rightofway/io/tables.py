@@ -102,7 +102,7 @@ class CellDocument:
             raise InputError(self.faults)
 
 
-def records_of(
+def read_records(
     rows: Iterable[Row],
     cell: CellOf,
     path: Steps,
@@ -124,7 +124,7 @@ def records_of(
     columns, cells, records = dict[int, str](), dict[Steps, Where](), list[dict[str, Any]]()
     first, headings = next(rows, (1, {}))
     for column, heading in headings.items():
-        key, place = heading_key(heading), cell(first, column)
+        key, place = find_heading_key(heading), cell(first, column)
         is_stop = has_stops and STOP.fullmatch(key) is not None
         if key in columns.values() and key not in NOTES:
             faults.note(place, f"the column {key!r} is given twice (take one out)")
@@ -146,16 +146,18 @@ def records_of(
                 continue
             cells[*record_path, key] = cell(number, column)
             if column in values:
-                value = faults.attempt(cell(number, column), value_of, key, values[column], words)
+                value = faults.attempt(
+                    cell(number, column), read_cell_value, key, values[column], words
+                )
                 record |= {} if value is None else {key: value}
         records.append(record)
     return CellDocument(part=records, cells=cells, faults=faults.found)
 
 
-def robots_of_rows(rows: Iterable[Row], cell: CellOf, known: Iterable[str]) -> CellDocument:
+def read_robots_of_rows(rows: Iterable[Row], cell: CellOf, known: Iterable[str]) -> CellDocument:
     """Return the robots of a table; columns ``stop 1``, ``work 1``, … become stops."""
     keys = [key for key in known if key != "stops"]
-    table = records_of(rows, cell, ("robots",), keys, noun="a robot", has_stops=True)
+    table = read_records(rows, cell, ("robots",), keys, noun="a robot", has_stops=True)
     if not table.part:
         fault = InputFault(cell(1, 1), "there is no robot (write headings, then one robot a row)")
         return replace(table, faults=(*table.faults, fault))
@@ -174,13 +176,13 @@ def robots_of_rows(rows: Iterable[Row], cell: CellOf, known: Iterable[str]) -> C
     return table
 
 
-def heading_key(heading: Any) -> str:
+def find_heading_key(heading: Any) -> str:
     """Return the key that a heading stands for: ``Speed [m/s]`` is ``speed``."""
     words = re.sub(r"\[[^\[\]]*\]|\([^()]*\)|\*", "", str(heading)).strip().lower()
     return words if STOP.fullmatch(words) else "_".join(words.split())
 
 
-def value_of(key: str, value: Any, words: Collection[str] = WORD_KEYS) -> Any:
+def read_cell_value(key: str, value: Any, words: Collection[str] = WORD_KEYS) -> Any:
     """Return the value of a cell as a document has it under a key; ``words`` are keys of text."""
     if not isinstance(value, str):
         return str(value) if key in words and not isinstance(value, bool) else value
@@ -198,7 +200,7 @@ def value_of(key: str, value: Any, words: Collection[str] = WORD_KEYS) -> Any:
     return value.replace(",", ".") if DECIMAL_COMMA.fullmatch(value) else value
 
 
-def robots_of_csv(path: Path, known: Iterable[str], names_it: Where) -> CellDocument:
+def read_robots_of_csv(path: Path, known: Iterable[str], names_it: Where) -> CellDocument:
     """Return the robots of a CSV file: columns between commas, semicolons or tabs.
 
     Raises
@@ -217,11 +219,11 @@ def robots_of_csv(path: Path, known: Iterable[str], names_it: Where) -> CellDocu
         (number, {at: text.strip() for at, text in enumerate(row, 1) if text.strip()})
         for number, row in enumerate(rows, 1)
     )
-    headings = [heading_key(text) for text in rows[0]] if rows else []
+    headings = [find_heading_key(text) for text in rows[0]] if rows else []
 
     def cell(row: int, column: int) -> Location:
         is_named = row > 1 and 1 < column <= len(headings)
         steps = (headings[column - 1],) if is_named and headings[column - 1] else ()
         return Location(file=str(path), line=row, path=steps).nest(names_it)
 
-    return robots_of_rows(((number, row) for number, row in filled if row), cell, known)
+    return read_robots_of_rows(((number, row) for number, row in filled if row), cell, known)

@@ -111,13 +111,13 @@ def read_text(path: Path) -> str:
     """Return the text of a file, UTF-8 with any kind of line end; ``-`` is standard input."""
     source = str(path)
     with name_file(source):
-        data = content_of(path)
+        data = read_content(path)
     if not data or data.isspace():
         raise InputError.at("", "the file is empty (give it some content)", source)
     return _decode(data, source).replace("\r\n", "\n").replace("\r", "\n")
 
 
-def content_of(path: Path, most: int | None = None) -> bytes | bytearray:
+def read_content(path: Path, most: int | None = None) -> bytes | bytearray:
     """Return the bytes of a file, a pipe, or of standard input as ``-``.
 
     Raises
@@ -254,12 +254,12 @@ def _decode(data: bytes | bytearray, source: str) -> str:
         raise InputError.at(Location(line=line), message, source) from None
 
 
-def whole(token: str) -> int | str:
+def read_whole(token: str) -> int | str:
     """Return a whole number of a file, or its text where it is too long."""
     return int(token) if len(token) <= LONGEST_TOKEN else token
 
 
-def decimal(token: str) -> Decimal | str:
+def read_decimal(token: str) -> Decimal | str:
     """Return a decimal of a file exactly, or its text where no float comes near it."""
     _, _, exponent = token.lower().partition("e")
     if len(token) > LONGEST_TOKEN or abs(int(exponent or "0")) > LARGEST_EXPONENT:
@@ -282,8 +282,8 @@ def parse_json(text: str) -> Any:
         data = json.loads(
             text,
             object_pairs_hook=mapping_of,
-            parse_float=decimal,
-            parse_int=whole,
+            parse_float=read_decimal,
+            parse_int=read_whole,
             parse_constant=str,  # NaN and Infinity: words, and refused as words
         )
     except json.JSONDecodeError as error:
@@ -339,7 +339,7 @@ def parse_toml(text: str) -> dict[str, Any]:
     import tomllib  # here: few commands read TOML
 
     try:
-        return tomllib.loads(text, parse_float=decimal)
+        return tomllib.loads(text, parse_float=read_decimal)
     except RecursionError:
         raise InputError.at("", "it is nested too deeply (make it flatter)") from None
     except ValueError as error:
@@ -479,11 +479,11 @@ def _scalar(event: Any) -> Any:
     if text in _WORDS:
         return _WORDS[text]
     if _INTEGER.fullmatch(text):
-        return whole(text)
-    return decimal(text) if _DECIMAL.fullmatch(text) else text
+        return read_whole(text)
+    return read_decimal(text) if _DECIMAL.fullmatch(text) else text
 
 
-def json_text(document: dict[str, Any]) -> str:
+def format_json(document: dict[str, Any]) -> str:
     """Return a document as JSON text with one row, robot or edge on a line."""
     return _spread(document, "\n") + "\n"
 
@@ -491,9 +491,10 @@ def json_text(document: dict[str, Any]) -> str:
 def _spread(value: dict[str, Any] | list[Any], margin: str) -> str:
     inner = margin + "  "
     if isinstance(value, list):
-        return f"[{inner}{f',{inner}'.join(map(json_line, value))}{margin}]"
+        return f"[{inner}{f',{inner}'.join(map(format_json_line, value))}{margin}]"
     pairs = (
-        f"{json_line(key)}: {_spread(child, inner) if _is_spread(key, child) else json_line(child)}"
+        f"{format_json_line(key)}: "
+        + (_spread(child, inner) if _is_spread(key, child) else format_json_line(child))
         for key, child in value.items()
     )
     return f"{{{inner}{f',{inner}'.join(pairs)}{margin}}}"
@@ -503,6 +504,6 @@ def _is_spread(key: str, value: Any) -> bool:
     return key in SPREAD_KEYS and isinstance(value, list | dict) and bool(value)
 
 
-def json_line(value: Any) -> str:
+def format_json_line(value: Any) -> str:
     """Return a value as JSON text on one line."""
     return _ENCODER.encode(value)

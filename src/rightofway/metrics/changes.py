@@ -120,7 +120,7 @@ def _robot(
     is_same_place: Callable[[int, int], bool],
 ) -> Iterator[tuple[str, str, str]]:
     """Yield what of a robot differs: key and both values in words."""
-    was, now = PlaceNames(before).where, PlaceNames(after).where
+    was, now = PlaceNames(before).describe_place, PlaceNames(after).describe_place
     if not is_same_place(old.home, new.home):
         yield "home", was(old.home), now(new.home)
     stops, then = [stop.at for stop in old.stops], [stop.at for stop in new.stops]
@@ -216,6 +216,8 @@ def _closed(scenario: Scenario) -> dict[str, str]:
     shown_values: dict[str, str] = {}
     for closure in scenario.closures:
         ends = [closure.at] if closure.edge is None else closure.edge
-        place = " to ".join(PlaceNames(scenario).where(int(end)) for end in ends if end is not None)
+        place = " to ".join(
+            PlaceNames(scenario).describe_place(int(end)) for end in ends if end is not None
+        )
         shown_values[place] = ", ".join(filter(None, (shown_values.get(place), when(closure))))
     return shown_values

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments, require_one_for_each
-from rightofway.model import NEVER, Plan, Scenario, Stays, Tick, Track, stays_of
+from rightofway.model import NEVER, Plan, Scenario, Stays, Tick, Track, find_stays
 from rightofway.model.resources import Resources
 from rightofway.model.sorting import order_by
 from rightofway.native import book_times, list_excluded
@@ -98,7 +98,7 @@ def find_collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Collis
     The paper's list counts the ticks of these intervals one by one.
     """
     require_one_for_each(scenario.robots, tracks=tracks)
-    bookings = list_bookings(scenario, tracks, stays_of(scenario, tracks))
+    bookings = list_bookings(scenario, tracks, find_stays(scenario, tracks))
     columns = (bookings.vertex, bookings.start, bookings.end, bookings.robot)
     collisions_at_vertex: list[Collision] = []
     open_bookings: list[tuple[int, int, int]] = []  # of the vertex, those that have not ended yet
@@ -218,7 +218,7 @@ def find_near_misses(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NearM
     if resources.are_points:  # their bookings exclude each other at one vertex: collisions
         return ()
     of_row: defaultdict[int, list[_Booking]] = defaultdict(list)
-    for robot, (track, stay) in enumerate(zip(tracks, stays_of(scenario, tracks), strict=True)):
+    for robot, (track, stay) in enumerate(zip(tracks, find_stays(scenario, tracks), strict=True)):
         for row, booking in _places_booked(scenario, resources, robot, track, stay):
             of_row[row].append(booking)
     overlaps: defaultdict[tuple[int, int], list[_Overlap]] = defaultdict(list)
@@ -308,12 +308,12 @@ def _places_booked(
     starts = (track.enter - np.append(0, stay.drive[:-1])).tolist()
     ends = [*scenario.problem.booking_rules.end(track.enter[1:]).tolist(), NEVER]
     for vertex, start, end in zip(vertices, starts, ends, strict=True):
-        yield resources.vertex_row(robot, vertex), _Booking(start, end, robot, (vertex,))
+        yield resources.get_vertex_row(robot, vertex), _Booking(start, end, robot, (vertex,))
     for edge, ends_of_edge, start, end in zip(
         edges, pairwise(vertices), starts[1:], ends[:-1], strict=True
     ):
         if edge >= 0:
-            yield resources.edge_row(robot, edge), _Booking(start, end, robot, ends_of_edge)
+            yield resources.get_edge_row(robot, edge), _Booking(start, end, robot, ends_of_edge)
 
 
 def _joined(times: Iterable[_Overlap]) -> list[_Overlap]:

@@ -7,8 +7,15 @@ from collections.abc import Iterable, Mapping
 from rightofway.arguments import checks_arguments
 from rightofway.deadline import Deadline
 from rightofway.metrics.collisions import find_collisions, find_near_misses, find_swaps
-from rightofway.model import Objective, Scenario, Tick, Track, checked_time_limit, completions_of
-from rightofway.model.outcome import ForcedLoss, minimized
+from rightofway.model import (
+    Objective,
+    Scenario,
+    Tick,
+    Track,
+    compute_completions,
+    require_time_limit,
+)
+from rightofway.model.outcome import ForcedLoss, choose_objective
 from rightofway.search import Bookings, ConflictBasedSearch, Distances, find_earliest_track
 from rightofway.site import VertexId
 
@@ -56,13 +63,13 @@ def find_forced_losses(
     Each pair or group is solved for itself. A robot may be in several, so that the losses do not
     add up. Deterministic without a time limit.
     """
-    deadline = Deadline.after(checked_time_limit(time_limit))
-    if minimized(scenario) is not Objective.FLOWTIME:
+    deadline = Deadline.after(require_time_limit(time_limit))
+    if choose_objective(scenario) is not Objective.FLOWTIME:
         return ()
     tracks = _alone(scenario)
     if tracks is None:
         return ()
-    search, alone = ConflictBasedSearch(scenario.problem), completions_of(scenario, tracks)
+    search, alone = ConflictBasedSearch(scenario.problem), compute_completions(scenario, tracks)
 
     def measure_loss(robots: Robots) -> Tick:
         """Return what robots lose at least, alone on the roads [ticks]; 0 where time is up."""

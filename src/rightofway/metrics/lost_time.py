@@ -32,9 +32,9 @@ from rightofway.model import (
     Stays,
     Tick,
     Track,
-    least_dwell,
+    compute_least_dwell,
 )
-from rightofway.model.given import checked_plan
+from rightofway.model.given import require_plan
 from rightofway.model.turning import Turning
 from rightofway.site import VertexId
 
@@ -64,7 +64,7 @@ def compute_lost_time(plan: Plan) -> tuple[LostTime, ...]:
     NoPlanExists
         If no way leads from one place of a robot's trip to the next.
     """
-    return checked_plan(plan).once("lost time", lambda: _lost_time(plan))
+    return require_plan(plan).compute_once("lost time", lambda: _lost_time(plan))
 
 
 def _lost_time(plan: Plan) -> tuple[LostTime, ...]:
@@ -243,7 +243,7 @@ def _with_turns(
     for loss in room:
         first = int(np.searchsorted(track.enter, loss.tick)) - 1
         back = int(np.searchsorted(track.enter, loss.end))
-        across = int(turning.between(ends[[first, back + 1]])[0])
+        across = int(turning.compute_turns(ends[[first, back + 1]])[0])
         ticks = loss.ticks + int(stay.turns[first : back + 1].sum()) - across
         if ticks > 0:
             yield replace(loss, ticks=Tick(ticks))
@@ -263,5 +263,5 @@ def _visitor(bookings: BookedPlaces, robot: int, vertex: int, leave: int, until:
 def _least_dwell_of_trip(itinerary: Itinerary) -> int:
     """Return the least ticks of all visits of a trip, without drives and turns to them."""
     visits = [list(stages) for _, stages in groupby(itinerary.stages, lambda stage: stage.vertex)]
-    moving = sum(least_dwell(stages, leaves=True) for stages in visits[:-1])
-    return moving + least_dwell(visits[-1], leaves=False)
+    moving = sum(compute_least_dwell(stages, leaves=True) for stages in visits[:-1])
+    return moving + compute_least_dwell(visits[-1], leaves=False)

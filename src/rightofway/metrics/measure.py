@@ -8,7 +8,7 @@ from typing import Any
 
 from rightofway.metrics.alone import compute_alone_completions
 from rightofway.model import Plan, Tick
-from rightofway.model.given import checked_plan
+from rightofway.model.given import require_plan
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -74,7 +74,7 @@ def measure(plan: Plan) -> Metrics:
     NoPlanExists
         If no way leads from one place of a robot's trip to the next, so that there is no bound.
     """
-    return checked_plan(plan).once("metrics", lambda: _measured(plan))
+    return require_plan(plan).compute_once("metrics", lambda: _measured(plan))
 
 
 def _measured(plan: Plan) -> Metrics:

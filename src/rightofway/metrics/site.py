@@ -13,7 +13,7 @@ from typing import Literal
 from rightofway.arguments import checks_arguments
 from rightofway.errors import join_names
 from rightofway.model import Robot, Rules
-from rightofway.model.place_names import middle
+from rightofway.model.place_names import describe_middle
 from rightofway.phrases import Phrase, say_count
 from rightofway.quantities import Units, format_decimal
 from rightofway.site import Roadmap
@@ -203,7 +203,7 @@ class Site:
         """
         place = self.places.get(vertex)
         if self.roadmap.has_cells and self.units.length:
-            at = middle(self.roadmap, vertex)
+            at = describe_middle(self.roadmap, vertex)
             return Phrase("({middle}, {what})", middle=at, what=place) if place else f"({at})"
         name = self.roadmap.name(vertex)
         return Phrase("{name} ({what})", name=name, what=place) if place else name

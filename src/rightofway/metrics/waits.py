@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.model import Plan, Route, Scenario, Stays, Tick, Track, Wait
-from rightofway.model.given import checked_plan
+from rightofway.model.given import require_plan
 from rightofway.native import BookedRows, book_times
 from rightofway.precedence import PrecedenceGraph, order_of
 from rightofway.precedence.graph import Pairs
@@ -29,8 +29,8 @@ def waits(plan: Plan) -> tuple[Wait, ...]:
     plan
         A plan that keeps the rules.
     """
-    scenario, tracks = checked_plan(plan).scenario, plan.tracks
-    return plan.once("waits", lambda: waits_in(scenario, tracks, plan.stays))
+    scenario, tracks = require_plan(plan).scenario, plan.tracks
+    return plan.compute_once("waits", lambda: waits_in(scenario, tracks, plan.stays))
 
 
 def waits_in(

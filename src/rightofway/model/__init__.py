@@ -2,7 +2,7 @@
 
 from rightofway.model.booking_rules import BookingRules
 from rightofway.model.closures import Closure, Closures
-from rightofway.model.lap import Lap, lap_of, visits_of_laps
+from rightofway.model.lap import Lap, make_lap, make_visits_of_laps
 from rightofway.model.lost_time import Loss, LostTime
 from rightofway.model.outcome import ForcedLoss, Objective, Outcome, OutcomeKind, Proof
 from rightofway.model.plan import (
@@ -15,24 +15,30 @@ from rightofway.model.plan import (
     StartPlan,
     Wait,
 )
-from rightofway.model.problem import Itinerary, Problem, Stage, least_dwell
+from rightofway.model.problem import Itinerary, Problem, Stage, compute_least_dwell
 from rightofway.model.resources import Resources
 from rightofway.model.robot import Occupancy, Robot, Rules, Stop, TripEnd, Turn, Walls
 from rightofway.model.route import (
     Route,
     Track,
-    drives_along,
-    route_along,
-    route_of,
-    route_through,
-    serving_visits,
-    turns_along,
+    compute_drives_along,
+    compute_turns_along,
+    find_serving_visits,
+    join_route,
+    make_route,
+    make_route_through,
 )
 from rightofway.model.scenario import Scenario
-from rightofway.model.stays import Stays, completions_of, cost_of, flowtime_of, stays_of
+from rightofway.model.stays import (
+    Stays,
+    compute_completions,
+    compute_cost,
+    compute_flowtime,
+    find_stays,
+)
 from rightofway.model.steady_state import SteadyState
 from rightofway.model.trace import ExecutionTrace
-from rightofway.model.units import NEVER, Clock, Tick, checked_time_limit, choose_clock
+from rightofway.model.units import NEVER, Clock, Tick, choose_clock, require_time_limit
 
 __all__ = [
     "NEVER",
@@ -74,19 +80,19 @@ __all__ = [
     "Turn",
     "Wait",
     "Walls",
-    "checked_time_limit",
     "choose_clock",
-    "completions_of",
-    "cost_of",
-    "drives_along",
-    "flowtime_of",
-    "lap_of",
-    "least_dwell",
-    "route_along",
-    "route_of",
-    "route_through",
-    "serving_visits",
-    "stays_of",
-    "turns_along",
-    "visits_of_laps",
+    "compute_completions",
+    "compute_cost",
+    "compute_drives_along",
+    "compute_flowtime",
+    "compute_least_dwell",
+    "compute_turns_along",
+    "find_serving_visits",
+    "find_stays",
+    "join_route",
+    "make_lap",
+    "make_route",
+    "make_route_through",
+    "make_visits_of_laps",
+    "require_time_limit",
 ]

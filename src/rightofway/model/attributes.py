@@ -82,7 +82,7 @@ class Attribute:
         return self.kind == "name" or bool(get_args(self.kind))
 
 
-def attribute(
+def make_attribute(
     kind: Any,
     description: str,
     *,

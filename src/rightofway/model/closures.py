@@ -146,14 +146,14 @@ class Closures:
         resource = self.row % (self.n_vertices + self.n_edges)
         return bool((resource >= self.n_vertices).any())
 
-    def at_vertex(self, robot: int, vertex: int) -> list[tuple[Tick, Tick]]:
+    def list_at_vertex(self, robot: int, vertex: int) -> list[tuple[Tick, Tick]]:
         """Return when a vertex is closed for a robot [ticks]."""
         size = self.size_of[robot]
         return self._of.get(size * (self.n_vertices + self.n_edges) + vertex, [])
 
-    def along_edge(self, robot: int, edge: int) -> list[tuple[Tick, Tick]]:
+    def list_along_edge(self, robot: int, edge: int) -> list[tuple[Tick, Tick]]:
         """Return when an edge is closed for a robot [ticks]."""
-        return self.at_vertex(robot, self.n_vertices + edge)
+        return self.list_at_vertex(robot, self.n_vertices + edge)
 
 
 class _Closed(NamedTuple):
@@ -176,7 +176,7 @@ def book_closures(
     bookings, plane = list[_Closed](), _Plane(roadmap)
     for closure in closures:
         start = Tick(closure.from_ // clock.tick)
-        end = NEVER if closure.until is None else clock.ticks(closure.until)
+        end = NEVER if closure.until is None else clock.count_ticks(closure.until)
         for size, radius in enumerate(sizes):
             check_work("finding what closures close")
             reach = None if closure.radius is None else radius + closure.radius + clearance
@@ -225,7 +225,7 @@ class _Plane:
         """The tail of each edge; shape (E,)."""
         return np.repeat(np.arange(self.roadmap.n_vertices), np.diff(self.roadmap.indptr))
 
-    def near(
+    def find_near(
         self, segments: Sequence[Segment], reach: Fraction, ends: Collection[int]
     ) -> Iterator[int]:
         """Yield vertices and edges nearer than a distance to segments, but for some vertices.
@@ -261,7 +261,7 @@ def _closed_resources(plane: _Plane, closure: Closure, reach: Fraction | None) -
         segments = [(at[tail], at[head]) for lane in ways for tail, head in pairwise(lane)]
         if closure.at is not None:
             segments.append((at[closure.at], at[closure.at]))
-        closed.update(plane.near(segments, reach, closure.edge or ()))
+        closed.update(plane.find_near(segments, reach, closure.edge or ()))
     return closed
 
 

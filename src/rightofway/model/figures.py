@@ -42,6 +42,6 @@ class Figures(Protocol):
         """Return the map and the robots of a scenario."""
 
 
-def provided() -> Figures:
+def get_figures() -> Figures:
     """Return what the package provides."""
     return cast("Figures", _provided["figures"])

@@ -15,7 +15,7 @@ LARGEST_SEED = 2**32 - 1
 """Planners draw from this many streams."""
 
 
-def checked_scenario(scenario: Scenario, place: Where = "scenario") -> Scenario:
+def require_scenario(scenario: Scenario, place: Where = "scenario") -> Scenario:
     """Return what a caller gave as a scenario.
 
     Raises
@@ -27,8 +27,8 @@ def checked_scenario(scenario: Scenario, place: Where = "scenario") -> Scenario:
     return read_at(place, make_class_reader(Scenario, "no scenario", remedy), scenario)
 
 
-def checked_plan(plan: Plan, place: Where = "plan") -> Plan:
-    """Return what a caller gave as a plan; parameters and errors as for `checked_scenario`."""
+def require_plan(plan: Plan, place: Where = "plan") -> Plan:
+    """Return what a caller gave as a plan; parameters and errors as for `require_scenario`."""
     return read_at(
         place, make_class_reader(Plan, "no plan", "load a file with rightofway.load_plan"), plan
     )

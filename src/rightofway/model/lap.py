@@ -10,8 +10,8 @@ from itertools import takewhile
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model.problem import Itinerary, Stage, least_dwell
-from rightofway.model.route import Route, turns_along
+from rightofway.model.problem import Itinerary, Stage, compute_least_dwell
+from rightofway.model.route import Route, compute_turns_along
 from rightofway.model.units import Tick
 from rightofway.site import Roadmap, VertexId
 
@@ -44,18 +44,18 @@ class Lap:
         """How long a lap without waits lasts [ticks]."""
         return Tick(sum(self.dwell) + sum(self.drive))
 
-    def least(self, visit: int) -> Tick:
+    def compute_least(self, visit: int) -> Tick:
         """Return the least ticks from a visit's enter to the next one's."""
         return Tick(self.dwell[visit] + self.drive[(visit + 1) % len(self)])
 
-    def leasts(self) -> tuple[Tick, ...]:
+    def compute_leasts(self) -> tuple[Tick, ...]:
         """Return the least ticks of all visits."""
         drives = (*self.drive[1:], self.drive[0])
         return tuple(Tick(dwell + drive) for dwell, drive in zip(self.dwell, drives, strict=True))
 
 
 @lru_cache(maxsize=1 << 14)
-def visits_of_laps(
+def make_visits_of_laps(
     lap: Lap, count: int
 ) -> tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]:
     """Return vertex, dwell and drive [ticks] of all visits of some laps."""
@@ -66,7 +66,7 @@ def visits_of_laps(
     )
 
 
-def lap_of(roadmap: Roadmap, itinerary: Itinerary, route: Route) -> Lap:
+def make_lap(roadmap: Roadmap, itinerary: Itinerary, route: Route) -> Lap:
     """Wrap a round trip into a lap.
 
     Parameters
@@ -95,7 +95,7 @@ def compute_dwell_between_laps(
     It serves the stages with which a lap ends, and turns from the last edge to the first one.
     """
     turn = int(compute_turns_of_lap(roadmap, itinerary, vertices)[0])
-    return Tick(least_dwell(_stages_at_home(itinerary), leaves=True) + turn)
+    return Tick(compute_least_dwell(_stages_at_home(itinerary), leaves=True) + turn)
 
 
 def compute_turns_of_lap(
@@ -103,7 +103,7 @@ def compute_turns_of_lap(
 ) -> NDArray[np.int64]:
     """Return how long a robot turns between two edges in each visit of a lap [ticks]; int64."""
     around = np.array((vertices[-1], *vertices, vertices[0]), np.int32)
-    return turns_along(roadmap, itinerary, around)[1:-1]
+    return compute_turns_along(roadmap, itinerary, around)[1:-1]
 
 
 def _stages_at_home(itinerary: Itinerary) -> tuple[Stage, ...]:

@@ -11,7 +11,7 @@ from rightofway.arguments import checks_arguments, require_one_for_each
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model.route import Track
 from rightofway.model.scenario import Scenario
-from rightofway.model.stays import completions_of, compute_costs, cost_of
+from rightofway.model.stays import compute_completions, compute_cost, compute_costs
 from rightofway.model.units import Tick
 from rightofway.site import VertexId
 
@@ -43,7 +43,7 @@ class Objective(StrEnum):
     BOTH = "makespan and flowtime"
 
     @checks_arguments
-    def of(self, scenario: Scenario, tracks: Sequence[Track]) -> Tick:
+    def compute_cost(self, scenario: Scenario, tracks: Sequence[Track]) -> Tick:
         """Return the value of a plan [ticks].
 
         Parameters
@@ -55,10 +55,10 @@ class Objective(StrEnum):
         """
         require_one_for_each(scenario.robots, tracks=tracks)
         if self is Objective.WEIGHTED:
-            return cost_of(scenario, tracks)
+            return compute_cost(scenario, tracks)
         if self is Objective.COST:
             return Tick(sum(compute_costs(scenario, tracks)))
-        completions = completions_of(scenario, tracks)
+        completions = compute_completions(scenario, tracks)
         if self is Objective.FLOWTIME:
             return Tick(sum(completions))
         latest = max(completions)
@@ -74,7 +74,7 @@ class Objective(StrEnum):
         return self in {Objective.MAKESPAN, Objective.BOTH}
 
 
-def minimized(scenario: Scenario) -> Objective:
+def choose_objective(scenario: Scenario) -> Objective:
     """Return what the planners of this package minimize for a scenario."""
     if any(itinerary.weight != 1 for itinerary in scenario.problem.itineraries):
         return Objective.WEIGHTED

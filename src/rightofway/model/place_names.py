@@ -14,7 +14,7 @@ DECIMALS = 3
 """Decimal places of the middle of a cell."""
 
 
-def middle(roadmap: Roadmap, vertex: int) -> str:
+def describe_middle(roadmap: Roadmap, vertex: int) -> str:
     """Return the middle of a cell in the site's frame: ``7.25, 4.75``."""
     return ", ".join(format_decimal(part, DECIMALS) for part in roadmap.get_point(vertex))
 
@@ -39,7 +39,7 @@ class PlaceNames:
         self.numbered = numbered
         self.is_measured = scenario.roadmap.has_cells and bool(scenario.units.length)
 
-    def where(self, vertex: int) -> str:
+    def describe_place(self, vertex: int) -> str:
         """Return where a vertex is, in a list: ``Press``, ``(7.25, 4.75)``, ``N5``."""
         roadmap = self.scenario.roadmap
         if not self.is_measured:
@@ -47,15 +47,15 @@ class PlaceNames:
         if vertex in self._stations:
             return self._with_number(self._stations[vertex], vertex)
         number = f"{roadmap.name(vertex)} " if self.numbered else ""
-        return f"{number}({middle(roadmap, vertex)})"
+        return f"{number}({describe_middle(roadmap, vertex)})"
 
     def __call__(self, vertex: int) -> str:
         """Return what a sentence calls a vertex: ``the home of R1``, else where it is."""
         if not self.is_measured or vertex in self._stations:
-            return self.where(vertex)
+            return self.describe_place(vertex)
         if vertex in self.of_robots:
             return self._with_number(self.of_robots[vertex], vertex)
-        return self.where(vertex)
+        return self.describe_place(vertex)
 
     def _with_number(self, name: str, vertex: int) -> str:
         if not self.numbered:

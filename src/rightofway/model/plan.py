@@ -9,13 +9,13 @@ from typing import Any, Literal, TypeVar
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, find_nearest, quote
-from rightofway.model.figures import provided
+from rightofway.model.figures import get_figures
 from rightofway.model.lost_time import LostTime
 from rightofway.model.outcome import ForcedLoss, Objective, Outcome
 from rightofway.model.robot import Robot
 from rightofway.model.route import Track
 from rightofway.model.scenario import Scenario
-from rightofway.model.stays import Stays, stays_of
+from rightofway.model.stays import Stays, find_stays
 from rightofway.model.steady_state import SteadyState, refuse_unknown_robots
 from rightofway.model.units import Tick
 from rightofway.site import VertexId
@@ -300,14 +300,14 @@ class Plan:
 
     def _repr_html_(self) -> str:
         """Return the page of the plan in a frame, for notebooks."""
-        return provided().draw_plan_html(self)
+        return get_figures().draw_plan_html(self)
 
     def _repr_mimebundle_(self, **_: Any) -> dict[str, Any]:
         """Return the page of the plan as a live part of a notebook that has anywidget."""
-        return provided().bundle_plan(self)
+        return get_figures().bundle_plan(self)
 
     @checks_arguments
-    def once(self, figure: str, compute: Callable[[], T]) -> T:
+    def compute_once(self, figure: str, compute: Callable[[], T]) -> T:
         """Return a figure of this plan; it is computed at the first request and kept by name."""
         if figure not in self._figures:
             self._figures[figure] = compute()
@@ -317,7 +317,7 @@ class Plan:
     @property
     def stays(self) -> tuple[Stays, ...]:
         """The parts of each robot's visits: waits, work, turns; computed once."""
-        return self.once("stays", lambda: stays_of(self.scenario, self.tracks))
+        return self.compute_once("stays", lambda: find_stays(self.scenario, self.tracks))
 
     @property
     def completions(self) -> tuple[Tick, ...]:
@@ -339,7 +339,9 @@ class Plan:
         """Return the value of this plan [ticks]; it is computed once for each objective."""
         if objective is Objective.FLOWTIME:
             return self.flowtime
-        return self.once(objective.value, lambda: objective.of(self.scenario, self.tracks))
+        return self.compute_once(
+            objective.value, lambda: objective.compute_cost(self.scenario, self.tracks)
+        )
 
     @property
     def lower_bound(self) -> Tick:
@@ -352,13 +354,13 @@ class Plan:
         NoPlanExists
             If no way leads from one place of a robot's trip to the next.
         """
-        alone = self.run.alone or provided().compute_alone_completions(self.scenario)
+        alone = self.run.alone or get_figures().compute_alone_completions(self.scenario)
         return Tick(sum(alone))
 
     @property
     def waits(self) -> tuple[Wait, ...]:
         """Every wait of every robot, by tick, then by robot."""
-        return provided().list_waits(self)
+        return get_figures().list_waits(self)
 
     @property
     def lost_time(self) -> tuple[LostTime, ...]:
@@ -369,7 +371,7 @@ class Plan:
         NoPlanExists
             If no way leads from one place of a robot's trip to the next.
         """
-        return provided().compute_lost_time(self)
+        return get_figures().compute_lost_time(self)
 
     @checks_arguments
     def __getitem__(self, name: str) -> RobotPlan:
@@ -424,7 +426,7 @@ class Plan:
                 module = import_module(name)
             except ImportError:
                 continue
-            columns = provided().make_event_columns(self)
+            columns = get_figures().make_event_columns(self)
             return getattr(module, "table" if name == "pyarrow" else "DataFrame")(columns)
         which = f"none of {', '.join(wanted)} is" if library is None else f"{library} is not"
         raise InputError.at("library", f"{which} installed (run: pip install {wanted[0]})")

@@ -97,7 +97,7 @@ class Itinerary:
         """The vertex where the robot stays for ever."""
         return self.stages[-1].vertex
 
-    def in_steps(self) -> Itinerary:
+    def as_steps(self) -> Itinerary:
         """Return the trip with a tick for each edge, and nothing else that takes time."""
         return Itinerary(
             home=self.home,
@@ -155,7 +155,7 @@ class Problem:
         rules = self.booking_rules.to_plan_with()
         return self if rules == self.booking_rules else replace(self, booking_rules=rules)
 
-    def in_steps(self) -> Problem:
+    def as_steps(self) -> Problem:
         """Return the problem in steps of a tick: in a step, a robot drives along an edge or stays.
 
         Nothing else takes time, robots are points, and nothing is closed. Every robot can wait, so
@@ -166,7 +166,7 @@ class Problem:
         return replace(
             self,
             booking_rules=BookingRules(rotations=self.booking_rules.may_rotate),
-            itineraries=tuple(itinerary.in_steps() for itinerary in self.itineraries),
+            itineraries=tuple(itinerary.as_steps() for itinerary in self.itineraries),
             resources=make_points(self.roadmap, len(self.itineraries)),
             closures=None,
         )
@@ -197,7 +197,7 @@ def refuse_turn_rates(problem: Problem, method: str, remedy: str) -> None:
         raise InputError.at("", message)
 
 
-def least_dwell(stages: Sequence[Stage], *, leaves: bool) -> Tick:
+def compute_least_dwell(stages: Sequence[Stage], *, leaves: bool) -> Tick:
     """Return how long a visit lasts at least that serves these stages, without the edge after it.
 
     The last visit of a robot (``leaves`` is false) needs no turning.
@@ -228,7 +228,7 @@ def bind_problem(
         clock = choose_clock(chain([rules.headway], *driven, *spent))
     rates = [turn_rate(robot, rules) for robot in robots]
     surcharges = tuple(
-        clock.ticks(edge_class.surcharge)
+        clock.count_ticks(edge_class.surcharge)
         for edge_class in (roadmap.edge_classes if roadmap.has_surcharges else ())
     )
     edge_ticks: dict[tuple[Any, ...], tuple[Tick, ...]] = {}
@@ -239,7 +239,7 @@ def bind_problem(
         roadmap=roadmap,
         clock=clock,
         booking_rules=BookingRules(
-            headway=clock.ticks(rules.headway),
+            headway=clock.count_ticks(rules.headway),
             books_ahead=rules.occupancy == "both",
             rotations=rules.rotations,
         ),
@@ -301,7 +301,7 @@ def _edge_ticks(roadmap: Roadmap, robot: Robot, clock: Clock) -> tuple[Tick, ...
     return tuple(
         Tick(-1)
         if edge_class.is_barred(robot.type, robot.radius)
-        else clock.ticks(edge_class.compute_duration(robot.speed))
+        else clock.count_ticks(edge_class.compute_duration(robot.speed))
         for edge_class in limit_loop(roadmap.edge_classes, DERIVING)
     )
 
@@ -324,8 +324,8 @@ def _itinerary(
     turning: Turning | None,
     weight: int,
 ) -> Itinerary:
-    turn = clock.ticks(compute_turning_time(roadmap, robot, rules))
-    visits = [(stop.at, clock.ticks(stop.work)) for stop in robot.stops]
+    turn = clock.count_ticks(compute_turning_time(roadmap, robot, rules))
+    visits = [(stop.at, clock.count_ticks(stop.work)) for stop in robot.stops]
     after: list[VertexId | None] = [stop.at for stop in robot.stops[1:]]
     if (robot.ends or rules.ends) == "home":
         visits.append((robot.home, Tick(0)))

@@ -102,7 +102,7 @@ def are_nearer(roadmap: Roadmap, first: int, other: int, distance: Fraction) -> 
     return measure_squared_distance(at[first], at[other]) < distance**2
 
 
-def distance(roadmap: Roadmap, first: int, other: int) -> float:
+def measure_distance(roadmap: Roadmap, first: int, other: int) -> float:
     """Return the distance of two vertices [length unit]."""
     at = read_exact_positions(roadmap)
     return sqrt(measure_squared_distance(at[first], at[other]))
@@ -191,15 +191,15 @@ class Resources:
         """Rows of all size classes."""
         return len(self.sizes) * (self.n_vertices + self.n_edges)
 
-    def vertex_row(self, robot: int, vertex: int) -> int:
+    def get_vertex_row(self, robot: int, vertex: int) -> int:
         """Return the row that a robot books at a vertex."""
         return int(self.size_of[robot]) * (self.n_vertices + self.n_edges) + vertex
 
-    def edge_row(self, robot: int, edge: int) -> int:
+    def get_edge_row(self, robot: int, edge: int) -> int:
         """Return the row that a robot books along an edge."""
-        return self.vertex_row(robot, self.n_vertices + edge)
+        return self.get_vertex_row(robot, self.n_vertices + edge)
 
-    def rows_of_lap(
+    def list_rows_of_lap(
         self, roadmap: Roadmap, robot: int, vertices: Sequence[int]
     ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
         """Return the rows of a lap's vertices, and of the edges driven out of them.
@@ -215,7 +215,7 @@ class Resources:
         """
         visited = np.array(vertices, np.int32)
         edges = roadmap.find_edges(visited, np.concatenate((visited[1:], visited[:1])))
-        return visited + self.vertex_row(robot, 0), edges + self.edge_row(robot, 0)
+        return visited + self.get_vertex_row(robot, 0), edges + self.get_edge_row(robot, 0)
 
 
 def bind_resources(roadmap: Roadmap, radii: Sequence[Fraction], clearance: Fraction) -> Resources:
@@ -311,7 +311,7 @@ class _Drawing:
         """How many parts `candidates` yields: some vertices at a time, then some lanes."""
         return sum(-(-len(all_) // LANES_AT_ONCE) for all_ in (self.x, self.a))
 
-    def candidates(self, reach: Fraction) -> Iterator[Candidates]:
+    def find_candidates(self, reach: Fraction) -> Iterator[Candidates]:
         """Yield vertex pairs, vertices with lanes, lane pairs: all within reach, and few more.
 
         They come in `n_parts` parts.
@@ -341,7 +341,7 @@ class _Drawing:
         limit = int(distance * self.scale) ** 2
         lanes = list(zip(self.a.tolist(), self.b.tolist(), strict=True))
         pairs = ClosePairs(vertices=[], beside=[], crossings=[])
-        for done, part in enumerate(self.candidates(distance)):
+        for done, part in enumerate(self.find_candidates(distance)):
             (left, right), (vertex, lane), (first, other) = part
             check_work(f"{FINDING}, {done} of {self.n_parts} parts of the roadmap done")
             near = self._square(left, right) < limit

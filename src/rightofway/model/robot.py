@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Literal
 
 from rightofway.errors import quote
-from rightofway.model.attributes import attribute, list_attributes, list_readers
+from rightofway.model.attributes import list_attributes, list_readers, make_attribute
 from rightofway.phrases import Phrase
 from rightofway.site import VertexId
 from rightofway.values import coerce_fields, read_label, read_number, read_vertex
@@ -95,7 +95,7 @@ class Robot:
     stops: tuple[Stop, ...]
     speed: Fraction = field(
         default=Fraction(1),
-        metadata=attribute(
+        metadata=make_attribute(
             "positive",
             "length units per time unit, above 0; 1 by default",
             measure="speed",
@@ -106,7 +106,7 @@ class Robot:
     )
     radius: Fraction = field(
         default=Fraction(0),
-        metadata=attribute(
+        metadata=make_attribute(
             "not negative",
             "radius of the circle that it needs [length unit]",
             measure="length",
@@ -116,7 +116,7 @@ class Robot:
     )
     type: str | None = field(
         default=None,
-        metadata=attribute(
+        metadata=make_attribute(
             "name",
             "the name of its type, for edges and vertices that are barred for types",
             unset="none",
@@ -126,7 +126,7 @@ class Robot:
     )
     turn: Turn | None = field(
         default=None,
-        metadata=attribute(
+        metadata=make_attribute(
             "turning",
             TURNING,
             measure="time",
@@ -136,7 +136,7 @@ class Robot:
     )
     ends: TripEnd | None = field(
         default=None,
-        metadata=attribute(
+        metadata=make_attribute(
             TripEnd,
             RETURN,
             key="return",
@@ -146,7 +146,7 @@ class Robot:
     )
     laps: int | None = field(
         default=None,
-        metadata=attribute(
+        metadata=make_attribute(
             "count",
             "how often it makes its round trip, 1 or more",
             title=Phrase("Laps"),
@@ -155,7 +155,7 @@ class Robot:
     )
     turn_rate: Fraction | None = field(
         default=None,
-        metadata=attribute(
+        metadata=make_attribute(
             "positive",
             "how fast it turns on the spot [degrees per time unit]; by default in no time",
             title=Phrase("Turn rate"),
@@ -164,7 +164,7 @@ class Robot:
     )
     weight: Fraction = field(
         default=Fraction(1),
-        metadata=attribute(
+        metadata=make_attribute(
             "positive",
             "how much its completion time counts beside the others', above 0",
             title=Phrase("Weight"),
@@ -230,7 +230,7 @@ class Rules:
 
     occupancy: Occupancy | None = field(
         default=None,
-        metadata=attribute(
+        metadata=make_attribute(
             Occupancy,
             "one, or both: a robot books the next place before it starts to drive there",
             always=True,
@@ -238,7 +238,7 @@ class Rules:
     )
     headway: Fraction = field(
         default=Fraction(0),
-        metadata=attribute(
+        metadata=make_attribute(
             "not negative",
             "least time between two robots at a vertex [time unit]",
             measure="time",
@@ -246,26 +246,26 @@ class Rules:
         ),
     )
     turn: Turn | None = field(
-        default=None, metadata=attribute("turning", TURNING, measure="time", unset="as usual")
+        default=None, metadata=make_attribute("turning", TURNING, measure="time", unset="as usual")
     )
     ends: TripEnd = field(
-        default="home", metadata=attribute(TripEnd, RETURN, key="return", always=True)
+        default="home", metadata=make_attribute(TripEnd, RETURN, key="return", always=True)
     )
     laps: int = field(
         default=1,
-        metadata=attribute(
+        metadata=make_attribute(
             "count", "how often each robot makes its round trip, 1 or more", always=True
         ),
     )
     rotations: bool = field(
         default=True,
-        metadata=attribute(
+        metadata=make_attribute(
             "truth", "true or false: may a ring of robots move on at one instant?", always=True
         ),
     )
     clearance: Fraction = field(
         default=Fraction(0),
-        metadata=attribute(
+        metadata=make_attribute(
             "not negative",
             "least distance between two robots of which one has a radius [length unit]",
             measure="length",
@@ -273,13 +273,13 @@ class Rules:
     )
     walls: Walls = field(
         default="free",
-        metadata=attribute(
+        metadata=make_attribute(
             Walls, "free, or strict: robots wider than a cell keep out of walls of a grid"
         ),
     )
     turn_rate: Fraction | None = field(
         default=None,
-        metadata=attribute(
+        metadata=make_attribute(
             "positive",
             "how fast robots turn on the spot [degrees per time unit]; by default in no time",
             unset="none",

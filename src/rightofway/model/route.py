@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError, quote
-from rightofway.model.problem import Itinerary, Stage, least_dwell
+from rightofway.model.problem import Itinerary, Stage, compute_least_dwell
 from rightofway.model.units import NEVER, Tick
 from rightofway.site import Roadmap, VertexId
 from rightofway.values import coerce_fields, read_at
@@ -121,15 +121,13 @@ class Route:
     def __len__(self) -> int:
         return len(self.vertices)
 
-    def least(self, visit: int) -> Tick:
+    def compute_least(self, visit: int) -> Tick:
         """Return the least ticks from a visit's enter to the next one's (or to completion)."""
         last = visit == len(self.vertices) - 1
         return Tick(self.dwell[visit] + (0 if last else self.drive[visit + 1]))
 
 
-def route_along(
-    roadmap: Roadmap, itinerary: Itinerary, legs: Sequence[Sequence[VertexId]]
-) -> Route:
+def join_route(roadmap: Roadmap, itinerary: Itinerary, legs: Sequence[Sequence[VertexId]]) -> Route:
     """Join paths into a route.
 
     Parameters
@@ -150,7 +148,9 @@ def route_along(
     return _route(roadmap, itinerary, vertices, serves)
 
 
-def route_through(roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId]) -> Route:
+def make_route_through(
+    roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId]
+) -> Route:
     """Make a route of the vertices it visits; each stage is served as early as it can be.
 
     Parameters
@@ -163,11 +163,11 @@ def route_through(roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[Ver
         Where it goes, visit by visit.
     """
     spare = np.full(len(vertices), NEVER)
-    serves = serving_visits(itinerary.stages, np.array(vertices, np.int32), spare)
+    serves = find_serving_visits(itinerary.stages, np.array(vertices, np.int32), spare)
     return _route(roadmap, itinerary, vertices, serves)
 
 
-def route_of(roadmap: Roadmap, itinerary: Itinerary, track: Track) -> Route:
+def make_route(roadmap: Roadmap, itinerary: Itinerary, track: Track) -> Route:
     """Keep where a robot goes and what it does there, and forget when.
 
     Parameters
@@ -181,10 +181,10 @@ def route_of(roadmap: Roadmap, itinerary: Itinerary, track: Track) -> Route:
         enough, the last one in the last visit.
     """
     vertices = [VertexId(vertex) for vertex in track.vertices.tolist()]
-    drive = np.array(drives_along(roadmap, itinerary, vertices), np.int64)
-    turns = turns_along(roadmap, itinerary, track.vertices)
+    drive = np.array(compute_drives_along(roadmap, itinerary, vertices), np.int64)
+    turns = compute_turns_along(roadmap, itinerary, track.vertices)
     spare = np.append(np.diff(track.enter) - drive - turns[:-1], NEVER)
-    serves = serving_visits(itinerary.stages, track.vertices, spare)
+    serves = find_serving_visits(itinerary.stages, track.vertices, spare)
     return _route(roadmap, itinerary, vertices, serves)
 
 
@@ -192,8 +192,8 @@ def _route(
     roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId], serves: Sequence[int]
 ) -> Route:
     dwell = compute_least_dwells(itinerary.stages, serves, len(vertices))
-    dwell += turns_along(roadmap, itinerary, np.array(vertices, np.int32))
-    drive = map(Tick, drives_along(roadmap, itinerary, vertices))
+    dwell += compute_turns_along(roadmap, itinerary, np.array(vertices, np.int32))
+    drive = map(Tick, compute_drives_along(roadmap, itinerary, vertices))
     return Route(
         vertices=tuple(vertices),
         dwell=tuple(map(Tick, dwell.tolist())),
@@ -202,7 +202,9 @@ def _route(
     )
 
 
-def drives_along(roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[int]) -> list[int]:
+def compute_drives_along(
+    roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[int]
+) -> list[int]:
     """Return how long a robot drives along each edge of a path [ticks].
 
     Parameters
@@ -229,7 +231,7 @@ def drives_along(roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[int]
     return ticks
 
 
-def turns_along(
+def compute_turns_along(
     roadmap: Roadmap, itinerary: Itinerary, vertices: NDArray[np.int32]
 ) -> NDArray[np.int64]:
     """Return how long a robot turns at each vertex of a path [ticks]; int64, shape (n,).
@@ -247,11 +249,13 @@ def turns_along(
     """
     turns = np.zeros(len(vertices), np.int64)
     if itinerary.turning is not None:
-        turns[1:-1] = itinerary.turning.between(roadmap.find_edges(vertices[:-1], vertices[1:]))
+        turns[1:-1] = itinerary.turning.compute_turns(
+            roadmap.find_edges(vertices[:-1], vertices[1:])
+        )
     return turns
 
 
-def serving_visits(
+def find_serving_visits(
     stages: Sequence[Stage], vertices: NDArray[np.int32], spare: NDArray[np.int64]
 ) -> list[int]:
     """Return the visit that serves each stage, up to the first stage that no visit serves.
@@ -293,5 +297,5 @@ def compute_least_dwells(
     """Return the least ticks of each visit, without its drive; int64, shape (n,)."""
     dwell = np.zeros(n_visits, np.int64)
     for stage, visit in zip(stages, serves, strict=False):
-        dwell[visit] += least_dwell([stage], leaves=visit < n_visits - 1)
+        dwell[visit] += compute_least_dwell([stage], leaves=visit < n_visits - 1)
     return dwell

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from rightofway.errors import InputError, InputFault, Where, quote
 from rightofway.model.closures import Closure, find_closure_faults
-from rightofway.model.figures import provided
+from rightofway.model.figures import get_figures
 from rightofway.model.problem import HEAVIEST, Problem, bind_problem, scale_weights
 from rightofway.model.resources import find_too_short_edges
 from rightofway.model.robot import Robot, Rules, Turn
@@ -81,7 +81,7 @@ class Scenario:
 
     def _repr_html_(self) -> str:
         """Return the map and the robots, for notebooks."""
-        return provided().draw_scenario_html(self)
+        return get_figures().draw_scenario_html(self)
 
     @property
     def quantities(self) -> Quantities:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model.route import Track, compute_least_dwells, serving_visits
+from rightofway.model.route import Track, compute_least_dwells, find_serving_visits
 from rightofway.model.scenario import Scenario
 from rightofway.model.units import NEVER, Tick
 from rightofway.site import Roadmap
@@ -45,7 +45,7 @@ class Stays:
     completion: Tick
 
 
-def stays_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Stays, ...]:
+def find_stays(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Stays, ...]:
     """Return what the visits of a fleet are for.
 
     Parameters
@@ -68,12 +68,12 @@ def stays_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Stays, ...]:
     turns = np.zeros(len(enter), np.int64)
     for own, itinerary in zip(owns, scenario.problem.itineraries, strict=True):
         if itinerary.turning is not None:
-            turns[own][1:] = itinerary.turning.between(edges[own])
+            turns[own][1:] = itinerary.turning.compute_turns(edges[own])
     spare = np.append(np.diff(enter), 0) - drive - turns
     spare[ends - 1] = NEVER
     all_serves = []
     for own, track, itinerary in zip(owns, tracks, scenario.problem.itineraries, strict=True):
-        serves = serving_visits(itinerary.stages, track.vertices, spare[own])
+        serves = find_serving_visits(itinerary.stages, track.vertices, spare[own])
         dwell[own] = compute_least_dwells(itinerary.stages, serves, len(track))
         all_serves.append(tuple(serves))
     dwell += turns
@@ -93,7 +93,7 @@ def stays_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Stays, ...]:
     )
 
 
-def completions_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Tick, ...]:
+def compute_completions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Tick, ...]:
     """Return when each robot has done its work and entered its last vertex [ticks].
 
     Parameters
@@ -103,10 +103,10 @@ def completions_of(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Tick, .
     tracks
         One track for each robot.
     """
-    return tuple(stay.completion for stay in stays_of(scenario, tracks))
+    return tuple(stay.completion for stay in find_stays(scenario, tracks))
 
 
-def flowtime_of(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
+def compute_flowtime(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
     """Return the sum of the robots' completion times [ticks].
 
     Parameters
@@ -116,10 +116,10 @@ def flowtime_of(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
     tracks
         One track for each robot.
     """
-    return Tick(sum(completions_of(scenario, tracks)))
+    return Tick(sum(compute_completions(scenario, tracks)))
 
 
-def cost_of(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
+def compute_cost(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
     """Return what planners minimize: the costs of all robots, by their weights [ticks].
 
     Parameters
@@ -135,7 +135,7 @@ def cost_of(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
 
 def compute_costs(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Tick, ...]:
     """Return the completion time of each robot and the surcharges of its edges [ticks]."""
-    costs, roadmap = completions_of(scenario, tracks), scenario.roadmap
+    costs, roadmap = compute_completions(scenario, tracks), scenario.roadmap
     if not roadmap.has_surcharges:
         return costs
     more = []

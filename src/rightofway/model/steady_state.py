@@ -88,7 +88,7 @@ def refuse_unknown_robots(
                 raise InputError.at(("steady", index, "critical", place), message)
 
 
-def within(steady: Sequence[SteadyState], visits: Sequence[int]) -> tuple[SteadyState, ...]:
+def keep_within(steady: Sequence[SteadyState], visits: Sequence[int]) -> tuple[SteadyState, ...]:
     """Return groups for a plan with shorter tracks, without critical cycles beyond their ends."""
     return tuple(
         group

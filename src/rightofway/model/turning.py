@@ -63,13 +63,13 @@ class Turning:
     angles: Angles
     ticks: NDArray[np.int64]
 
-    def of(self, before: int, after: int) -> Tick:
+    def compute_turn(self, before: int, after: int) -> Tick:
         """Return how long the robot turns between two edges [ticks]; 0 before the first, -1."""
         if before < 0:
             return Tick(0)
         return Tick(int(self.ticks[self.angles.kind[self.angles.offset[before] + after]]))
 
-    def between(self, edges: NDArray[np.int32]) -> NDArray[np.int64]:
+    def compute_turns(self, edges: NDArray[np.int32]) -> NDArray[np.int64]:
         """Return how long the robot turns between each edge and the next [ticks]; int64."""
         before, after = edges[:-1], edges[1:]
         turns = np.zeros(len(before), np.int64)
@@ -93,7 +93,7 @@ def compute_turnings(
     for robot, rate in enumerate(rates):
         if rate is not None and rate not in turnings:
             angles = measure_angles(roadmap)
-            ticks = [clock.ticks(angle * ANGLE_STEP / rate) for angle in angles.angles]
+            ticks = [clock.count_ticks(angle * ANGLE_STEP / rate) for angle in angles.angles]
             if ticks and ticks[-1] > LONGEST_TURN:
                 longest = f"a turn takes {quote(ticks[-1])} ticks of {quote(clock.tick)}"
                 message = f"{quote(rate)} is too slow: {longest} (give a faster one)"

@@ -44,13 +44,13 @@ class Clock:
     tick: Fraction
     exact: bool = True
 
-    def ticks(self, duration: Fraction) -> Tick:
+    def count_ticks(self, duration: Fraction) -> Tick:
         """Return the least number of ticks that lasts at least ``duration`` [time unit]."""
         # The quotient rounded up, in whole numbers: a map may have a million durations.
         above = duration.numerator * self.tick.denominator
         return Tick(-(-above // (duration.denominator * self.tick.numerator)))
 
-    def time(self, ticks: int) -> Fraction:
+    def convert_to_time(self, ticks: int) -> Fraction:
         """Return how long ``ticks`` last [time unit]."""
         return ticks * self.tick
 
@@ -83,7 +83,7 @@ def choose_clock(durations: Iterable[Fraction]) -> Clock:
     return Clock(tick=tick)
 
 
-def checked_time_limit(seconds: float | None) -> float | None:
+def require_time_limit(seconds: float | None) -> float | None:
     """Return a time limit that a caller gave [s]; None for no limit, also above every float.
 
     Parameters

@@ -52,8 +52,8 @@ class BookedRows:
         for robot, route in enumerate(vertices):
             visited = np.asarray(route, np.int32)
             edges = problem.roadmap.find_edges(visited[:-1], visited[1:])
-            at_vertex.append(resources.vertex_row(robot, 0) + visited)
-            along_edge.append(np.append(resources.edge_row(robot, 0) + edges, -1))
+            at_vertex.append(resources.get_vertex_row(robot, 0) + visited)
+            along_edge.append(np.append(resources.get_edge_row(robot, 0) + edges, -1))
         return cls(
             vertex=np.concatenate(at_vertex, dtype=np.int32),
             edge=np.concatenate(along_edge, dtype=np.int32, casting="same_kind"),
@@ -79,7 +79,7 @@ class BookedRows:
             return None
         at_vertex, along_edge = list[NDArray[np.int32]](), list[NDArray[np.int32]]()
         for robot, lap, count in zip(robots, laps, counts, strict=True):
-            rows = resources.rows_of_lap(problem.roadmap, robot, lap.vertices)
+            rows = resources.list_rows_of_lap(problem.roadmap, robot, lap.vertices)
             for rows_of_bookings, own in zip((at_vertex, along_edge), rows, strict=True):
                 rows_of_bookings.append(np.tile(own, count))
         return cls(
@@ -133,8 +133,8 @@ class ClosedPlaces:
             visited = np.array(route.vertices, np.int32)
             edges = problem.roadmap.find_edges(visited[:-1], visited[1:]).tolist()
             for vertex, edge in zip(route.vertices, [None, *edges], strict=True):
-                lists.append(closures.at_vertex(robot, vertex))
-                lists.append([] if edge is None else closures.along_edge(robot, edge))
+                lists.append(closures.list_at_vertex(robot, vertex))
+                lists.append([] if edge is None else closures.list_along_edge(robot, edge))
         if begun is not None:
             lists = [[] if late else closed for closed, late in zip(lists, begun, strict=True)]
         times = [time for closed in lists for time in closed]

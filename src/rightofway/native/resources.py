@@ -129,7 +129,7 @@ def find_vertices_near(resources: Resources, robot: int, vertex: int) -> list[in
         Where it is.
     """
     n_resources = resources.n_vertices + resources.n_edges
-    excluded = list_excluded(resources, resources.vertex_row(robot, vertex))
+    excluded = list_excluded(resources, resources.get_vertex_row(robot, vertex))
     numbers = (row % n_resources for row in excluded)
     return [number for number in numbers if number < resources.n_vertices]
 
@@ -145,7 +145,7 @@ def find_clashes(resources: Resources, places: Sequence[int]) -> Iterator[tuple[
     places
         A vertex for each robot.
     """
-    rows = [resources.vertex_row(robot, vertex) for robot, vertex in enumerate(places)]
+    rows = [resources.get_vertex_row(robot, vertex) for robot, vertex in enumerate(places)]
     holders: dict[int, list[int]] = {}
     for robot, row in enumerate(rows):
         holders.setdefault(row, []).append(robot)

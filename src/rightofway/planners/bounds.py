@@ -20,7 +20,7 @@ from rightofway.deadline import Deadline
 from rightofway.errors import NoPlanExists
 from rightofway.metrics import find_forced_losses
 from rightofway.model import Objective, Proof, Scenario, Tick
-from rightofway.model.outcome import minimized
+from rightofway.model.outcome import choose_objective
 from rightofway.planners.task import Draft, Task
 from rightofway.search import ConflictBasedSearch, PriceAscent
 
@@ -54,7 +54,7 @@ def prove_bound(
     least, is_reached = search.bound, search.tracks is not None
     if not is_reached:
         least = max(least, compute_price_bound(scenario, deadline, steps))
-    return Proof(bound=least, objective=minimized(scenario)), is_reached
+    return Proof(bound=least, objective=choose_objective(scenario)), is_reached
 
 
 def explain_optimum(task: Task, draft: Draft) -> Draft:
@@ -65,7 +65,7 @@ def explain_optimum(task: Task, draft: Draft) -> Draft:
     proof, scenario = draft.proof, task.scenario
     if proof is None or proof.objective is not Objective.FLOWTIME:
         return draft
-    cost = proof.objective.of(scenario, draft.tracks)
+    cost = proof.objective.compute_cost(scenario, draft.tracks)
     if cost > proof.bound or task.alone is None or cost == int(task.alone.sum()):
         return draft  # not optimal, or no robot loses time
     limit = task.deadline.measure_seconds_left()

@@ -32,8 +32,8 @@ from math import ceil
 from typing import Any
 
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.model import Proof, Tick, cost_of
-from rightofway.model.outcome import Objective, minimized
+from rightofway.model import Proof, Tick, compute_cost
+from rightofway.model.outcome import Objective, choose_objective
 from rightofway.phrases import Phrase, say_count
 from rightofway.planners.bounds import explain_optimum
 from rightofway.planners.impossible import find_blocking_set
@@ -77,7 +77,7 @@ def _search(task: Task, **limits: Any) -> ConflictBasedSearch:
 def _of_least_flowtime(task: Task, first: Draft | None) -> Draft:
     """Return an optimal plan, or the first plan with what is proven of it."""
     scenario, factor = task.scenario, Fraction(task.options["suboptimality"])
-    upper = None if first is None else cost_of(scenario, first.tracks)
+    upper = None if first is None else compute_cost(scenario, first.tracks)
     search = _search(task, factor=factor)
     ended = "time ran out"
     try:
@@ -99,7 +99,9 @@ def _of_least_flowtime(task: Task, first: Draft | None) -> Draft:
         if factor > 1:
             kind = Phrase("within {factor} of the optimum", factor=f"{float(factor):g}")
         status = Phrase("{kind}: found in {nodes}", kind=kind, nodes=done)
-        if first is not None and cost_of(scenario, tracks) >= cost_of(scenario, first.tracks):
+        if first is not None and compute_cost(scenario, tracks) >= compute_cost(
+            scenario, first.tracks
+        ):
             tracks = first.tracks
             status = Phrase(
                 "{kind}: {nodes} prove it (first plan: {status})",
@@ -130,12 +132,12 @@ def _of_least_flowtime(task: Task, first: Draft | None) -> Draft:
     else:
         remedy = "give a longer time limit, or take another planner"
         error = GaveUp(f"{ended} in the search for an optimal plan, after {done} ({remedy})")
-        if minimized(scenario) is Objective.FLOWTIME:  # the message has a bound of that
+        if choose_objective(scenario) is Objective.FLOWTIME:  # the message has a bound of that
             error.lower_bound = search.bound
         raise error
     proof = Proof(
         bound=Tick(search.bound or 0),
-        objective=minimized(scenario),
+        objective=choose_objective(scenario),
         factor=factor if factor > 1 else None,
     )
     return Draft(tracks=tracks, status=status, proof=proof)

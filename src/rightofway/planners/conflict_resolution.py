@@ -310,7 +310,7 @@ class _Reservations:
             track = find_earliest_track(robot, alone, self.distances)
         if track is None:
             route = find_shortest_route(self.bookings.problem.roadmap, itinerary, self.distances)
-            enter = accumulate(map(route.least, range(len(route) - 1)), initial=0)
+            enter = accumulate(map(route.compute_least, range(len(route) - 1)), initial=0)
             track = Track.of(route.vertices, list(enter))
         return self.bookings.find_blockers(robot, track)
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from rightofway.check import check
 from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp
-from rightofway.model import Plan, Tick, Track, completions_of
+from rightofway.model import Plan, Tick, Track, compute_completions
 from rightofway.planners.local_search import LocalSearch
 from rightofway.planners.prioritized import make_fleet_search
 from rightofway.planners.task import Task, make_planning_problem
@@ -109,6 +109,8 @@ def _on_other_routes(
     if not search.repair([waits, goes_first], searches=SEARCHES, time_limit=limit):
         return None
     tracks = search.list_tracks()
-    before, after = (completions_of(plan.scenario, fleet)[waits] for fleet in (plan.tracks, tracks))
+    before, after = (
+        compute_completions(plan.scenario, fleet)[waits] for fleet in (plan.tracks, tracks)
+    )
     is_good = after < before and check(replace(plan, tracks=tracks)).ok
     return tracks if is_good else None

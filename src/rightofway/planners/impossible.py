@@ -24,7 +24,7 @@ from rightofway.errors import MAX_REASONS, Blockage, GaveUp, NoPlanExists, join_
 from rightofway.model import Outcome, OutcomeKind, Plan, PlannerRun, Scenario, Tick, Track
 from rightofway.model.closures import Closure
 from rightofway.model.place_names import PlaceNames
-from rightofway.model.resources import distance
+from rightofway.model.resources import measure_distance
 from rightofway.native import find_clashes
 from rightofway.phrases import Phrase
 from rightofway.search import (
@@ -114,9 +114,9 @@ def _clashes(scenario: Scenario) -> Iterator[Blockage]:
             ends_of_pair = roadmap.name(start), roadmap.name(other_start)
             values = {
                 "one": first.name,
-                "here": PlaceNames(scenario).where(start),
+                "here": PlaceNames(scenario).describe_place(start),
                 "other": other.name,
-                "there": PlaceNames(scenario).where(other_start),
+                "there": PlaceNames(scenario).describe_place(other_start),
             }
             zone = next((z for z in roadmap.zones if {start, other_start} <= {*z.vertices}), None)
             if zone is not None:
@@ -124,7 +124,7 @@ def _clashes(scenario: Scenario) -> Iterator[Blockage]:
             else:
                 needed = first.radius + other.radius
                 values["needed"] = length(needed + (clearance if needed else 0))
-                values["distance"] = length(distance(roadmap, start, other_start))
+                values["distance"] = length(measure_distance(roadmap, start, other_start))
                 reason = _too_near(values, does_start=when == "start")
             remedy = Phrase("let one of them end elsewhere")
             if when == "start":
@@ -220,7 +220,7 @@ def _closed_in(
 def _closed_text(scenario: Scenario, closure: Closure) -> Phrase:
     """Return what is closed, and when."""
     name, quantities = PlaceNames(scenario), scenario.quantities
-    ticks, tick = scenario.problem.clock.ticks, scenario.problem.clock.tick
+    ticks, tick = scenario.problem.clock.count_ticks, scenario.problem.clock.tick
     ends = closure.edge or ((closure.at,) if closure.at is not None else ())
     places = [name(end) for end in ends]
     place = places[0]
@@ -351,7 +351,7 @@ def _is_blocked(
     fleet = make_fleet_of(scenario, robots)
     try:
         plan_by_lacam(
-            fleet.problem.in_steps(),
+            fleet.problem.as_steps(),
             seed=seed,
             most_effort=effort,
             time_limit=left,

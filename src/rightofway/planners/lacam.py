@@ -23,7 +23,7 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.model import Scenario, Track, route_through
+from rightofway.model import Scenario, Track, make_route_through
 from rightofway.phrases import Phrase
 from rightofway.planners.impossible import (
     find_blocking_set,
@@ -72,7 +72,7 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
         refuse_blocked_parts(scenario, seed=task.seed, deadline=task.deadline)
     try:
         tracks = plan_by_lacam(
-            problem.in_steps(),
+            problem.as_steps(),
             seed=task.seed,
             time_limit=task.deadline.measure_seconds_left(),
             spreads=spreads and problem.is_open,
@@ -147,7 +147,7 @@ def build_timetable_if_possible(
     None where closures leave no such tracks.
     """
     routes = [
-        route_through(scenario.roadmap, itinerary, vertices)
+        make_route_through(scenario.roadmap, itinerary, vertices)
         for itinerary, vertices in zip(scenario.problem.itineraries, visited, strict=True)
     ]
     try:

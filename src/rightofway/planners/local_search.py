@@ -91,7 +91,7 @@ class LocalSearch:
         self.graph = graph
         self.may_wait = may_wait
         self.draw = random.Random(task.seed)  # noqa: S311 (no secret depends on it)
-        self.alone = [sum(map(route.least, range(len(route)))) for route in graph.routes]
+        self.alone = [sum(map(route.compute_least, range(len(route)))) for route in graph.routes]
 
     def run(self, rounds: int) -> None:
         """Descend, then change some robots' luck and descend again, until no robot is late."""

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from rightofway.model import Objective, Tick, Track, completions_of
+from rightofway.model import Objective, Tick, Track, compute_completions
 from rightofway.planners.objectives import (
     compute_value,
     find_objective,
@@ -120,7 +120,7 @@ class MakespanSearch:
             if tree.tracks is None:
                 return
             self._take(tree.tracks)
-            latest = max(completions_of(self.task.scenario, tree.tracks)) - 1
+            latest = max(compute_completions(self.task.scenario, tree.tracks)) - 1
             if latest < self._longest:
                 self.bound = self.value
                 return

@@ -31,7 +31,7 @@ from typing import NamedTuple
 
 from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.model import Scenario, Tick, Track, least_dwell
+from rightofway.model import Scenario, Tick, Track, compute_least_dwell
 from rightofway.native import list_excluded
 from rightofway.phrases import Phrase
 from rightofway.planners.impossible import explain_no_room, find_smallest_set, make_fleet_of
@@ -203,7 +203,7 @@ class SingleMoves:
 
     def make_successors(self, state: State) -> Iterator[tuple[Move, State]]:
         """Yield every move that the places of all other robots allow, and the state after it."""
-        rows = map(self.resources.vertex_row, range(len(state.places)), state.places)
+        rows = map(self.resources.get_vertex_row, range(len(state.places)), state.places)
         excluded = [self._mask_of(row) for row in rows]
         before, after = [0], [0]
         for mask in excluded:
@@ -215,9 +215,9 @@ class SingleMoves:
             first, end = int(self.roadmap.indptr[place]), int(self.roadmap.indptr[place + 1])
             for edge in range(first, end):
                 head = int(self.roadmap.heads[edge])
-                needed = 1 << self.resources.vertex_row(robot, head) | 1 << self.resources.edge_row(
-                    robot, edge
-                )
+                needed = 1 << self.resources.get_vertex_row(
+                    robot, head
+                ) | 1 << self.resources.get_edge_row(robot, edge)
                 ticks = self.itineraries[robot].edge_ticks[self.roadmap.class_of_edge[edge]]
                 is_useless = ticks < 0 or self._ways[robot][state.stages[robot]][head] < 0
                 if needed & by_others or is_useless:
@@ -251,9 +251,9 @@ def _in_sequence(task: Task, moves: list[Move]) -> list[Track]:
         ):
             served.append(itinerary.stages[stages[robot]])
             stages[robot] += 1
-        ready = enter[robot][-1] + least_dwell(served, leaves=True)
+        ready = enter[robot][-1] + compute_least_dwell(served, leaves=True)
         if itinerary.turning is not None:
-            ready += itinerary.turning.of(edges[robot], edge)
+            ready += itinerary.turning.compute_turn(edges[robot], edge)
         edges[robot] = edge
         now = max(now, ready) + itinerary.edge_ticks[roadmap.class_of_edge[edge]]
         now = rules.end(now)

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from rightofway.errors import InputError
-from rightofway.model import Objective, Scenario, Tick, Track, cost_of
-from rightofway.model.outcome import minimized
+from rightofway.model import Objective, Scenario, Tick, Track, compute_cost
+from rightofway.model.outcome import choose_objective
 from rightofway.planners.task import Task
 
 
@@ -22,7 +22,7 @@ def find_objective(task: Task) -> Objective:
     """
     name = task.options.get("objective", "flowtime")
     if name == "flowtime":
-        return minimized(task.scenario)
+        return choose_objective(task.scenario)
     if task.scenario.roadmap.has_surcharges:
         message = f"{name} leaves out the surcharges of the roadmap (minimize the flowtime)"
         raise InputError.at(("options", "objective"), message)
@@ -31,9 +31,9 @@ def find_objective(task: Task) -> Objective:
 
 def measure_worth(task: Task, tracks: Sequence[Track]) -> tuple[Tick, Tick]:
     """Return the value of a plan, and its cost, which decides between plans of equal value."""
-    cost = cost_of(task.scenario, tracks)
+    cost = compute_cost(task.scenario, tracks)
     objective = find_objective(task)
-    return objective.of(task.scenario, tracks) if objective.has_makespan else cost, cost
+    return objective.compute_cost(task.scenario, tracks) if objective.has_makespan else cost, cost
 
 
 def compute_value(

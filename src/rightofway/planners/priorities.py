@@ -36,7 +36,7 @@ from dataclasses import replace
 from typing import Literal
 
 from rightofway.errors import GaveUp
-from rightofway.model import Tick, flowtime_of
+from rightofway.model import Tick, compute_flowtime
 from rightofway.phrases import Phrase
 from rightofway.planners.conflict_resolution import (
     PartialPlan,
@@ -136,7 +136,7 @@ def _best_of(
         nonlocal tried, best, least
         task.deadline.check("trying orders of the robots")
         draft = plan_by_rule(task, distances, routes, plan_by_priority(order))
-        reached = flowtime_of(task.scenario, draft.tracks)
+        reached = compute_flowtime(task.scenario, draft.tracks)
         tried += 1
         if best is None or reached < least:
             best, least = draft, reached

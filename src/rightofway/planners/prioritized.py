@@ -20,7 +20,7 @@ from fractions import Fraction
 import numpy as np
 
 from rightofway.deadline import Deadline
-from rightofway.model import Scenario, Stop, cost_of
+from rightofway.model import Scenario, Stop, compute_cost
 from rightofway.phrases import Phrase
 from rightofway.planners.impossible import refuse_stranded
 from rightofway.planners.lacam import build_timetable, plan_fleet
@@ -101,7 +101,7 @@ def plan_in_turn(
     if search.resume(searches=searches, time_limit=_part(deadline, SHARE_OF_MORE)):
         drafts.append(_at_own_speeds(task, search))
     finished = [draft for draft in drafts if draft is not None]
-    return min(finished, key=lambda draft: cost_of(task.scenario, draft.tracks), default=None)
+    return min(finished, key=lambda draft: compute_cost(task.scenario, draft.tracks), default=None)
 
 
 def _patiently(task: Task, search: FleetSearch, turns: Sequence[int], share: float) -> Draft | None:

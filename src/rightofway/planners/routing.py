@@ -7,7 +7,7 @@ from functools import partial
 from itertools import accumulate, pairwise
 
 from rightofway.errors import GaveUp
-from rightofway.model import Itinerary, Route, Scenario, Track, route_along, route_of
+from rightofway.model import Itinerary, Route, Scenario, Track, join_route, make_route
 from rightofway.planners.impossible import refuse_the_impossible
 from rightofway.planners.task import Task, make_planning_problem
 from rightofway.search import Bookings, Congestion, Distances, find_earliest_track
@@ -39,7 +39,7 @@ def choose_routes_among_closures(task: Task, distances: Distances) -> list[Route
             name = task.scenario.robots[robot].name
             message = f"{name} finds no way among closures with the headway of planning"
             raise GaveUp(f"{message} (allow rotations, or choose prioritized)")
-        routes.append(route_of(task.scenario.roadmap, itinerary, track))
+        routes.append(make_route(task.scenario.roadmap, itinerary, track))
     return routes
 
 
@@ -64,7 +64,8 @@ def free_running_tracks(scenario: Scenario) -> tuple[Track, ...]:
     routes = find_shortest_routes(scenario, Distances(scenario.roadmap))
     return tuple(
         Track.of(
-            route.vertices, list(accumulate(map(route.least, range(len(route) - 1)), initial=0))
+            route.vertices,
+            list(accumulate(map(route.compute_least, range(len(route) - 1)), initial=0)),
         )
         for route in routes
     )
@@ -85,7 +86,7 @@ def find_shortest_route(roadmap: Roadmap, itinerary: Itinerary, distances: Dista
             if distances.compute_cost(back, ticks) == distances.compute_cost(leg, ticks):
                 leg = back
         legs.append(leg)
-    return route_along(roadmap, itinerary, legs)
+    return join_route(roadmap, itinerary, legs)
 
 
 def clear_routes(scenario: Scenario, distances: Distances) -> list[Route]:
@@ -130,7 +131,7 @@ def _clear(scenario: Scenario, traffic: Congestion, robot: int) -> Route:
     legs = [traffic.find_path(robot, place, stage) for place, stage in trips]
     for leg in legs:
         traffic.add(robot, leg)
-    return route_along(scenario.roadmap, itinerary, legs)
+    return join_route(scenario.roadmap, itinerary, legs)
 
 
 def _trips(itinerary: Itinerary) -> Iterator[tuple[VertexId, VertexId]]:

@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.model import NEVER, Scenario, Tick, Track, least_dwell
+from rightofway.model import NEVER, Scenario, Tick, Track, compute_least_dwell
 from rightofway.native import list_excluded
 from rightofway.phrases import Phrase
 from rightofway.planners.impossible import explain_no_room, find_smallest_set, make_fleet_of
@@ -142,10 +142,10 @@ class _TimedMoves(SingleMoves):
         ]
 
     def _closed_at(self, robot: int, vertex: int) -> list[tuple[Tick, Tick]]:
-        return [] if self._closures is None else self._closures.at_vertex(robot, vertex)
+        return [] if self._closures is None else self._closures.list_at_vertex(robot, vertex)
 
     def _closed_along(self, robot: int, edge: int) -> list[tuple[Tick, Tick]]:
-        return [] if self._closures is None else self._closures.along_edge(robot, edge)
+        return [] if self._closures is None else self._closures.list_along_edge(robot, edge)
 
     def make_starts(self) -> list[_Timed]:
         """Return the fleet at home; a robot may work there at once, or later."""
@@ -164,7 +164,7 @@ class _TimedMoves(SingleMoves):
         begins = []
         for stages in choices:
             ready = tuple(
-                least_dwell(trip.stages[:served], leaves=True)
+                compute_least_dwell(trip.stages[:served], leaves=True)
                 for trip, served in zip(self.itineraries, stages, strict=True)
             )
             state = State(home.places, stages)
@@ -198,13 +198,13 @@ class _TimedMoves(SingleMoves):
         robot = move.robot
         drive = self.itineraries[robot].edge_ticks[self.roadmap.class_of_edge[move.edge]]
         needed = {
-            self.resources.edge_row(robot, move.edge),
-            self.resources.vertex_row(robot, move.vertex),
+            self.resources.get_edge_row(robot, move.edge),
+            self.resources.get_vertex_row(robot, move.vertex),
         }
         enter = timed.ready[robot] + drive
         turning = self.itineraries[robot].turning
         if turning is not None:
-            enter += turning.of(timed.edges[robot], move.edge)
+            enter += turning.compute_turn(timed.edges[robot], move.edge)
         for (row, other), end in timed.ends.items():
             if other != robot and row in needed:
                 enter = max(enter, self._rules.follow(end, drive))
@@ -226,10 +226,10 @@ class _TimedMoves(SingleMoves):
         """Return what comes of a move that ends at a tick."""
         robot, itinerary = move.robot, self.itineraries[move.robot]
         served = itinerary.stages[timed.state.stages[robot] : state.stages[robot]]
-        ready = enter + least_dwell(served, leaves=True)
+        ready = enter + compute_least_dwell(served, leaves=True)
         ends = dict(timed.ends)
-        along = self.resources.edge_row(robot, move.edge)
-        for left in (along, self.resources.vertex_row(robot, timed.state.places[robot])):
+        along = self.resources.get_edge_row(robot, move.edge)
+        for left in (along, self.resources.get_vertex_row(robot, timed.state.places[robot])):
             for row in list_excluded(self.resources, left):
                 ends[row, robot] = self._rules.end(enter)
         edges = timed.edges

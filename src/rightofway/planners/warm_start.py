@@ -41,9 +41,9 @@ from rightofway.model import (
     Scenario,
     StartPlan,
     Track,
-    cost_of,
-    route_along,
-    route_of,
+    compute_cost,
+    join_route,
+    make_route,
 )
 from rightofway.planners.impossible import refuse_closed_ways
 from rightofway.planners.prioritized import make_fleet_search
@@ -97,7 +97,7 @@ def make_first_plan(task: Task, old: Plan) -> tuple[Track, ...] | None:
         in_time = _timetable(task.scenario, old_routes, [*unchanged, *changed], rules)
         drafts.append(None if in_time is None else tuple(in_time.values()))
     valid = [tracks for tracks in drafts if tracks is not None and _is_valid(task.scenario, tracks)]
-    return min(valid, key=lambda tracks: cost_of(task.scenario, tracks), default=None)
+    return min(valid, key=lambda tracks: compute_cost(task.scenario, tracks), default=None)
 
 
 def compare_with_start(old: Plan, scenario: Scenario, tracks: Sequence[Track]) -> StartPlan:
@@ -170,7 +170,7 @@ def _kept_routes(scenario: Scenario, old: Plan) -> Iterator[tuple[int, _Kept]]:
         if not is_same or visited.min() < 0:
             continue
         try:
-            former = route_of(old.scenario.roadmap, before[partner], track)
+            former = make_route(old.scenario.roadmap, before[partner], track)
             route = _route_again(scenario, robot, visited.tolist(), former.serves)
         except KeyError:
             continue  # an edge is gone
@@ -189,7 +189,7 @@ def _route_again(
 ) -> Route:
     """Return the route through these vertices that serves its stages in the same visits."""
     legs = [visited[begin : end + 1] for begin, end in pairwise((0, *serves))]
-    return route_along(scenario.roadmap, scenario.problem.itineraries[robot], legs)
+    return join_route(scenario.roadmap, scenario.problem.itineraries[robot], legs)
 
 
 def _lasts_as_long(route: Route, former: Route, ticks: Fraction) -> bool:

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import NEVER, Route, Scenario, Tick, Track, route_of
+from rightofway.model import NEVER, Route, Scenario, Tick, Track, make_route
 from rightofway.native import (
     BookedRows,
     ClosedPlaces,
@@ -203,7 +203,7 @@ class ActionDependencyGraph:
         self.routes = tuple(
             routes
             or (
-                route_of(scenario.roadmap, itinerary, track)
+                make_route(scenario.roadmap, itinerary, track)
                 for itinerary, track in zip(itineraries, tracks, strict=True)
             )
         )

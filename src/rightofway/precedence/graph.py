@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.arguments import checks_arguments, require_one_for_each
-from rightofway.model import BookingRules, Problem, Route, Tick, Track, route_of
+from rightofway.model import BookingRules, Problem, Route, Tick, Track, make_route
 from rightofway.native import BookedRows, ClosedPlaces, bind_closures, bind_rows, bind_rules
 from rightofway.precedence.segments import (
     IncompatiblePair,
@@ -365,7 +365,7 @@ def build_graph_of_plan(problem: Problem, tracks: Sequence[Track]) -> Precedence
     """
     require_one_for_each(problem.itineraries, tracks=tracks)
     routes = [
-        route_of(problem.roadmap, itinerary, track)
+        make_route(problem.roadmap, itinerary, track)
         for itinerary, track in zip(problem.itineraries, tracks, strict=True)
     ]
     graph = build_graph(problem, routes)

@@ -209,7 +209,7 @@ def _uses_of(scenario: Scenario, robot: int, track: Track) -> list[_Use]:
     """Return what a robot books: each vertex and each edge."""
     resources, roadmap = scenario.problem.resources, scenario.roadmap
     vertices, enter = track.vertices.tolist(), track.enter.tolist()
-    own = resources.vertex_row(robot, 0)
+    own = resources.get_vertex_row(robot, 0)
     uses = [
         _Use(enter[k], own + vertex, robot, k, k + 1, is_vertex=True)
         for k, vertex in enumerate(vertices)
@@ -220,7 +220,7 @@ def _uses_of(scenario: Scenario, robot: int, track: Track) -> list[_Use]:
     # The last tick of a drive, not its first one: so the order of arrivals is all that counts, and
     # times that are no timetable, as those of routes in a journal, give the order that they say.
     uses += (
-        _Use(enter[k] - 1, resources.edge_row(robot, edge), robot, k, k, is_vertex=False)
+        _Use(enter[k] - 1, resources.get_edge_row(robot, edge), robot, k, k, is_vertex=False)
         for k, edge in enumerate(edges, 1)
     )
     return uses

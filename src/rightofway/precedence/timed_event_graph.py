@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp
-from rightofway.model import BookingRules, Lap, Tick, visits_of_laps
+from rightofway.model import BookingRules, Lap, Tick, make_visits_of_laps
 from rightofway.native import BookedRows
 
 MOST_ANSWERS = 1 << 21
@@ -169,7 +169,7 @@ class TimedEventGraph:
         sizes = [len(lap) * count for lap, count in zip(laps, counts, strict=True)]
         self.first = np.concatenate(([0], np.cumsum(sizes)))
         self.robot = np.repeat(np.arange(len(laps), dtype=np.int32), sizes)
-        columns = zip(*map(visits_of_laps, laps, counts), strict=True)
+        columns = zip(*map(make_visits_of_laps, laps, counts), strict=True)
         self.vertex, self.dwell, self.drive = map(np.concatenate, columns)
 
     def __len__(self) -> int:

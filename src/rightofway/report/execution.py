@@ -177,7 +177,7 @@ def _sources(outcome: SimulationResult, quantities: Quantities) -> Iterator[Part
     if not sources:
         return
     scenario = outcome.plan.scenario
-    robots, place = scenario.robots, PlaceNames(scenario, numbered=True).where
+    robots, place = scenario.robots, PlaceNames(scenario, numbered=True).describe_place
     rows = [
         [
             Phrase(

@@ -284,7 +284,7 @@ def _change(scenario: Scenario, effect: ParameterEffect) -> Phrase:
         return Phrase("{robot} 10% faster", robot=robot.name)
     if effect.stop is None:
         return Phrase("{robot} 10% less turning", robot=robot.name)
-    where = PlaceNames(scenario, numbered=True).where(robot.stops[effect.stop].at)
+    where = PlaceNames(scenario, numbered=True).describe_place(robot.stops[effect.stop].at)
     return Phrase("{robot} 10% less work at {place}", robot=robot.name, place=where)
 
 

@@ -67,7 +67,12 @@ def is_long(group: GroupResult) -> bool:
 
 def _group_data(scenario: Scenario, group: GroupResult, *, by_visit: bool) -> dict[str, Any]:
     robots, place, clock = scenario.robots, scenario.roadmap.name, scenario.problem.clock
-    names, pattern, measured, time = list_names(scenario, group), group.pattern, None, clock.time
+    names, pattern, measured, time = (
+        list_names(scenario, group),
+        group.pattern,
+        None,
+        clock.convert_to_time,
+    )
     means = [
         None if mean is None else format_number(mean * clock.tick)
         for mean in group.compute_mean_laps()
@@ -156,7 +161,7 @@ def _steps_data(scenario: Scenario, bottleneck: Bottleneck | None) -> list[dict[
             "kind": step.kind,
             "robot": scenario.robots[step.robot].name,
             "vertices": [place(vertex) for vertex in step.places],
-            "for": format_number(clock.time(step.ticks)),
+            "for": format_number(clock.convert_to_time(step.ticks)),
             "text": Phrase(
                 "{robot} {steps}", robot=scenario.robots[step.robot].name, steps=step.text
             ),

@@ -252,7 +252,7 @@ def _homes_in_the_way(words: Words, losses: Iterable[Loss]) -> Iterator[Part]:
         if ranked[3:]:
             names.append(Phrase("others"))
         values = {
-            "place": words.places.where(last),
+            "place": words.places.describe_place(last),
             "robot": words.name_robot(robot),
             "others": join_items(names),
             "time": words.say_time(sum(costs[robot].values())),

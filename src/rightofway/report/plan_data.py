@@ -6,7 +6,7 @@ from dataclasses import asdict
 from typing import Any
 
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.io.plan.writer import make_forced_losses, outcome_document
+from rightofway.io.plan.writer import describe_outcome, make_forced_losses
 from rightofway.metrics import compute_lost_time, derive_outcome, measure, waits
 from rightofway.model import Plan, Scenario
 from rightofway.model.outcome import classify_error
@@ -33,7 +33,7 @@ def make_summary_data(plan: Plan) -> dict[str, Any]:
             "seconds": _rounded(run.seconds),
             "first_plan_seconds": _rounded(run.first_plan_seconds),
             **({} if run.start is None else {"start": asdict(run.start)}),
-            "outcome": outcome_document(derive_outcome(plan)),
+            "outcome": describe_outcome(derive_outcome(plan)),
             **make_forced_losses(list_forced_losses(plan), plan.scenario),
         },
         **describe_measures(plan.scenario),
@@ -58,7 +58,7 @@ def make_summary_data(plan: Plan) -> dict[str, Any]:
 
 def make_no_plan_data(error: NoPlanExists | GaveUp) -> dict[str, Any]:
     """Return the outcome of a search that found no plan."""
-    return outcome_document(classify_error(error))
+    return describe_outcome(classify_error(error))
 
 
 def _rounded(seconds: float | None) -> float | None:

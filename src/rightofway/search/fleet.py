@@ -13,7 +13,7 @@ from rightofway import _core
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, quote
 from rightofway.model import Objective, Problem, Scenario, Tick, Track
-from rightofway.model.given import checked_scenario, require_index, require_number, require_seed
+from rightofway.model.given import require_index, require_number, require_scenario, require_seed
 from rightofway.native import bind_native, make_tracks
 
 
@@ -35,7 +35,7 @@ def compute_least_completions(
     ndarray of int64, shape (R,), or None
         Ticks, -1 where no way leads to a place; None if the time limit came first.
     """
-    search = _core.FleetSearch(bind_native(checked_scenario(scenario).problem), seed=0, n_threads=1)
+    search = _core.FleetSearch(bind_native(require_scenario(scenario).problem), seed=0, n_threads=1)
     return search.alone(time_limit)
 
 

@@ -25,7 +25,7 @@ from rightofway.model import (
     Resources,
     Stage,
     Tick,
-    visits_of_laps,
+    make_visits_of_laps,
 )
 from rightofway.model.turning import Turning
 from rightofway.native import bind_lists, bind_roads, bind_rules, bind_turning, list_excluded
@@ -121,7 +121,9 @@ class RowsOfLaps:
     def find_rows(self, robot: int, lap: Lap) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
         """Return the rows of a lap's vertices, and of the edges driven into them."""
         bookings_of_robot = self.robots[robot]
-        vertices, edges = self.resources.rows_of_lap(self.roadmap, bookings_of_robot, lap.vertices)
+        vertices, edges = self.resources.list_rows_of_lap(
+            self.roadmap, bookings_of_robot, lap.vertices
+        )
         return vertices, np.roll(edges, 1)
 
 
@@ -164,7 +166,7 @@ class PeriodicBookings:
 
     def _visits(self, robot: int, lap: Lap, count: int) -> tuple[Visits, NDArray[np.int32] | None]:
         """Return the visits of some laps, and the rows of the edges driven in."""
-        vertex, dwell, drive = visits_of_laps(lap, count)
+        vertex, dwell, drive = make_visits_of_laps(lap, count)
         if self._rows is None:
             return (vertex, dwell, drive), None
         vertices, edges = self._rows.find_rows(robot, lap)
@@ -254,7 +256,7 @@ class PeriodicBookings:
             ),
             phase,
             time_limit,
-            0 if rows is None else rows.resources.vertex_row(rows.robots[robot], 0),
+            0 if rows is None else rows.resources.get_vertex_row(rows.robots[robot], 0),
         )
         if route is None:
             return None
@@ -325,6 +327,6 @@ class PeriodicBookings:
 def _visits_home(
     lap: Lap, count: int
 ) -> tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]:
-    vertex, dwell, drive = visits_of_laps(lap, 1)
+    vertex, dwell, drive = make_visits_of_laps(lap, 1)
     place = np.append(np.arange(len(lap) * count) % len(lap), 0)
     return vertex[place], dwell[place], drive[place]

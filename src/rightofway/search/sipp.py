@@ -16,7 +16,7 @@ import numpy as np
 from rightofway import _core
 from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp, InputError
-from rightofway.model import NEVER, Problem, Tick, Track, drives_along
+from rightofway.model import NEVER, Problem, Tick, Track, compute_drives_along
 from rightofway.model.given import require_index
 from rightofway.native import bind_native, list_excluded
 from rightofway.search.distances import Distances
@@ -71,7 +71,7 @@ class Bookings:
 
     def get_vertex_row(self, robot: int, vertex: int) -> int:
         """Return the row that a robot books at a vertex; for points the vertex itself."""
-        return self.resources.vertex_row(robot, vertex)
+        return self.resources.get_vertex_row(robot, vertex)
 
     def add(self, robot: int, track: Track) -> None:
         """Book all vertices of a track."""
@@ -94,7 +94,7 @@ class Bookings:
         """Yield what a track would book, visit by visit."""
         problem, rules, enter = self.problem, self.problem.booking_rules, track.enter
         vertices, first_row = track.vertices.tolist(), self.get_vertex_row(robot, 0)
-        drives = drives_along(problem.roadmap, problem.itineraries[robot], vertices)
+        drives = compute_drives_along(problem.roadmap, problem.itineraries[robot], vertices)
         drives_in = np.array([0, *drives], np.int64)
         starts, ends = rules.start(enter, drives_in).tolist(), rules.end(enter[1:]).tolist()
         for vertex, start, end in zip(vertices, starts, [*ends, NEVER], strict=True):

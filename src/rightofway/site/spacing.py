@@ -184,10 +184,10 @@ def _crossed(
     spacing = choose_spacing(list(longest.values()), distance)
     parts, wanted, lane_of = list[list[_Floats]](), list[bool](), list[_Ends]()
     for lane, drawing in drawings.items():
-        points_along = [(float(x), float(y)) for x, y in drawing]
-        drawn = sum(dist(*ends) for ends in pairwise(points_along))
+        make_points_along = [(float(x), float(y)) for x, y in drawing]
+        drawn = sum(dist(*ends) for ends in pairwise(make_points_along))
         is_long = spacing < longest[lane] <= MOST_WINDING * drawn
-        for ends in pairwise(points_along):
+        for ends in pairwise(make_points_along):
             parts.append(list(ends))
             wanted.append(is_long)
             lane_of.append(lane)

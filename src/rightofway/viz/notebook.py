@@ -51,7 +51,7 @@ def make_scenario_html(scenario: Scenario) -> str:
 
 
 def _row(scenario: Scenario, robot: Robot) -> str:
-    place, quantities = PlaceNames(scenario).where, scenario.quantities
+    place, quantities = PlaceNames(scenario).describe_place, scenario.quantities
     stops = []
     for stop in robot.stops:
         ticks = stop.work / quantities.tick

@@ -19,7 +19,7 @@ def give_verdict(plan: Plan) -> Report:
     """
     if plan.run.name == "laps" and plan.run.status == plan.run.options.get("rule"):
         return Report(faults=(), counts={})
-    return plan.once("verdict", lambda: check(plan, limit=LISTED_FAULTS))
+    return plan.compute_once("verdict", lambda: check(plan, limit=LISTED_FAULTS))
 
 
 def make_comparison_data(comparison: Comparison) -> dict[str, Any]:

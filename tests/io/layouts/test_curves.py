@@ -14,7 +14,7 @@ import pytest
 
 from rightofway import FleetBuilder, check, solve
 from rightofway.io import read_layout
-from rightofway.io.layouts import layout_text
+from rightofway.io.layouts import format_layout
 from rightofway.io.layouts.nurbs import CHORD_ERROR, Nurbs
 from rightofway.io.scenario.reader import Loaded, read_scenario
 from rightofway.metrics import Site, inspect
@@ -32,14 +32,14 @@ def arc() -> Nurbs:
 
 
 def test_a_circle_is_a_rational_curve() -> None:
-    found = arc().at(np.linspace(0, 1, 50))
+    found = arc().compute_points(np.linspace(0, 1, 50))
     assert np.hypot(*found.T) == pytest.approx(2)
     assert found[[0, -1]].tolist() == [[2, 0], [0, 2]]
 
 
 def test_pieces_are_equally_long_and_near() -> None:
     """A chord of angle a is 2 m * (1 - cos(a / 2)) from its arc: of 90 degrees / 11, 5.1 mm."""
-    ends = arc().pieces()
+    ends = arc().cut_pieces()
     assert np.hypot(*ends.T) == pytest.approx(2, abs=1e-4)
     chords = np.hypot(*np.diff(ends, axis=0).T)
     assert chords == pytest.approx(chords[0], rel=1e-3)
@@ -48,7 +48,7 @@ def test_pieces_are_equally_long_and_near() -> None:
 
 
 def test_a_curve_driven_back_has_the_same_ends() -> None:
-    assert arc().reversed().pieces().tolist() == arc().pieces()[::-1].tolist()
+    assert arc().reverse().cut_pieces().tolist() == arc().cut_pieces()[::-1].tolist()
 
 
 def test_a_curve_of_degree_one_is_cut_at_its_corners() -> None:
@@ -56,7 +56,7 @@ def test_a_curve_of_degree_one_is_cut_at_its_corners() -> None:
     corners = Nurbs(
         degree=1, knots=np.array([0, 0, 1, 2, 3, 3.0]), points=points, weights=np.ones(4)
     )
-    assert corners.pieces() == pytest.approx(points)
+    assert corners.cut_pieces() == pytest.approx(points)
 
 
 @pytest.mark.parametrize(
@@ -199,7 +199,7 @@ def test_an_inspection_names_what_the_bow_comes_near_and_not_its_own_pieces(tmp_
 def test_a_curve_is_written_as_a_trajectory(tmp_path: Path) -> None:
     found = read_layout(hall(tmp_path, 4))
     assert isinstance(found, Layout)
-    text, losses = layout_text(found, "lif")
+    text, losses = format_layout(found, "lif")
     (tmp_path / "again.lif.json").write_text(text, encoding="utf-8")
     again = read_layout(tmp_path / "again.lif.json")
     assert isinstance(again, Layout)
@@ -207,5 +207,5 @@ def test_a_curve_is_written_as_a_trajectory(tmp_path: Path) -> None:
     assert [edge.shape for edge in again.levels[0].edges] == [
         edge.shape for edge in found.levels[0].edges
     ]
-    _, losses = layout_text(found, "graphml")
+    _, losses = format_layout(found, "graphml")
     assert "curves that robots drive along (2)" in losses[0]

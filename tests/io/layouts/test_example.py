@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from rightofway.io import example_of_layout, load
+from rightofway.io import format_example, load
 from rightofway.io.text import parse_yaml
 from rightofway.metrics.connectivity import find_strong_parts, list_ways
 from rightofway.site import Edge, Roadmap, make_roadmap
@@ -18,7 +18,7 @@ HERE = Path(__file__).parents[2] / "data" / "layouts"
 
 
 def example(file: str) -> dict[str, Any]:
-    document: dict[str, Any] = parse_yaml(example_of_layout(HERE / file, HERE / "scenario.yaml"))
+    document: dict[str, Any] = parse_yaml(format_example(HERE / file, HERE / "scenario.yaml"))
     return document
 
 
@@ -42,7 +42,7 @@ def test_cells_of_a_map_in_pixels_are_small_enough_to_get_through(tmp_path: Path
     Image.fromarray(picture).save(tmp_path / "a.png")
     yaml = (HERE / "room.yaml").read_text("utf-8").replace("room.pgm", "a.png")
     (tmp_path / "a.yaml").write_text(yaml.replace("0.5\n", "0.1\n"), "utf-8")
-    document = parse_yaml(example_of_layout(tmp_path / "a.yaml", tmp_path / "scenario.yaml"))
+    document = parse_yaml(format_example(tmp_path / "a.yaml", tmp_path / "scenario.yaml"))
     assert document["map"]["cell_size"] == "1/8"
 
 
@@ -53,7 +53,7 @@ def test_cells_of_a_map_in_pixels_are_small_enough_to_get_through(tmp_path: Path
 )  # fmt: skip
 def test_the_example_can_be_planned(file: str, tmp_path: Path) -> None:
     target = tmp_path / "scenario.yaml"
-    target.write_text(example_of_layout(HERE / file, target), encoding="utf-8")
+    target.write_text(format_example(HERE / file, target), encoding="utf-8")
     scenario = load(target)
     assert len({robot.home for robot in scenario.robots}) == len(scenario.robots)
     assert solve(scenario, time_limit=5).flowtime > 0

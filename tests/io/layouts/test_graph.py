@@ -9,9 +9,9 @@ from typing import Any
 import networkx as nx  # type: ignore[import-untyped]
 import pytest
 
-from rightofway import FleetBuilder, layout_of_graph, solve
+from rightofway import FleetBuilder, make_layout_of_graph, solve
 from rightofway.errors import InputError
-from rightofway.io.layouts import layout_text, read_layout
+from rightofway.io.layouts import format_layout, read_layout
 from rightofway.site.layout import Layout
 
 HALL = Path(__file__).parents[2] / "data" / "layouts" / "hall.lif.json"
@@ -29,7 +29,7 @@ def graph() -> Any:
 
 
 def test_a_graph_has_places_lengths_and_limits() -> None:
-    (level,) = layout_of_graph(graph()).levels
+    (level,) = make_layout_of_graph(graph()).levels
     assert [(each.name, *map(float, each.at)) for each in level.vertices] == [
         ("dock", 0, 0.5),
         ("7", 3, 4.5),
@@ -44,7 +44,7 @@ def test_a_graph_has_places_lengths_and_limits() -> None:
 
 
 def test_edges_without_a_direction_are_driven_both_ways() -> None:
-    (level,) = layout_of_graph(graph().to_undirected()).levels
+    (level,) = make_layout_of_graph(graph().to_undirected()).levels
     assert len(level.edges) == 4
 
 
@@ -56,7 +56,7 @@ def test_a_graph_is_the_file_that_networkx_writes(tmp_path: Path) -> None:
     nx.write_graphml(plain, tmp_path / "hall.graphml")
     found = read_layout(tmp_path / "hall.graphml")
     assert isinstance(found, Layout)
-    assert found.levels == layout_of_graph(plain).levels
+    assert found.levels == make_layout_of_graph(plain).levels
 
 
 def test_every_fault_of_a_graph_is_named() -> None:
@@ -65,19 +65,21 @@ def test_every_fault_of_a_graph_is_named() -> None:
     wrong.add_node("b", x="left", y=0)
     wrong.add_edge("a", "b", length=[1])
     with pytest.raises(InputError) as error:
-        layout_of_graph(wrong)
+        make_layout_of_graph(wrong)
     assert str(error.value).splitlines() == [
         "node 'a': has no position (give x and y, or pos=(x, y))",
         "node 'b': x: 'left' is not a number (write it like 3, 0.5 or 1/3)",
         "edge 'a' to 'b': length: [1] is not a number (write it like 3, 0.5 or 1/3)",
     ]
     with pytest.raises(InputError, match="'hall' is no graph"):
-        layout_of_graph("hall")
+        make_layout_of_graph("hall")
 
 
 def test_a_fleet_is_built_on_a_layout() -> None:
     """The way out is 5 m at 0.5 m/s, the way home 5.5 m at 1 m/s; ticks are rounded."""
-    fleet = FleetBuilder(layout=layout_of_graph(graph())).add_robot("R1", home="dock", target=7)
+    fleet = FleetBuilder(layout=make_layout_of_graph(graph())).add_robot(
+        "R1", home="dock", target=7
+    )
     scenario = fleet.build_scenario()
     assert (scenario.units.length, scenario.units.time) == ("m", "s")
     assert float(solve(scenario).flowtime * scenario.problem.clock.tick) == pytest.approx(
@@ -99,7 +101,7 @@ def test_a_fleet_is_built_on_a_file_with_stations_and_other_units() -> None:
 
 
 def test_a_fleet_gets_homes_from_the_parking_places_of_a_layout() -> None:
-    fleet = FleetBuilder(layout=layout_of_graph(graph())).add_robot("R1", target=7)
+    fleet = FleetBuilder(layout=make_layout_of_graph(graph())).add_robot("R1", target=7)
     assert fleet.build_roadmap().name(fleet.build_scenario().robots[0].home) == "dock"
     with pytest.raises(InputError, match="2 robots need a home, and the map has 1 parking"):
         fleet.add_robot("R2", target=7).build_scenario()
@@ -115,5 +117,5 @@ def test_a_layout_of_pixels_is_refused_with_the_remedy() -> None:
 
 
 def test_a_layout_of_a_graph_is_written_for_other_programs() -> None:
-    text, _ = layout_text(layout_of_graph(graph()), "nav2")
+    text, _ = format_layout(make_layout_of_graph(graph()), "nav2")
     assert '"startid": 0' in text

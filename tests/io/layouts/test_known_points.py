@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.io import dump_plan, plan_of, read_layout, scenario_of
+from rightofway.io import dump_plan, parse_plan, parse_scenario, read_layout
 from rightofway.model import Scenario
 from rightofway.site import Point, Roadmap
 from rightofway.site.layout import Layout, Level
@@ -46,7 +46,7 @@ def lanes(level: Level) -> dict[str, tuple[float, float | None]]:
 def scenario_on(home: Any, target: Any, base: Path = HERE, **shape: Any) -> Scenario:
     robots = [{"name": "R1", "home": home, "target": target}]
     document = {"format": "rightofway-scenario/1", "map": shape, "robots": robots}
-    return scenario_of(document, base)
+    return parse_scenario(document, base)
 
 
 def name_of_home(**shape: Any) -> str:
@@ -261,7 +261,7 @@ def test_a_map_with_yaw_is_turned_about_its_origin(tmp_path: Path) -> None:
     x, y = roadmap.get_point(roadmap.get_vertex("N18"))
     assert abs(x + Fraction(5, 4)) < Fraction(1, 10**9)
     assert abs(y - Fraction(9, 4)) < Fraction(1, 10**9)
-    assert plan_of(dump_plan(solve(scenario))).scenario.roadmap == roadmap
+    assert parse_plan(dump_plan(solve(scenario))).scenario.roadmap == roadmap
 
 
 def test_obstacles_keep_their_distance_from_large_robots() -> None:
@@ -270,7 +270,7 @@ def test_obstacles_keep_their_distance_from_large_robots() -> None:
     shape = {"layout": "room.yaml", "cell_size": 0.5}
     document = {"format": "rightofway-scenario/1", "map": shape, "robots": robots}
     with pytest.raises(InputError, match="no free cell"):
-        scenario_of(document, HERE)
+        parse_scenario(document, HERE)
 
 
 def test_places_are_vertices_or_stations() -> None:
@@ -287,7 +287,7 @@ def test_a_scenario_on_a_layout_is_in_metres_and_seconds_unless_it_names_units()
         "format": "rightofway-scenario/1", "map": {"layout": "plant.xml"},
         "units": {"length": "mm", "time": "min"}, "robots": robots,
     }  # fmt: skip
-    roadmap: Roadmap = scenario_of(document, HERE).roadmap
+    roadmap: Roadmap = parse_scenario(document, HERE).roadmap
     edge = roadmap.find_edge(roadmap.get_vertex("Cross"), roadmap.get_vertex("Dock"))
     assert edge is not None
     assert roadmap.get_edge_class(edge).length == 4000  # [mm]
@@ -311,7 +311,7 @@ def test_a_scenario_on_a_layout_is_in_metres_and_seconds_unless_it_names_units()
 def test_a_plan_file_needs_no_layout(home: str, shape: dict[str, Any]) -> None:
     scenario = scenario_on(home, home, **shape)
     plan = solve(scenario)
-    assert plan_of(dump_plan(plan)).scenario.roadmap == scenario.roadmap
+    assert parse_plan(dump_plan(plan)).scenario.roadmap == scenario.roadmap
 
 
 def test_blocks_and_mutex_groups_are_zones_of_the_roadmap() -> None:
@@ -333,7 +333,7 @@ def test_a_reference_level_that_is_no_name_counts_as_the_first_level(tmp_path: P
 
 def test_stations_and_parking_places_stay_with_the_plan_of_a_layout() -> None:
     plan = solve(scenario_on("Dock", "Saw 1", layout="plant.xml"))
-    again = plan_of(dump_plan(plan))
+    again = parse_plan(dump_plan(plan))
     for each in (plan, again):
         roadmap = each.scenario.roadmap
         drawing = roadmap.drawing

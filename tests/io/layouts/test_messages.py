@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.io import load, load_either, read_layout, scenario_of
+from rightofway.io import load, load_either, parse_scenario, read_layout
 from rightofway.io.layouts.xml_tree import parse_xml
 from rightofway.io.text import LIMIT
 from rightofway.site.layout import Layout
@@ -43,7 +43,7 @@ def told(**shape: Any) -> str:
     robots = [{"name": "R1", "home": "A", "target": "A"}]
     document = {"format": "rightofway-scenario/1", "map": shape, "robots": robots}
     with pytest.raises(InputError) as caught:
-        scenario_of(document, HERE)
+        parse_scenario(document, HERE)
     return str(caught.value).replace(str(HERE), "")
 
 

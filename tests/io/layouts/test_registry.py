@@ -33,10 +33,10 @@ def test_other_packages_add_formats(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     point = EntryPoint("lines", f"{__name__}:LINES", formats.GROUP)
     monkeypatch.setattr(EntryPoint, "load", lambda _: LINES)
     monkeypatch.setattr("importlib.metadata.entry_points", lambda group: [point] if group else [])
-    layouts.layout_formats.cache_clear()
+    layouts.list_layout_formats.cache_clear()
     path = tmp_path / "places"
     path.write_text("places: dock press", encoding="utf-8")
     found = read_layout(path)
-    layouts.layout_formats.cache_clear()
+    layouts.list_layout_formats.cache_clear()
     assert isinstance(found, Layout)
     assert [vertex.name for vertex in found.get_level().vertices] == ["dock", "press"]

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.io import LAYOUT_WRITERS, layout_text, read_layout
+from rightofway.io import LAYOUT_WRITERS, format_layout, read_layout
 from rightofway.site.layout import Layout, Level
 
 HERE = Path(__file__).parents[2] / "data" / "layouts"
@@ -53,7 +53,7 @@ def test_what_is_written_is_read_back(
     name: str, file: str, level: str | None, tmp_path: Path
 ) -> None:
     layout = single(file, level)
-    text, _ = layout_text(layout, name)
+    text, _ = format_layout(layout, name)
     path = tmp_path / "layout"
     path.write_text(text, encoding="utf-8")
     again = read_layout(path)
@@ -64,11 +64,11 @@ def test_what_is_written_is_read_back(
     if not old.vehicle_types:  # a LIF lane with a speed limit names a type
         says -= {"vehicle types"}
     assert known_to(new, says) == known_to(old, says)
-    assert layout_text(again, name) == (text, ())
+    assert format_layout(again, name) == (text, ())
 
 
 def test_losses_are_named_and_counted() -> None:
-    (loss,) = layout_text(single("plant.xml", None), "graphml")[1]
+    (loss,) = format_layout(single("plant.xml", None), "graphml")[1]
     assert loss == "left out, the format has no place for them: stations (2) and zones (1)"
 
 
@@ -76,5 +76,5 @@ def test_a_format_of_one_level_refuses_a_building() -> None:
     found = read_layout(HERE / "hall.nav.yaml")
     assert isinstance(found, Layout)
     with pytest.raises(InputError, match=r"2 levels, and nav2 knows one \(write lif or open-rmf\)"):
-        layout_text(found, "nav2")
+        format_layout(found, "nav2")
     assert [level.name for level in found.levels] == ["L1", "L2"]

@@ -12,10 +12,10 @@ schedule    multi_agent_path_planning (atb033), libMultiRobotPlanning: a YAML sc
 
 from rightofway.io.foreign.formats import (
     FOREIGN_FORMATS,
-    foreign_text,
+    format_foreign,
     format_of_text,
     is_foreign,
     read_foreign,
 )
 
-__all__ = ["FOREIGN_FORMATS", "foreign_text", "format_of_text", "is_foreign", "read_foreign"]
+__all__ = ["FOREIGN_FORMATS", "format_foreign", "format_of_text", "is_foreign", "read_foreign"]

@@ -11,7 +11,7 @@ from rightofway.arguments import checks_arguments, get_value
 from rightofway.errors import InputError
 from rightofway.io.foreign import lacam, lns2, planviz, schedule
 from rightofway.io.foreign.trajectories import ForeignPlan, plan_of_trajectories
-from rightofway.io.locations import lines_of
+from rightofway.io.locations import add_lines
 from rightofway.io.text import read_text
 from rightofway.model import Plan
 
@@ -110,12 +110,12 @@ def read_foreign(
     foreign = format_of_text(text)
     if foreign is None:
         return None
-    with lines_of(text) if foreign.is_document else nullcontext():
+    with add_lines(text) if foreign.is_document else nullcontext():
         return plan_of_trajectories(foreign.read(text), path, map_file, scen)
 
 
 @checks_arguments
-def foreign_text(plan: Plan, name: str) -> str:
+def format_foreign(plan: Plan, name: str) -> str:
     """Return a plan as the text of a file for another program.
 
     Parameters

@@ -25,8 +25,8 @@ from rightofway.io.foreign.trajectories import (
     Cell,
     ForeignPlan,
     Trajectory,
-    cells_of_plan,
-    visits_of,
+    make_cells,
+    make_visits,
 )
 from rightofway.model import Plan
 
@@ -74,7 +74,7 @@ def read(text: str) -> ForeignPlan:
         raise InputError.at("goals", message)
     agents = []
     for index, cells in enumerate(np.array(steps, np.int64).swapaxes(0, 1)):
-        own, entered = visits_of(cells)
+        own, entered = make_visits(cells)
         goal = goals[index : index + 1]
         agents.append(
             Trajectory(name=f"A{index}", cells=own, steps=entered, lines=lines, stops=goal)
@@ -105,7 +105,7 @@ def write(plan: Plan) -> str:
     InputError
         If the roadmap is no grid.
     """
-    cells = cells_of_plan(plan)
+    cells = make_cells(plan)
     starts = list(zip(cells.rows[:, 0].tolist(), cells.columns[:, 0].tolist(), strict=True))
     lines = [f"agents={len(cells.names)}", f"starts={_text(starts)}", f"goals={_text(cells.goals)}"]
     lines.append("solution=")

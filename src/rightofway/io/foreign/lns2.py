@@ -22,8 +22,8 @@ from rightofway.io.foreign.trajectories import (
     ForeignPlan,
     Trajectory,
     Visits,
-    cells_of_plan,
-    visits_of,
+    make_cells,
+    make_visits,
 )
 from rightofway.model import Plan
 
@@ -83,10 +83,10 @@ def _visits(text: str) -> Visits:
     cells = [(int(row), int(column)) for row, column, _ in groups]
     steps = [int(third) for _, _, third in groups if third]
     if max(steps, default=0) <= LARGEST_HEADING:
-        return visits_of(cells)
+        return make_visits(cells)
     if len(steps) < len(cells) or steps[0] or not all(a < b for a, b in pairwise(steps)):
         raise InputError.at("", "the steps of the cells do not grow from 0 on (give all or none)")
-    own, visits = visits_of(cells)
+    own, visits = make_visits(cells)
     return own, np.array(steps, np.int64)[visits]
 
 
@@ -98,10 +98,10 @@ def write(plan: Plan) -> str:
     InputError
         If the roadmap is no grid.
     """
-    drawn = cells_of_plan(plan)
+    drawn = make_cells(plan)
     lines = []
     for robot, track in enumerate(plan.tracks):
-        cells = list(drawn.path(robot))[: int(track.enter[-1]) + 1]
+        cells = list(drawn.list_cells(robot))[: int(track.enter[-1]) + 1]
         path = "".join(f"({row},{column})->" for row, column in cells)
         lines.append(f"Agent {robot}: {path}")
     return "\n".join(lines) + "\n"

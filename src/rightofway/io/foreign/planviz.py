@@ -32,12 +32,12 @@ from rightofway.io.foreign.trajectories import (
     ForeignPlan,
     Trajectory,
     Visits,
-    cells_of_plan,
+    make_cells,
 )
 from rightofway.io.source import Source
 from rightofway.io.text import parse_json
 from rightofway.model import Plan
-from rightofway.model.route import drives_along, serving_visits, turns_along
+from rightofway.model.route import compute_drives_along, compute_turns_along, find_serving_visits
 
 HEADINGS = {"E": (0, 1), "N": (-1, 0), "W": (0, -1), "S": (1, 0)}
 """Change of row and column, in the order of turns back (counterclockwise)."""
@@ -90,11 +90,13 @@ def read(text: str) -> ForeignPlan:
     counter = faults.attempt("", _count, log.get("agentMaxCounter")) or 1
     faults.stop()
     paths = log.need(*PATHS)
-    if not paths.items():
-        raise paths.fault("has no path (give one for each agent)")
+    if not paths.read_items():
+        raise paths.make_fault("has no path (give one for each agent)")
     starts = log.need("start")
-    if len(starts.items()) < len(paths.items()):
-        raise starts.fault(f"does not have a start for each of {len(paths.items())} agents")
+    if len(starts.read_items()) < len(paths.read_items()):
+        raise starts.make_fault(
+            f"does not have a start for each of {len(paths.read_items())} agents"
+        )
     counts = any(isinstance(path, str) and path.lstrip().startswith("[") for path in paths.value)
     steps_per_move = counter if counts else 1
     errands = faults.attempt("", _errands, log) or {}
@@ -108,7 +110,7 @@ def read(text: str) -> ForeignPlan:
         stops = [cell for _, cell in errands.get(index, [])]
         if stops[-1:] != [(row, column)]:
             stops.append((row, column))
-        where = paths.child(index, None).location
+        where = paths.make_child(index, None).location
         agents.append(
             Trajectory(name=f"A{index}", cells=cells, steps=steps, location=where, stops=stops)
         )
@@ -124,7 +126,7 @@ def _all_visits(
 ) -> list[Visits]:
     """Return the visits of each agent, or fewer after noting faults."""
     all_visits, n_moves = list[Visits](), 0
-    for path, start in zip(paths.items(), starts.items(), strict=False):
+    for path, start in zip(paths.read_items(), starts.read_items(), strict=False):
         begin = faults.attempt("", _start, start, changes)
         where = path.path
         runs = faults.attempt(where, _runs, path.value, changes)
@@ -191,7 +193,7 @@ def _hits(visits: Sequence[Visits], errands: Errands) -> int:
 
 def _has_headings(model: Source | None) -> bool:
     if model is not None and model.value not in ("MAPF", "MAPF_T"):
-        raise model.fault(f"{quote(model.value)} is not known (give MAPF or MAPF_T)")
+        raise model.make_fault(f"{quote(model.value)} is not known (give MAPF or MAPF_T)")
     return model is None or bool(model.value == "MAPF_T")
 
 
@@ -201,12 +203,12 @@ def _count(count: Source | None) -> int:
 
 def _start(start: Source, changes: Mapping[str, Cell]) -> tuple[Cell, int]:
     """Return the first cell of an agent, and the number of its heading."""
-    parts = start.items()
+    parts = start.read_items()
     if len(parts) not in {2, 3}:
-        raise start.fault(f"{quote(start.value)} is no start (give [row, column, heading])")
-    heading = parts[2] if changes is HEADINGS and len(parts) > 2 else start.child(2, "E")  # noqa: PLR2004
+        raise start.make_fault(f"{quote(start.value)} is no start (give [row, column, heading])")
+    heading = parts[2] if changes is HEADINGS and len(parts) > 2 else start.make_child(2, "E")  # noqa: PLR2004
     if not isinstance(heading.value, str) or heading.value not in HEADINGS:
-        raise heading.fault(f"{quote(heading.value)} is no heading (give E, N, W or S)")
+        raise heading.make_fault(f"{quote(heading.value)} is no heading (give E, N, W or S)")
     return _cell(*parts[:2]), list(HEADINGS).index(heading.value)
 
 
@@ -260,11 +262,11 @@ def _counted(bare: str) -> tuple[list[str], list[int]]:
 def _errands(log: Source) -> Errands:
     """Return the errands that each agent finishes, in order, with their steps."""
     faults, places = Faults(), dict[tuple[int, int], Cell]()
-    for task in log.items_under("tasks"):
+    for task in log.read_items_under("tasks"):
         for number, cell in enumerate(faults.attempt("", _cells_of, task) or ()):
             places[task.value[0], number] = cell
     finished: list[tuple[int, int, tuple[int, int]]] = []  # step, agent, (task, number of errand)
-    for index, event in enumerate(log.items_under("events")):
+    for index, event in enumerate(log.read_items_under("events")):
         for row in faults.attempt("", _finished, event, index) or ():
             if row[2] in places:
                 finished.append(row)
@@ -280,12 +282,12 @@ def _errands(log: Source) -> Errands:
 
 def _cells_of(task: Source) -> list[Cell]:
     """Return the places of a task: [id, row, column], or [id, released, [row, column, …]]."""
-    parts = task.items()
+    parts = task.read_items()
     if len(parts) == 3 and type(parts[0].value) is int:  # noqa: PLR2004
-        numbers = parts[2].items() if isinstance(parts[2].value, list) else parts[1:]
+        numbers = parts[2].read_items() if isinstance(parts[2].value, list) else parts[1:]
         if len(numbers) % 2 == 0:
             return [_cell(*pair) for pair in zip(numbers[::2], numbers[1::2], strict=True)]
-    raise task.fault(f"{quote(task.value)} is no task (give [id, step, [row, column, …]])")
+    raise task.make_fault(f"{quote(task.value)} is no task (give [id, step, [row, column, …]])")
 
 
 def _finished(source: Source, agent: int) -> Iterator[tuple[int, int, tuple[int, int]]]:
@@ -298,7 +300,7 @@ def _finished(source: Source, agent: int) -> Iterator[tuple[int, int, tuple[int,
     if isinstance(event, list) and event and type(event[0]) is int:
         if len(event) != 4 or not all(type(number) is int for number in event):  # noqa: PLR2004
             message = f"{quote(event)} is no event (give [step, agent, task, errands finished])"
-            raise source.fault(message)
+            raise source.make_fault(message)
         step, agent, task, count = event
         if count > 0:
             yield step, agent, (task, count - 1)
@@ -306,7 +308,7 @@ def _finished(source: Source, agent: int) -> Iterator[tuple[int, int, tuple[int,
     for row in event if isinstance(event, list) else [event]:
         is_event = isinstance(row, list) and len(row) == 3  # noqa: PLR2004
         if not (is_event and type(row[0]) is type(row[1]) is int):
-            raise source.fault(f'{quote(row)} is no event (give [task, step, "finished"])')
+            raise source.make_fault(f'{quote(row)} is no event (give [task, step, "finished"])')
         if row[2] == "finished":
             yield row[1], agent, (row[0], 0)
 
@@ -321,7 +323,7 @@ def write(plan: Plan) -> str:
     InputError
         If the roadmap is no grid.
     """
-    cells = cells_of_plan(plan)
+    cells = make_cells(plan)
     names = {move: action for action, move in MOVES.items()} | {(0, 0): "W"}
     steps = zip(np.diff(cells.rows).tolist(), np.diff(cells.columns).tolist(), strict=True)
     paths = [",".join(names.get(move, "W") for move in zip(*moves, strict=True)) for moves in steps]
@@ -340,7 +342,7 @@ def write(plan: Plan) -> str:
         "actionModel": "MAPF",
         "AllValid": "Yes",
         "teamSize": len(paths),
-        "start": [[*next(cells.path(robot)), "N/A"] for robot in range(len(paths))],
+        "start": [[*next(cells.list_cells(robot)), "N/A"] for robot in range(len(paths))],
         "numTaskFinished": len(tasks),
         "sumOfCost": sum(int(track.enter[-1]) for track in plan.tracks),
         "makespan": max(int(track.enter[-1]) for track in plan.tracks),
@@ -357,10 +359,10 @@ def write(plan: Plan) -> str:
 def _served(plan: Plan, robot: int) -> Sequence[int]:
     """Return when each stop of a robot is done [ticks]."""
     itinerary, track = plan.scenario.problem.itineraries[robot], plan.tracks[robot]
-    drive = drives_along(plan.scenario.roadmap, itinerary, track.vertices.tolist())
-    turns = turns_along(plan.scenario.roadmap, itinerary, track.vertices)
+    drive = compute_drives_along(plan.scenario.roadmap, itinerary, track.vertices.tolist())
+    turns = compute_turns_along(plan.scenario.roadmap, itinerary, track.vertices)
     spare = np.append(np.diff(track.enter) - drive - turns[:-1], MAX_STEP)
-    serves = serving_visits(itinerary.stages, track.vertices, spare)
+    serves = find_serving_visits(itinerary.stages, track.vertices, spare)
     return [
         int(track.enter[visit]) + stage.work
         for visit, stage in zip(serves, itinerary.stages, strict=False)

@@ -24,11 +24,11 @@ from rightofway.io.foreign.trajectories import (
     ForeignPlan,
     Trajectory,
     Visits,
-    cells_of_plan,
-    visits_of,
+    make_cells,
+    make_visits,
 )
 from rightofway.io.source import Source
-from rightofway.io.text import json_line, parse_yaml
+from rightofway.io.text import format_json_line, parse_yaml
 from rightofway.model import Plan
 
 
@@ -46,10 +46,10 @@ def read(text: str) -> ForeignPlan:
         For agents without a list of {x, y, t}, and times out of order.
     """
     schedule = Source(parse_yaml(text)).need("schedule")
-    if not schedule.mapping():
-        raise schedule.fault("has no agent (give each agent a list of {x, y, t})")
+    if not schedule.read_mapping():
+        raise schedule.make_fault("has no agent (give each agent a list of {x, y, t})")
     faults, agents = Faults(), list[Trajectory]()
-    for key, states in schedule.entries():
+    for key, states in schedule.read_entries():
         name = str(key)
         visits = faults.attempt("", _visits, name, states)
         if visits:
@@ -61,10 +61,10 @@ def read(text: str) -> ForeignPlan:
 
 def _visits(name: str, states: Source) -> Visits:
     if not is_printable(name):
-        raise states.fault(f"{quote(name)} is no name (give characters that can be printed)")
+        raise states.make_fault(f"{quote(name)} is no name (give characters that can be printed)")
     faults, cells, steps = Faults(), list[Cell](), list[int]()
     latest = -1
-    for state in states.items():
+    for state in states.read_items():
         numbers = faults.attempt("", _numbers, state)
         if numbers is None:
             continue
@@ -77,8 +77,8 @@ def _visits(name: str, states: Source) -> Visits:
         steps.append(t)
     faults.stop()
     if not cells:
-        raise states.fault("is empty (give a list of {x, y, t})")
-    own, visits = visits_of(cells)
+        raise states.make_fault("is empty (give a list of {x, y, t})")
+    own, visits = make_visits(cells)
     return own, np.array(steps, np.int64)[visits]
 
 
@@ -95,10 +95,12 @@ def write(plan: Plan) -> str:
     InputError
         If the roadmap is no grid.
     """
-    cells_at = cells_of_plan(plan)
+    cells_at = make_cells(plan)
     lines = ["schedule:"]
     for robot, (name, track) in enumerate(zip(cells_at.names, plan.tracks, strict=True)):
-        lines.append(f"  {json_line(name)}:")
-        for t, (row, column) in enumerate(list(cells_at.path(robot))[: int(track.enter[-1]) + 1]):
+        lines.append(f"  {format_json_line(name)}:")
+        for t, (row, column) in enumerate(
+            list(cells_at.list_cells(robot))[: int(track.enter[-1]) + 1]
+        ):
             lines.append(f"    - {{x: {column}, y: {row}, t: {t}}}")
     return "\n".join(lines) + "\n"

@@ -66,7 +66,7 @@ class Trajectory:
     lines: Sequence[int] = ()
     stops: Sequence[Cell] = ()
 
-    def location_of(self, step: int) -> Location:
+    def find_location(self, step: int) -> Location:
         """Return where a step stands in the file."""
         return Location(line=self.lines[step]) if self.lines else self.location
 
@@ -90,7 +90,7 @@ class ForeignPlan:
     steps_per_move: int = 1
 
 
-def visits_of(cells: Sequence[Cell] | NDArray[np.int64]) -> Visits:
+def make_visits(cells: Sequence[Cell] | NDArray[np.int64]) -> Visits:
     """Return the visits of an agent that is at these cells, step by step."""
     given = np.array(cells, np.int64).reshape(-1, 2)
     moves = np.flatnonzero((np.diff(given, axis=0) != 0).any(axis=1)) + 1
@@ -168,7 +168,7 @@ def _name_agent(fault: InputFault, foreign: ForeignPlan) -> InputFault:
     starts: dict[Steps, Where] = {
         ("robots", index): replace(where, path=(*where.path, agent.name))
         for index, agent in enumerate(foreign.agents)
-        for where in [agent.location_of(0)]
+        for where in [agent.find_location(0)]
     }
     return fault.relocate(starts)
 
@@ -194,7 +194,7 @@ def _refuse_walls(foreign: ForeignPlan, lines: Sequence[str]) -> None:
             if not inside[first]:
                 where = f"is outside {free.shape[0]} rows and {free.shape[1]} columns"
             entered = f"{agent.name} enters [{row}, {column}] at step {step}"
-            faults.note(agent.location_of(step), f"{entered}, which {where} (give its own map)")
+            faults.note(agent.find_location(step), f"{entered}, which {where} (give its own map)")
     if wrong > FEW:
         faults.note("", f"{wrong - FEW} more agents leave the map (give the map of this plan)")
     faults.stop()
@@ -227,13 +227,13 @@ class CellsOfPlan:
     columns: NDArray[np.int32]
     goals: Sequence[Cell]
 
-    def path(self, robot: int) -> Iterator[Cell]:
+    def list_cells(self, robot: int) -> Iterator[Cell]:
         """Return the cells of a robot, tick by tick."""
         rows, columns = self.rows[robot].tolist(), self.columns[robot].tolist()
         return zip(rows, columns, strict=True)
 
 
-def cells_of_plan(plan: Plan) -> CellsOfPlan:
+def make_cells(plan: Plan) -> CellsOfPlan:
     """Return the cells of a plan on a grid, for the writers of other programs' files.
 
     Raises

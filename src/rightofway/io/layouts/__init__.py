@@ -13,34 +13,34 @@ if TYPE_CHECKING:
         LayoutFormat,
         describe_layout,
         is_layout,
-        layout_formats,
+        list_layout_formats,
         read_layout,
         refuse_layout,
     )
-    from rightofway.io.layouts.graph import layout_of_graph
-    from rightofway.io.layouts.writing import LAYOUT_WRITERS, layout_text
+    from rightofway.io.layouts.graph import make_layout_of_graph
+    from rightofway.io.layouts.writing import LAYOUT_WRITERS, format_layout
 
 _MODULES = {
     "formats": (
         "LayoutFormat",
         "describe_layout",
         "is_layout",
-        "layout_formats",
+        "list_layout_formats",
         "read_layout",
         "refuse_layout",
     ),
-    "graph": ("layout_of_graph",),
-    "writing": ("LAYOUT_WRITERS", "layout_text"),
+    "graph": ("make_layout_of_graph",),
+    "writing": ("LAYOUT_WRITERS", "format_layout"),
 }
 
 __all__ = [
     "LAYOUT_WRITERS",
     "LayoutFormat",
     "describe_layout",
+    "format_layout",
     "is_layout",
-    "layout_formats",
-    "layout_of_graph",
-    "layout_text",
+    "list_layout_formats",
+    "make_layout_of_graph",
     "read_layout",
     "refuse_layout",
 ]

@@ -24,8 +24,8 @@ def add_vertex(level: LevelDraft, own: Source, name: str, at: Point) -> None:
     vertex = LayoutVertex(
         name=name,
         at=at,
-        is_parking=parking is not None and parking.flag(),
-        is_charging=charging is not None and charging.flag(),
+        is_parking=parking is not None and parking.read_flag(),
+        is_charging=charging is not None and charging.read_flag(),
     )
     level.add(vertex, own)
 

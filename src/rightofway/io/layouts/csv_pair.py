@@ -50,12 +50,12 @@ def read(text: str, path: Path) -> Layout:
                             str(beside))  # fmt: skip
     nodes, edges = (text, other) if "x" in _headings(text) else (other, text)
     draft = LayoutDraft("CSV pair")
-    level = draft.level()
+    level = draft.begin_level()
     for row in _rows(nodes):
         draft.faults.attempt("", _add_node, level, row)
     for row in _rows(edges):
         draft.faults.attempt("", _add_edge, level, row)
-    return draft.layout()
+    return draft.make_layout()
 
 
 def _beside(path: Path, is_nodes: bool) -> Path:
@@ -96,10 +96,10 @@ def _rows(text: str) -> Iterator[Source]:
 
 def _add_node(level: LevelDraft, row: Source) -> None:
     at = row.need("x").number(), row.need("y").number()
-    add_vertex(level, row, row.need(*NAMES).text(), at)
+    add_vertex(level, row, row.need(*NAMES).read_text(), at)
 
 
 def _add_edge(level: LevelDraft, row: Source) -> None:
     both = row.get("both_ways", "bidirectional")
-    ends = row.need(*TAILS).text(), row.need(*HEADS).text()
-    add_lanes(level, row, *ends, both is not None and both.flag())
+    ends = row.need(*TAILS).read_text(), row.need(*HEADS).read_text()
+    add_lanes(level, row, *ends, both is not None and both.read_flag())

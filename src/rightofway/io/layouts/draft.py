@@ -83,18 +83,18 @@ class LevelDraft:
         """Take a vertex; InputError if its name is taken, or there are too many."""
         if vertex.name in self.vertices:
             message = f"a vertex is named {quote(vertex.name)} already (rename one)"
-            raise source.fault(message)
+            raise source.make_fault(message)
         if any(MICRO % number.denominator for number in vertex.at):
             x, y = (Fraction(round(number * MICRO), MICRO) for number in vertex.at)
             vertex = replace(vertex, at=(x, y))
         if len(self.vertices) == MAX_VERTICES:
-            raise source.fault(f"more than {MAX_VERTICES} vertices (give a part of it)")
+            raise source.make_fault(f"more than {MAX_VERTICES} vertices (give a part of it)")
         self.vertices[vertex.name] = vertex
 
     def connect(self, lane: DraftLane) -> None:
         """Take a lane; InputError if there are too many."""
         if len(self.lanes) == MAX_EDGES:
-            raise lane.source.fault(f"more than {MAX_EDGES} lanes (give a part of it)")
+            raise lane.source.make_fault(f"more than {MAX_EDGES} lanes (give a part of it)")
         self.lanes.append(lane)
 
 
@@ -142,7 +142,7 @@ class LayoutDraft:
         self.levels: list[LevelDraft] = []
         self.repairs: Counter[Phrase] = Counter()
 
-    def level(self, name: str = "") -> LevelDraft:
+    def begin_level(self, name: str = "") -> LevelDraft:
         """Begin a level; InputError for a name that cannot be shown."""
         if name and not (is_printable(name) and len(name) <= LONGEST_NAME):
             raise InputError.at("levels", f"{quote(name)} is no name (give printable text)")
@@ -153,7 +153,7 @@ class LayoutDraft:
         """Note that something was mended or left out; equal notes are say_count."""
         self.repairs[mending] += 1
 
-    def layout(self) -> Layout:
+    def make_layout(self) -> Layout:
         """Return the layout.
 
         Raises

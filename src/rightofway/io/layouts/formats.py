@@ -14,7 +14,7 @@ from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, Location, join_names, name_file
 from rightofway.io.layouts import csv_pair, graphml, lif, nav2, open_rmf, opentcs, ros_map
 from rightofway.io.layouts.xml_tree import Element, parse_xml
-from rightofway.io.locations import lines_of
+from rightofway.io.locations import add_lines
 from rightofway.io.movingai import load_map
 from rightofway.io.text import is_regular, parse_json, parse_yaml, read_text, refuse_long
 from rightofway.phrases import Phrase, say_count
@@ -100,7 +100,7 @@ def _own() -> dict[str, LayoutFormat]:
 
 
 @cache
-def layout_formats() -> dict[str, LayoutFormat]:
+def list_layout_formats() -> dict[str, LayoutFormat]:
     """Return the formats of layouts by name: ours, and those of other packages."""
     from importlib.metadata import entry_points  # here, because it imports much
 
@@ -117,7 +117,7 @@ def read_layout(path: Path | str) -> Layout | Occupancy | CellMap:
     Parameters
     ----------
     path
-        A file in one of the `layout_formats`.
+        A file in one of the `list_layout_formats`.
 
     Raises
     ------
@@ -130,11 +130,11 @@ def read_layout(path: Path | str) -> Layout | Occupancy | CellMap:
         text = read_text(path)
         opened = _open(text)
         if opened is None:
-            message = f"this is no layout (known: {', '.join(layout_formats())})"
+            message = f"this is no layout (known: {', '.join(list_layout_formats())})"
             raise InputError.at("", message)
         format_of, content = opened
         try:
-            with lines_of(text) if format_of.content == "data" else nullcontext():
+            with add_lines(text) if format_of.content == "data" else nullcontext():
                 return format_of.read(content, path)
         except RecursionError:
             raise InputError.at("", "it is nested too deeply (is it the right file?)") from None
@@ -233,7 +233,7 @@ def describe_layout(layout: Layout | Occupancy | CellMap) -> str:
 def _open(text: str) -> tuple[LayoutFormat, Any] | None:
     """Return the format of a text and its content, or None for a text in no format."""
     refuse_long(text)
-    formats = layout_formats().values()
+    formats = list_layout_formats().values()
     start = text.lstrip()[:1]
     texts = (
         layout_format

@@ -12,7 +12,7 @@ from rightofway.site.geometry import Point
 from rightofway.site.layout import Layout
 
 
-def layout_of_graph(graph: Any) -> Layout:
+def make_layout_of_graph(graph: Any) -> Layout:
     """Return the layout of a graph, in metres and metres per second, with y upwards.
 
     Parameters
@@ -36,13 +36,13 @@ def layout_of_graph(graph: Any) -> Layout:
     >>> graph.add_node("dock", x=0, y=0, charging=True)
     >>> graph.add_node("shelf", pos=(3, 4))
     >>> graph.add_edge("dock", "shelf", max_speed=0.5)
-    >>> layout_of_graph(graph).levels[0].edges[0].length
+    >>> make_layout_of_graph(graph).levels[0].edges[0].length
     Fraction(5, 1)
     """
     if not all(hasattr(graph, name) for name in ("nodes", "edges", "is_directed")):
         raise InputError.at("graph", f"{quote(graph)} is no graph (give a networkx graph)")
     draft = LayoutDraft("networkx graph")
-    level, both_ways = draft.level(), not graph.is_directed()
+    level, both_ways = draft.begin_level(), not graph.is_directed()
     for node, data in graph.nodes(data=True):
         name = f"node {quote(str(node))}"
         draft.faults.attempt("", _add_node, level, node, Source(dict(data), (name,)))
@@ -50,11 +50,11 @@ def layout_of_graph(graph: Any) -> Layout:
         name = f"edge {quote(str(tail))} to {quote(str(head))}"
         own, ends = Source(dict(data), (name,)), (str(tail), str(head))
         draft.faults.attempt("", add_lanes, level, own, *ends, both_ways)
-    return draft.layout()
+    return draft.make_layout()
 
 
 def _add_node(level: LevelDraft, node: object, own: Source) -> None:
-    name = Source(str(node), own.path).text()
+    name = Source(str(node), own.path).read_text()
     add_vertex(level, own, name, _position(node, own))
 
 
@@ -63,6 +63,6 @@ def _position(node: Any, own: Source) -> Point:
     if own.get("x") and own.get("y"):
         return own.need("x").number(), own.need("y").number()
     if isinstance(pair.value, str) or not hasattr(pair.value, "__len__") or len(pair.value) != 2:  # noqa: PLR2004
-        raise own.fault(f"has no position (give x and y, or {PAIRS[0]}=(x, y))")
+        raise own.make_fault(f"has no position (give x and y, or {PAIRS[0]}=(x, y))")
     x, y = pair.value
-    return pair.child(0, x).number(), pair.child(1, y).number()
+    return pair.make_child(0, x).number(), pair.make_child(1, y).number()

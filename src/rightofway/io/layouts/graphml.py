@@ -28,29 +28,29 @@ def read(root: Element) -> Layout:
         With every node without coordinates, and every edge that leads nowhere.
     """
     draft = LayoutDraft("GraphML graph")
-    level = draft.level()
-    keys = {key.need("id").value: key.need("attr.name", "id").value for key in root.all("key")}
-    for graph in root.all("graph"):
+    level = draft.begin_level()
+    keys = {key.need("id").value: key.need("attr.name", "id").value for key in root.list_all("key")}
+    for graph in root.list_all("graph"):
         is_directed = graph.value.get("edgedefault") != "undirected"
-        for node in graph.descendants("node"):
+        for node in graph.list_descendants("node"):
             draft.faults.attempt("", _add_node, level, node, keys, draft)
-        for edge in graph.descendants("edge"):
+        for edge in graph.list_descendants("edge"):
             draft.faults.attempt("", _add_edge, level, edge, keys, is_directed)
-    return draft.layout()
+    return draft.make_layout()
 
 
 def _attributes(element: Element, keys: dict[str, str]) -> Source:
     """Return the values of an element by name in lower case; a key that is not declared counts."""
     attributes = {key.lower(): value for key, value in element.value.items()}
-    for data in element.all("data"):
+    for data in element.list_all("data"):
         key = data.need("key").value
         attributes[keys.get(key, key).lower()] = data.content.strip() or None
     return Source(attributes, element.path, element.line)
 
 
 def _add_node(level: LevelDraft, node: Element, keys: dict[str, str], draft: LayoutDraft) -> None:
-    own, name = _attributes(node, keys), node.need("id").text()
-    drawn, pair = next(node.descendants("Geometry"), None), own.get(*PAIRS)
+    own, name = _attributes(node, keys), node.need("id").read_text()
+    drawn, pair = next(node.list_descendants("Geometry"), None), own.get(*PAIRS)
     if own.get("x") and own.get("y"):
         at = own.need("x").number(), own.need("y").number()
     elif pair is not None:
@@ -61,7 +61,7 @@ def _add_node(level: LevelDraft, node: Element, keys: dict[str, str], draft: Lay
         at = drawn.need("x").number() + half[0], -drawn.need("y").number() - half[1]
     else:
         known = ", ".join(("x and y", *PAIRS))
-        raise node.fault(f"the node {quote(name)} has no coordinates (give one of {known})")
+        raise node.make_fault(f"the node {quote(name)} has no coordinates (give one of {known})")
     add_vertex(level, own, name, at)
 
 
@@ -69,12 +69,15 @@ def _pair(pair: Source) -> Point:
     """Return the point of a text like ``70,182`` or ``(70, 182)``."""
     numbers = re.split(r"[,;\s]+", pair.value.strip("()[] \t\n"))
     if len(numbers) not in {2, 3}:
-        raise pair.fault(f"{quote(pair.value)} is no point (give x,y)")
-    return pair.child(0, numbers[0]).number(), pair.child(1, numbers[1]).number()
+        raise pair.make_fault(f"{quote(pair.value)} is no point (give x,y)")
+    return pair.make_child(0, numbers[0]).number(), pair.make_child(1, numbers[1]).number()
 
 
 def _add_edge(level: LevelDraft, edge: Element, keys: dict[str, str], is_directed: bool) -> None:
-    own, ends = _attributes(edge, keys), (edge.need("source").text(), edge.need("target").text())
+    own, ends = (
+        _attributes(edge, keys),
+        (edge.need("source").read_text(), edge.need("target").read_text()),
+    )
     directed = own.get("directed")
-    is_one_way = is_directed if directed is None else directed.flag()
+    is_one_way = is_directed if directed is None else directed.read_flag()
     add_lanes(level, own, *ends, not is_one_way)

@@ -59,24 +59,24 @@ def read(document: Any) -> Layout:
     draft, root = LayoutDraft("LIF layout"), Source(document)
     for _ in _numbers_as_text(document):
         draft.repair(Phrase("a number is written as text"))
-    origins = [root] if root.get("origins") is None else root.need("origins").items()
-    layouts = [layout for origin in origins for layout in origin.need("layouts").items()]
+    origins = [root] if root.get("origins") is None else root.need("origins").read_items()
+    layouts = [layout for origin in origins for layout in origin.need("layouts").read_items()]
     for part, name in zip(layouts, _level_names(layouts), strict=True):
-        level = draft.level(name)
-        for node in part.need("nodes").items():
+        level = draft.begin_level(name)
+        for node in part.need("nodes").read_items():
             draft.faults.attempt("", _add_node, level, node)
         for edge in _items(part, "edges", draft):
             draft.faults.attempt("", _add_edge, level, edge, draft)
         for station in _items(part, "stations", draft):
             draft.faults.attempt("", _add_station, level, station)
-    return draft.layout()
+    return draft.make_layout()
 
 
 def _level_names(layouts: list[Source]) -> list[str]:
     """Return the levels' names where they differ, else the layouts' names."""
     for key in ("layoutLevelId", "layoutId"):
         layout_names = [layout.get(key) for layout in layouts]
-        names = [part.text() for part in layout_names if part is not None]
+        names = [part.read_text() for part in layout_names if part is not None]
         if len(set(names)) == len(layouts):
             return names
     return [str(number) for number in range(1, len(layouts) + 1)]
@@ -87,7 +87,7 @@ def _items(part: Source, key: str, draft: LayoutDraft) -> list[Source]:
     if value is None:
         draft.repair(Phrase("the list of {key} is missing and counts as empty", key=key))
         return []
-    return value.items()
+    return value.read_items()
 
 
 def _numbers_as_text(value: Any, is_number: bool = False) -> Iterator[str]:
@@ -103,15 +103,15 @@ def _numbers_as_text(value: Any, is_number: bool = False) -> Iterator[str]:
 
 
 def _add_node(level: LevelDraft, node: Source) -> None:
-    name, at = node.need("nodeId").text(), node.need("nodePosition")
+    name, at = node.need("nodeId").read_text(), node.need("nodePosition")
     level.add(
         LayoutVertex(
             name=name,
             at=(at.need("x").number(), at.need("y").number()),
             is_charging=any(
                 action.value.get("actionType") == CHARGING
-                for own in node.items_under(*NODE_PROPERTIES)
-                for action in own.items_under(*ACTIONS)
+                for own in node.read_items_under(*NODE_PROPERTIES)
+                for action in own.read_items_under(*ACTIONS)
                 if isinstance(action.value, dict)
             ),
         ),
@@ -120,8 +120,8 @@ def _add_node(level: LevelDraft, node: Source) -> None:
 
 
 def _add_edge(level: LevelDraft, edge: Source, draft: LayoutDraft) -> None:
-    tail, head = edge.need("startNodeId").text(), edge.need("endNodeId").text()
-    own = edge.items_under(*EDGE_PROPERTIES)
+    tail, head = edge.need("startNodeId").read_text(), edge.need("endNodeId").read_text()
+    own = edge.read_items_under(*EDGE_PROPERTIES)
     if not own:
         draft.repair(Phrase("an edge without a vehicle type is free for all"))
         level.connect(DraftLane(source=edge, tail=tail, head=head))
@@ -149,8 +149,8 @@ def _types(own: Source) -> list[str]:
     """Return the vehicle types that properties are for: an id, or series of robots."""
     series = own.get("mobileRobotTypes")
     if series is None:
-        return [own.need("vehicleTypeId").text()]
-    return [robot_type.need("seriesName").text() for robot_type in series.items()]
+        return [own.need("vehicleTypeId").read_text()]
+    return [robot_type.need("seriesName").read_text() for robot_type in series.read_items()]
 
 
 def _curve(own: Source, draft: LayoutDraft) -> Curve:
@@ -160,7 +160,7 @@ def _curve(own: Source, draft: LayoutDraft) -> Curve:
         return (), Fraction(0)
     try:
         nurbs = _nurbs(trajectory)
-        pieces = nurbs.pieces()
+        pieces = nurbs.cut_pieces()
     except (InputError, ValueError):
         draft.repair(Phrase("a trajectory that cannot be read: its edge counts as straight"))
         return (), Fraction(0)
@@ -174,8 +174,8 @@ def _curve(own: Source, draft: LayoutDraft) -> Curve:
 
 def _nurbs(trajectory: Source) -> Nurbs:
     degree = trajectory.get("degree")
-    controls = trajectory.need("controlPoints").items()
-    knots = [float(knot.number()) for knot in trajectory.need("knotVector").items()]
+    controls = trajectory.need("controlPoints").read_items()
+    knots = [float(knot.number()) for knot in trajectory.need("knotVector").read_items()]
     weights = (control.get("weight") for control in controls)
     return Nurbs(
         degree=1 if degree is None else int(degree.number()),
@@ -188,5 +188,7 @@ def _nurbs(trajectory: Source) -> Nurbs:
 
 
 def _add_station(level: LevelDraft, station: Source) -> None:
-    nodes = [node.text() for node in station.need("interactionNodeIds").items()]
-    level.stations.append(Station(name=station.need("stationId").text(), vertices=tuple(nodes)))
+    nodes = [node.read_text() for node in station.need("interactionNodeIds").read_items()]
+    level.stations.append(
+        Station(name=station.need("stationId").read_text(), vertices=tuple(nodes))
+    )

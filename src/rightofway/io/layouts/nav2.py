@@ -36,10 +36,10 @@ def read(document: Any) -> Layout:
         With every feature that is not a node and no edge.
     """
     draft = LayoutDraft("Nav2 route graph")
-    level = draft.level()
-    for feature in Source(document).need("features").items():
+    level = draft.begin_level()
+    for feature in Source(document).need("features").read_items():
         draft.faults.attempt("", _add, level, feature, draft)
-    return draft.layout()
+    return draft.make_layout()
 
 
 def _add(level: LevelDraft, feature: Source, draft: LayoutDraft) -> None:
@@ -47,12 +47,12 @@ def _add(level: LevelDraft, feature: Source, draft: LayoutDraft) -> None:
     kind = geometry.need("type")
     if kind.value == "Point":
         x, y = _point(geometry.need("coordinates"))
-        level.add(LayoutVertex(name=own.need("id").text(), at=(x, y)), feature)
+        level.add(LayoutVertex(name=own.need("id").read_text(), at=(x, y)), feature)
     elif kind.value in LINES:
         _add_edge(level, feature, draft)
     else:
         known = ", ".join(("Point", *LINES))
-        raise kind.fault(f"{quote(kind.value)} is no node and no edge (give one of {known})")
+        raise kind.make_fault(f"{quote(kind.value)} is no node and no edge (give one of {known})")
 
 
 def _add_edge(level: LevelDraft, feature: Source, draft: LayoutDraft) -> None:
@@ -72,8 +72,8 @@ def _add_edge(level: LevelDraft, feature: Source, draft: LayoutDraft) -> None:
     level.connect(
         DraftLane(
             source=feature,
-            tail=own.need("startid").text(),
-            head=own.need("endid").text(),
+            tail=own.need("startid").read_text(),
+            head=own.need("endid").read_text(),
             max_speed=max_speed,
             shape=_shape(feature.need("geometry"), draft),
         )
@@ -86,9 +86,9 @@ def _shape(geometry: Source, draft: LayoutDraft) -> tuple[Point, ...]:
     if coordinates is None:
         return ()
     try:
-        points = coordinates.items()
-        if any(isinstance(number.value, list) for point in points for number in point.items()):
-            points = [point for line in points for point in line.items()]
+        points = coordinates.read_items()
+        if any(isinstance(number.value, list) for point in points for number in point.read_items()):
+            points = [point for line in points for point in line.read_items()]
         return tuple(_point(point) for point in points)[1:-1]
     except InputError:
         draft.repair(Phrase("the drawing of an edge cannot be read: it is drawn straight"))
@@ -96,7 +96,7 @@ def _shape(geometry: Source, draft: LayoutDraft) -> tuple[Point, ...]:
 
 
 def _point(part: Source) -> Point:
-    numbers = part.items()
+    numbers = part.read_items()
     if len(numbers) not in {2, 3}:
-        raise part.fault(f"{quote(part.value)} is no point (give [x, y])")
+        raise part.make_fault(f"{quote(part.value)} is no point (give [x, y])")
     return numbers[0].number(), numbers[1].number()

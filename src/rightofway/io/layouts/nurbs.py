@@ -68,11 +68,11 @@ class Nurbs:
         if (self.weights <= 0).any():
             raise ValueError("a weight is not positive")
 
-    def at(self, parameters: NDArray[np.float64]) -> Points:
+    def compute_points(self, parameters: NDArray[np.float64]) -> Points:
         """Return the points of the curve at some parameters; shape (m, 2)."""
         if len(parameters) > BLOCK:  # or the functions of all of them would fill the memory
             blocks = range(0, len(parameters), BLOCK)
-            return np.concatenate([self.at(parameters[k : k + BLOCK]) for k in blocks])
+            return np.concatenate([self.compute_points(parameters[k : k + BLOCK]) for k in blocks])
         knots, n = self.knots, len(self.points)
         span = np.clip(np.searchsorted(knots, parameters, side="right") - 1, self.degree, n - 1)
         basis = np.zeros((len(parameters), len(knots) - 1))
@@ -86,12 +86,12 @@ class Nurbs:
         points: Points = weighted @ self.points / weighted.sum(axis=1)[:, None]
         return points
 
-    def reversed(self) -> Nurbs:
+    def reverse(self) -> Nurbs:
         """Return the curve driven back."""
         knots = self.knots[0] + self.knots[-1] - self.knots[::-1]
         return replace(self, knots=knots, points=self.points[::-1], weights=self.weights[::-1])
 
-    def pieces(self, chord_error: float = CHORD_ERROR) -> Points:
+    def cut_pieces(self, chord_error: float = CHORD_ERROR) -> Points:
         """Return the ends of straight pieces that stay within a chord error; shape (m, 2).
 
         Between corners, which are knots as often as the degree, pieces are equally long. A curve
@@ -103,23 +103,25 @@ class Nurbs:
             If that takes too many pieces.
         """
         if tuple(self.points[0]) > tuple(self.points[-1]):
-            return self.reversed().pieces(chord_error)[::-1]
+            return self.reverse().cut_pieces(chord_error)[::-1]
         inside = self.knots[self.degree : len(self.points) + 1]
         values, times = np.unique(inside, return_counts=True)
         ends = (values == inside[0]) | (values == inside[-1]) | (times >= self.degree)
-        samples = [self.at(inside[:1])]
+        samples = [self.compute_points(inside[:1])]
         for begin, end in pairwise(values[ends].tolist()):
-            samples.append(_cut(self.at(np.linspace(begin, end, SAMPLES)), chord_error)[1:])
+            samples.append(
+                _cut(self.compute_points(np.linspace(begin, end, SAMPLES)), chord_error)[1:]
+            )
         return np.concatenate(samples)
 
     def cut(self, count: int) -> Points:
         """Return the ends of some pieces that are equally long along the curve."""
         first, last = self.knots[self.degree], self.knots[len(self.points)]
-        samples = self.at(np.linspace(first, last, max(SAMPLES, 20 * count)))
+        samples = self.compute_points(np.linspace(first, last, max(SAMPLES, 20 * count)))
         return _ends(samples, _along(samples), count)[1]
 
 
-def bezier(points: Points) -> Nurbs:
+def make_bezier(points: Points) -> Nurbs:
     """Return a Bézier curve as a NURBS of one part."""
     knots = np.repeat([0.0, 1.0], len(points))
     return Nurbs(degree=len(points) - 1, knots=knots, points=points, weights=np.ones(len(points)))

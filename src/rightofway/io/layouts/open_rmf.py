@@ -53,27 +53,27 @@ def read(document: Any, path: Path) -> Layout:
     root = Source(document)
     is_building = any(
         len(vertex.value) > 2 and not isinstance(vertex.value[2], dict)  # noqa: PLR2004 - x, y
-        for _, level in root.need("levels").entries()
-        for vertex in level.items_under("vertices")[:1]
+        for _, level in root.need("levels").read_entries()
+        for vertex in level.read_items_under("vertices")[:1]
         if isinstance(vertex.value, list)
     )
     draft = LayoutDraft("Open-RMF building" if is_building else "Open-RMF navigation graph")
     transforms = _transforms(root, draft) if is_building else {}
-    for name, part in root.need("levels").entries():
-        level = draft.level(name)
+    for name, part in root.need("levels").read_entries():
+        level = draft.begin_level(name)
         _read_level(level, part, transforms.get(name), draft)
         if is_building and root.value.get("coordinate_system") in IN_PIXELS:
             level.picture = _picture(part, transforms[name], path.parent, draft)
     _note_lifts(root, draft)
-    return draft.layout()
+    return draft.make_layout()
 
 
 def _note_lifts(root: Source, draft: LayoutDraft) -> None:
     """Note that plans use no lift, and which levels there are to choose from."""
     lifts = root.get("lifts")
-    if lifts is None or not lifts.mapping():
+    if lifts is None or not lifts.read_mapping():
         return
-    names = [quote(name).strip("'") for name, _ in lifts.entries()]
+    names = [quote(name).strip("'") for name, _ in lifts.read_entries()]
     lifts_are = Phrase("the lift {lift} is", lift=names[0])
     if len(names) > 1:
         lifts_are = Phrase("the lifts {lifts} are", lifts=join_names(names))
@@ -127,9 +127,9 @@ def _read_level(
     groups: Groups = {}
     names = [
         draft.faults.attempt("", _add_vertex, level, vertex, index, transform, groups)
-        for index, vertex in enumerate(part.items_under("vertices"))
+        for index, vertex in enumerate(part.read_items_under("vertices"))
     ]
-    lanes = part.items_under("lanes")
+    lanes = part.read_items_under("lanes")
     owns = [draft.faults.attempt("", _own, lane, 2) or {} for lane in lanes]
     has_graphs = len({str(own.get("graph_idx", 0)) for own in owns}) > 1
     for lane in lanes:
@@ -143,27 +143,27 @@ def _read_level(
 
 def _own(item: Source, at: int) -> dict[str, Any]:
     """Return the parameters of a vertex or lane; those of a building are [type, value]."""
-    parameters = item.items()[at:]
+    parameters = item.read_items()[at:]
     if not parameters or parameters[0].value is None:
         return {}
     return {
         key: value[1] if isinstance(value, list) and len(value) == 2 else value  # noqa: PLR2004
-        for key, value in parameters[0].mapping().items()
+        for key, value in parameters[0].read_mapping().items()
         if not isinstance(value, dict)
     }
 
 
 def _name_in(own: dict[str, Any], key: str, item: Source) -> str:
     """Return a name among the parameters of a vertex or lane."""
-    return item.child(key, own[key]).text()
+    return item.make_child(key, own[key]).read_text()
 
 
 def _add_vertex(
     level: LevelDraft, vertex: Source, index: int, transform: Transform | None, groups: Groups
 ) -> str:
-    items = vertex.items()
+    items = vertex.read_items()
     if len(items) < 2:  # noqa: PLR2004 - x and y
-        raise vertex.fault("is no vertex (give [x, y, {name: …}])")
+        raise vertex.make_fault("is no vertex (give [x, y, {name: …}])")
     at = items[0].number(), items[1].number()
     if transform is None:
         own = _own(vertex, 2)
@@ -171,7 +171,7 @@ def _add_vertex(
     else:
         at, own = transform(at), _own(vertex, 4)
         given = items[3].value if len(items) > 3 else None  # noqa: PLR2004 - x, y, z, name
-    name = Source(given, vertex.path).text() if given else f"v{index}"
+    name = Source(given, vertex.path).read_text() if given else f"v{index}"
     if name in level.vertices:
         name = f"{name} (v{index})"
     level.add(
@@ -191,14 +191,14 @@ def _add_vertex(
 def _add_lane(
     level: LevelDraft, lane: Source, names: list[str | None], groups: Groups, has_graphs: bool
 ) -> None:
-    items = lane.items()
+    items = lane.read_items()
     if len(items) < 2:  # noqa: PLR2004 - from and to
-        raise lane.fault("is no lane (give [from, to, {…}])")
+        raise lane.make_fault("is no lane (give [from, to, {…}])")
     tail, head = (_vertex(item, names) for item in items[:2])
     if tail is None or head is None:
         return  # the vertex has a fault of its own
     own = _own(lane, 2)
-    speed = lane.child("speed_limit", own.get("speed_limit", 0)).number()
+    speed = lane.make_child("speed_limit", own.get("speed_limit", 0)).number()
     both = own.get("bidirectional") is True or own.get("is_bidirectional") is True
     own.setdefault("graph_idx", 0)
     types = frozenset([f"graph {_name_in(own, 'graph_idx', lane)}"]) if has_graphs else None
@@ -215,14 +215,14 @@ def _vertex(item: Source, names: list[str | None]) -> str | None:
     index = item.value
     if isinstance(index, bool) or not isinstance(index, int) or not 0 <= index < len(names):
         last = len(names) - 1
-        raise item.fault(f"{quote(index)} is no vertex (give a number from 0 to {last})")
+        raise item.make_fault(f"{quote(index)} is no vertex (give a number from 0 to {last})")
     return names[index]
 
 
 def _transforms(root: Source, draft: LayoutDraft) -> dict[str, Transform]:
     """Return for each level of a building how its points become metres of the site."""
     system = root.value.get("coordinate_system")
-    levels = dict(root.need("levels").entries())
+    levels = dict(root.need("levels").read_entries())
     if system in IN_METRES:
         return {name: lambda point: point for name in levels}
     if system not in IN_PIXELS:
@@ -268,34 +268,34 @@ def _transform_by(laid: tuple[complex, complex], scale: Fraction) -> Transform:
 
 def _scale(level: Source) -> Fraction | None:
     """Return the length of a pixel [m], the mean of all measurements; None without one."""
-    vertices, lengths = level.items_under("vertices"), list[float]()
-    for measurement in level.items_under("measurements"):
-        items = measurement.items()
+    vertices, lengths = level.read_items_under("vertices"), list[float]()
+    for measurement in level.read_items_under("measurements"):
+        items = measurement.read_items()
         ends = []
         for item in items[:2]:
             index = item.value
             if not isinstance(index, int) or not 0 <= index < len(vertices):
-                raise item.fault(f"{quote(index)} is no vertex (mend the measurement)")
-            x, y, *_ = [*vertices[index].items(), Source(0), Source(0)]
+                raise item.make_fault(f"{quote(index)} is no vertex (mend the measurement)")
+            x, y, *_ = [*vertices[index].read_items(), Source(0), Source(0)]
             ends.append((float(x.number()), float(y.number())))
         metres = Source(_own(measurement, 2).get("distance"), measurement.path).number()
         pixels = hypot(*(a - b for a, b in zip(*ends, strict=True))) if len(ends) == 2 else 0.0  # noqa: PLR2004
         if pixels <= 0 or metres <= 0:
-            raise measurement.fault("has no length (take it out)")
+            raise measurement.make_fault("has no length (take it out)")
         lengths.append(float(metres) / pixels)
     return Fraction(repr(sum(lengths) / len(lengths))) if lengths else None
 
 
 def _fiducials(level: Source) -> dict[str, complex]:
-    points, items = {}, level.items_under("fiducials")
+    points, items = {}, level.read_items_under("fiducials")
     if len(items) > MAX_FIDUCIALS:
         message = f"{len(items)} fiducials are more than {MAX_FIDUCIALS} (a few are enough)"
-        raise level.need("fiducials").fault(message)
+        raise level.need("fiducials").make_fault(message)
     for fiducial in items:
-        parts = fiducial.items()
+        parts = fiducial.read_items()
         if len(parts) < 3:  # noqa: PLR2004 - x, y, name
-            raise fiducial.fault("is no fiducial (give [x, y, name])")
-        points[parts[2].text()] = complex(float(parts[0].number()), float(parts[1].number()))
+            raise fiducial.make_fault("is no fiducial (give [x, y, name])")
+        points[parts[2].read_text()] = complex(float(parts[0].number()), float(parts[1].number()))
     return points
 
 

@@ -36,20 +36,20 @@ def read(root: Element) -> Layout:
     """
     _check_version(root)
     draft = LayoutDraft("openTCS plant model")
-    level = draft.level()
+    level = draft.begin_level()
     paths: dict[str, list[tuple[str, str]]] = {}
-    for point in root.all("point"):
+    for point in root.list_all("point"):
         draft.faults.attempt("", _add_point, level, point)
-    for path in root.all("path"):
+    for path in root.list_all("path"):
         draft.faults.attempt("", _add_path, level, path, paths, draft)
     chargers = {
         kind.value.get("name")
-        for kind in root.all("locationType")
-        for operation in kind.all("allowedOperation")
+        for kind in root.list_all("locationType")
+        for operation in kind.list_all("allowedOperation")
         if "charge" in operation.need("name").value.lower()
     }
     charging: set[str] = set()
-    for location in root.all("location"):
+    for location in root.list_all("location"):
         points = draft.faults.attempt("", _add_location, level, location, draft) or []
         if location.value.get("type") in chargers:
             charging.update(points)
@@ -57,23 +57,23 @@ def read(root: Element) -> Layout:
         name: replace(vertex, is_charging=True) if name in charging else vertex
         for name, vertex in level.vertices.items()
     }
-    for block in root.all("block"):
+    for block in root.list_all("block"):
         draft.faults.attempt("", _add_block, level, block, paths, draft)
-    return draft.layout()
+    return draft.make_layout()
 
 
 def _check_version(root: Element) -> None:
     version = root.value.get("version")
     if version is None or (version not in VERSIONS and not version.startswith(("6.", "7."))):
         message = f"a plant model of version {quote(version)} (open and save it with openTCS 6)"
-        raise root.fault(message)
+        raise root.make_fault(message)
 
 
 def _add_point(level: LevelDraft, point: Element) -> None:
     x, y = (point.need(*keys).number() for keys in (X, Y))
     level.add(
         LayoutVertex(
-            name=point.need("name").text(),
+            name=point.need("name").read_text(),
             at=(x * MILLIMETRE, y * MILLIMETRE),
             is_parking=point.value.get("type") == "PARK_POSITION",
         ),
@@ -84,8 +84,8 @@ def _add_point(level: LevelDraft, point: Element) -> None:
 def _add_path(
     level: LevelDraft, path: Element, paths: dict[str, list[tuple[str, str]]], draft: LayoutDraft
 ) -> None:
-    tail, head = path.need("sourcePoint").text(), path.need("destinationPoint").text()
-    lanes = paths.setdefault(path.need("name").text(), [])
+    tail, head = path.need("sourcePoint").read_text(), path.need("destinationPoint").read_text()
+    lanes = paths.setdefault(path.need("name").read_text(), [])
     if path.value.get("locked") == "true":
         draft.repair(Phrase("a locked path is left out"))
         return
@@ -107,23 +107,23 @@ def _add_path(
 
 def _add_location(level: LevelDraft, location: Element, draft: LayoutDraft) -> list[str]:
     """Add a location as a station, and return its points."""
-    points = [link.need("point").text() for link in location.all("link")]
+    points = [link.need("point").read_text() for link in location.list_all("link")]
     if location.value.get("locked") == "true":
         draft.repair(Phrase("a locked location is left out"))
         return []
-    level.stations.append(Station(name=location.need("name").text(), vertices=tuple(points)))
+    level.stations.append(Station(name=location.need("name").read_text(), vertices=tuple(points)))
     return points
 
 
 def _add_block(
     level: LevelDraft, block: Element, paths: dict[str, list[tuple[str, str]]], draft: LayoutDraft
 ) -> None:
-    members = [member.need("name").text() for member in block.all("member")]
+    members = [member.need("name").read_text() for member in block.list_all("member")]
     if block.value.get("type") == "SAME_DIRECTION_ONLY":
         draft.repair(Phrase("a block of SAME_DIRECTION_ONLY counts as one for a single robot"))
     level.zones.append(
         NamedZone(
-            name=block.need("name").text(),
+            name=block.need("name").read_text(),
             vertices=tuple(name for name in members if name in level.vertices),
             edges=tuple(ends for name in members for ends in paths.get(name, ())),
         )

@@ -73,13 +73,13 @@ def read(document: Any, path: Path) -> Occupancy:
     root, notes = Source(document), list[Phrase]()
     resolution, mode = root.need("resolution"), root.get("mode")
     if resolution.number() <= 0:
-        raise resolution.fault(f"{quote(resolution.value)} is not positive (give metres)")
+        raise resolution.make_fault(f"{quote(resolution.value)} is not positive (give metres)")
     if mode is not None and mode.value not in MODES:
-        raise mode.fault(f"{quote(mode.value)} is unknown (give one of {', '.join(MODES)})")
+        raise mode.make_fault(f"{quote(mode.value)} is unknown (give one of {', '.join(MODES)})")
     origin = root.need("origin")
-    numbers = [coordinate.number() for coordinate in origin.items()]
+    numbers = [coordinate.number() for coordinate in origin.read_items()]
     if len(numbers) not in {2, 3}:
-        raise origin.fault(f"{quote(origin.value)} does not fit (give [x, y, yaw])")
+        raise origin.make_fault(f"{quote(origin.value)} does not fit (give [x, y, yaw])")
     negate = root.get("negate")
     if negate is None:
         notes.append(Phrase("negate is missing and counts as 0"))
@@ -88,12 +88,12 @@ def read(document: Any, path: Path) -> Occupancy:
     if not is_raw:
         thresholds = root.need("free_thresh").number(), root.need("occupied_thresh").number()
     if thresholds[0] > thresholds[1]:
-        raise root.need("free_thresh").fault("is above occupied_thresh (mend one)")
+        raise root.need("free_thresh").make_fault("is above occupied_thresh (mend one)")
     values, largest, is_clear = _picture(root.need("image"), path)
     table = (
         _raw_table(largest)
         if is_raw
-        else _table(largest, *thresholds, negate=negate is not None and negate.flag())
+        else _table(largest, *thresholds, negate=negate is not None and negate.read_flag())
     )
     pixels = table[values]
     if is_clear is not None and not is_raw:
@@ -102,7 +102,7 @@ def read(document: Any, path: Path) -> Occupancy:
     yaw = numbers[2] if len(numbers) > 2 else Fraction(0)  # noqa: PLR2004 - x, y, yaw
     height = len(pixels) * pixel
     picture = Picture(
-        file=path.parent / root.need("image").text(),
+        file=path.parent / root.need("image").read_text(),
         pixel=pixel,
         corner=Frame(x=x, y=y, y_up=True, yaw=yaw).to_site((Fraction(0), -height)),
         yaw=yaw,
@@ -142,7 +142,7 @@ def _picture(image: Source, path: Path) -> tuple[NDArray[Any], int, NDArray[np.b
     """Return the values of a picture's pixels, the largest possible one, and which are clear."""
     from PIL import Image
 
-    file = path.parent / image.text()
+    file = path.parent / image.read_text()
     with locate_faults(image.location):
         refuse_special(file)
     try:
@@ -151,20 +151,20 @@ def _picture(image: Source, path: Path) -> tuple[NDArray[Any], int, NDArray[np.b
             with Image.open(file, formats=PICTURES) as picture:
                 if picture.width * picture.height > MAX_PIXELS:
                     size = f"{picture.width} x {picture.height} pixels"
-                    raise image.fault(f"{size} are more than {MAX_PIXELS} (give a part of it)")
+                    raise image.make_fault(f"{size} are more than {MAX_PIXELS} (give a part of it)")
                 picture.load()
                 return _values(picture)
     except InputError:
         raise
     except FileNotFoundError:
-        raise image.fault(f"there is no picture {image.value!r} beside the file (put it there)") \
-            from None  # fmt: skip
+        message = f"there is no picture {image.value!r} beside the file (put it there)"
+        raise image.make_fault(message) from None
     except Image.DecompressionBombError:
-        raise image.fault(f"the picture has more than {MAX_PIXELS} pixels (give a part of it)") \
-            from None  # fmt: skip
+        message = f"the picture has more than {MAX_PIXELS} pixels (give a part of it)"
+        raise image.make_fault(message) from None
     except BROKEN as error:
         reason = quote(str(error).replace(str(file), file.name))
-        raise image.fault(f"the picture cannot be read: {reason} (write it again)") from None
+        raise image.make_fault(f"the picture cannot be read: {reason} (write it again)") from None
 
 
 def _values(picture: Image) -> tuple[NDArray[Any], int, NDArray[np.bool_] | None]:

@@ -1,6 +1,6 @@
 """Layouts, written for other programs; what a format has no place for is named.
 
-Reading what was written gives the same layout, but for what `losses_of` names.
+Reading what was written gives the same layout, but for what `list_losses` names.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any
 
 from rightofway.arguments import checks_arguments, get_value
 from rightofway.errors import InputError, join_names
-from rightofway.io.text import json_line
+from rightofway.io.text import format_json_line
 from rightofway.site.geometry import Point, measure_squared_distance
 from rightofway.site.layout import Layout, LayoutEdge, LayoutVertex, Level
 
@@ -44,7 +44,7 @@ class LayoutWriter:
 
 
 @checks_arguments
-def layout_text(layout: Layout, name: str) -> tuple[str, tuple[str, ...]]:
+def format_layout(layout: Layout, name: str) -> tuple[str, tuple[str, ...]]:
     """Return a layout as the text of a file for another program.
 
     Parameters
@@ -68,10 +68,10 @@ def layout_text(layout: Layout, name: str) -> tuple[str, tuple[str, ...]]:
     if len(layout.levels) > 1 and "levels" not in writer.says:
         message = f"{len(layout.levels)} levels, and {name} knows one (write lif or open-rmf)"
         raise InputError.at("", message)
-    return writer.write(layout), tuple(losses_of(layout, writer.says))
+    return writer.write(layout), tuple(list_losses(layout, writer.says))
 
 
-def losses_of(layout: Layout, says: frozenset[str]) -> Iterator[str]:
+def list_losses(layout: Layout, says: frozenset[str]) -> Iterator[str]:
     """Yield what a layout has beside vertices, lanes and speed limits, and a format cannot say."""
     vertices = [vertex for level in layout.levels for vertex in level.vertices]
     edges = [edge for level in layout.levels for edge in level.edges]
@@ -154,7 +154,7 @@ def _lif_level(level: Level) -> dict[str, Any]:
 def _json(value: dict[str, Any], margin: str = "\n") -> str:
     """Return JSON with one node, edge, station or feature on a line."""
     if LISTS.isdisjoint(value):
-        return json_line(value)
+        return format_json_line(value)
     inner = margin + "  "
     parts = []
     for key, child in value.items():
@@ -162,8 +162,8 @@ def _json(value: dict[str, Any], margin: str = "\n") -> str:
             rows = f",{inner}  ".join(_json(item, f"{inner}  ") for item in child)
             text = f"[{inner}  {rows}{inner}]"
         else:
-            text = json_line(child)
-        parts.append(f"{json_line(key)}: {text}")
+            text = format_json_line(child)
+        parts.append(f"{format_json_line(key)}: {text}")
     return f"{{{inner}{f',{inner}'.join(parts)}{margin}}}"
 
 
@@ -333,7 +333,7 @@ def _data(values: dict[str, Any]) -> str:
     from xml.sax.saxutils import escape
 
     return "".join(
-        f'<data key="{key}">{escape(json_line(value))}</data>'
+        f'<data key="{key}">{escape(format_json_line(value))}</data>'
         for key, value in values.items()
         if value is not False
     )

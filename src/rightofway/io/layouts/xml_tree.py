@@ -31,16 +31,16 @@ class Element(Source):
     children: list[Element] = field(default_factory=list)
     content: str = ""
 
-    def all(self, name: str) -> Iterator[Element]:
+    def list_all(self, name: str) -> Iterator[Element]:
         """Yield the children of a name."""
         return (child for child in self.children if child.name == name)
 
-    def descendants(self, name: str) -> Iterator[Element]:
+    def list_descendants(self, name: str) -> Iterator[Element]:
         """Yield all elements of a name inside."""
         for child in self.children:
             if child.name == name:
                 yield child
-            yield from child.descendants(name)
+            yield from child.list_descendants(name)
 
 
 def _without_namespaces(attributes: dict[str, str]) -> dict[str, str]:

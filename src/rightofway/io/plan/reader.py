@@ -48,7 +48,7 @@ T = TypeVar("T")
 
 
 @checks_arguments
-def plan_of(document: Any, source: str = "", pictures: Path | None = None) -> Plan:
+def parse_plan(document: Any, source: str = "", pictures: Path | None = None) -> Plan:
     """Return the plan of a document.
 
     Parameters
@@ -71,11 +71,11 @@ def plan_of(document: Any, source: str = "", pictures: Path | None = None) -> Pl
         document = check_format(document, PLAN_FORMAT)
         faults = Faults()
         frame = faults.attempt("", validate, PlanFrame, document)
-        loaded = faults.part(document, "scenario", _planned, pictures)
+        loaded = faults.read_part(document, "scenario", _planned, pictures)
         names = _Names.of(loaded.scenario) if loaded else None
-        run = faults.part(document, "planner", _run, names)
-        tracks = faults.part(document, "robots", _tracks, names)
-        steady = faults.part(document, "steady", _steady, names) or ()
+        run = faults.read_part(document, "planner", _run, names)
+        tracks = faults.read_part(document, "robots", _tracks, names)
+        steady = faults.read_part(document, "steady", _steady, names) or ()
         tick = loaded and loaded.scenario.problem.clock.tick
         if frame and tick and frame.tick != tick:
             remedy = "plan the scenario again; these times mean something else"
@@ -111,7 +111,7 @@ class _Names:
             on=LoadedMap(roadmap=scenario.roadmap, lines=grid.as_lines() if grid else ()),
         )
 
-    def robot(self, place: Where, name: str) -> int:
+    def find_robot(self, place: Where, name: str) -> int:
         """Return the index of a robot; InputError if there is none."""
         if name not in self.robots:
             near = find_nearest(name, self.robots)
@@ -119,7 +119,7 @@ class _Names:
             raise InputError.at(place, f"no robot is named {quote(name)} ({hint})")
         return self.robots[name]
 
-    def vertex(self, place: Where, name: str) -> VertexId:
+    def find_vertex(self, place: Where, name: str) -> VertexId:
         """Return the vertex of a name; InputError if there is none."""
         if name not in self.vertices:
             with locate_faults(place):
@@ -149,14 +149,14 @@ def _tracks(data: Any, names: _Names | None) -> tuple[Track, ...]:
     tracks = dict[int, Track]()
 
     def read(document: TrackDocument, names: _Names) -> None:
-        robot = names.robot("name", document.name)
+        robot = names.find_robot("name", document.name)
         if robot in tracks:
             message = f"{quote(document.name)} has a track already (take one out)"
             raise InputError.at("name", message)
         vertices = [
             names.vertices[name]
             if name in names.vertices  # most are, and this loop is a large plan's reading time
-            else names.vertex(("vertices", index), name)
+            else names.find_vertex(("vertices", index), name)
             for index, name in enumerate(document.vertices)
         ]
         tracks[robot] = Track.of(vertices, document.enter)
@@ -179,7 +179,7 @@ def _run(data: Any, names: _Names | None) -> PlannerRun | None:
     for index, decision in enumerate(document.decisions):
         decisions.append(faults.attempt(("decisions", index), _decision, decision, names))
     for index, reroute in enumerate(document.reroutes):
-        robot = faults.attempt(("reroutes", index), names.robot, "robot", reroute.robot)
+        robot = faults.attempt(("reroutes", index), names.find_robot, "robot", reroute.robot)
         reroutes.append(Reroute(robot=robot or 0, because=reroute.because))
     losses = [
         faults.attempt(("forced_losses", index), _forced_loss, loss, names)
@@ -201,10 +201,10 @@ def _run(data: Any, names: _Names | None) -> PlannerRun | None:
 
 
 def _forced_loss(document: ForcedLossDocument, names: _Names) -> ForcedLoss:
-    robots = {names.robot("robots", name) for name in document.robots}
+    robots = {names.find_robot("robots", name) for name in document.robots}
     if len(robots) < len(document.robots):
         raise InputError.at("robots", "a robot is named twice (name different robots)")
-    vertex = names.vertex("vertex", document.vertex)
+    vertex = names.find_vertex("vertex", document.vertex)
     return ForcedLoss(robots=tuple(sorted(robots)), ticks=Tick(document.ticks), vertex=vertex)
 
 
@@ -219,10 +219,10 @@ def _outcome(document: OutcomeDocument) -> Outcome:
 
 
 def _decision(document: DecisionDocument, names: _Names) -> Decision:
-    vertices = tuple(names.vertex("vertices", name) for name in document.vertices)
-    waits_at = names.vertex("waits_at", document.waits_at)
-    robot, other = (names.robot("robots", name) for name in document.robots)
-    waits = names.robot("waits", document.waits)
+    vertices = tuple(names.find_vertex("vertices", name) for name in document.vertices)
+    waits_at = names.find_vertex("waits_at", document.waits_at)
+    robot, other = (names.find_robot("robots", name) for name in document.robots)
+    waits = names.find_robot("waits", document.waits)
     if waits not in {robot, other}:
         message = f"{quote(document.waits)} is none of the two robots (name one of them)"
         raise InputError.at("waits", message)
@@ -255,12 +255,12 @@ def _steady(data: Any, names: _Names | None) -> tuple[SteadyState, ...]:
 
 def _steady_state(document: SteadyDocument, names: _Names) -> SteadyState:
     robots = tuple(
-        names.robot(("robots", index), name) for index, name in enumerate(document.robots)
+        names.find_robot(("robots", index), name) for index, name in enumerate(document.robots)
     )
     critical = []
     for index, visit in enumerate(document.critical):
         place = ("critical", index, "robot")
-        robot = names.robot(place, visit.robot)
+        robot = names.find_robot(place, visit.robot)
         if robot not in robots:
             message = f"{quote(visit.robot)} is not of this group (name one of its robots)"
             raise InputError.at(place, message)

@@ -6,7 +6,15 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from rightofway.io.fields import Document, Name, NotNegative, Sentence, TickLength, Ticks, optional
+from rightofway.io.fields import (
+    Document,
+    Name,
+    NotNegative,
+    Sentence,
+    TickLength,
+    Ticks,
+    make_optional,
+)
 from rightofway.io.scenario.shape import ScenarioDocument
 
 PairOfNames = Annotated[list[Name], Field(min_length=2, max_length=2)]
@@ -139,7 +147,7 @@ class PlanFrame(Document):
     format: Literal["rightofway-plan/1"] = Field(description="rightofway-plan/1")
     scenario: Any = Field(description="a scenario, its map inlined")
     tick: TickLength = Field(description="how long a tick is [time unit]")
-    planner: Any = optional("{name, options, seed, status, seconds}")
+    planner: Any = make_optional("{name, options, seed, status, seconds}")
     metrics: dict[str, Any] = Field(
         default={}, description="a mapping of numbers, for readers; they are not read back"
     )
@@ -151,7 +159,7 @@ class PlanDocument(PlanFrame):
     """A plan: routes and times for all robots of the scenario inside it."""
 
     scenario: ScenarioDocument = Field(description="the problem, its map inlined")
-    planner: PlannerDocument = optional("how the plan came about; unknown by default")
+    planner: PlannerDocument = make_optional("how the plan came about; unknown by default")
     robots: list[TrackDocument] = Field(description="one for each robot of the scenario")
     steady: list[SteadyDocument] = Field(
         default=[], description="robots whose visits repeat; only the page reads it"

@@ -12,9 +12,9 @@ from rightofway.errors import InputError, NoPlanExists
 from rightofway.files import write_whole
 from rightofway.io.formats import PLAN_FORMAT
 from rightofway.io.scenario.writer import dump_scenario
-from rightofway.io.text import json_text
+from rightofway.io.text import format_json
 from rightofway.model import Decision, ForcedLoss, Outcome, Plan, PlannerRun, Scenario, SteadyState
-from rightofway.model.given import checked_plan, require_truths
+from rightofway.model.given import require_plan, require_truths
 from rightofway.phrases import to_parts
 from rightofway.values import format_number
 
@@ -36,7 +36,7 @@ def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:
         If a track leads through a vertex that the roadmap does not have.
     """
     require_truths(seconds=seconds)
-    scenario = checked_plan(plan).scenario
+    scenario = require_plan(plan).scenario
     n_vertices = scenario.roadmap.n_vertices
     for index, track in enumerate(plan.tracks):
         if not 0 <= track.vertices.min() <= track.vertices.max() < n_vertices:
@@ -78,11 +78,11 @@ def write_plan(plan: Plan, path: Path | str, *, seconds: bool = False) -> None:
     InputError
         As for `dump_plan`, or if the file cannot be written.
     """
-    write_whole(path, plan_text(plan, seconds=seconds))
+    write_whole(path, format_plan(plan, seconds=seconds))
 
 
 @checks_arguments
-def plan_text(plan: Plan, *, seconds: bool = False) -> str:
+def format_plan(plan: Plan, *, seconds: bool = False) -> str:
     """Return the text of a plan file: the same plan gives the same bytes; see `dump_plan`.
 
     Parameters
@@ -92,7 +92,7 @@ def plan_text(plan: Plan, *, seconds: bool = False) -> str:
     seconds
         Whether to write how long planning took.
     """
-    return json_text(dump_plan(plan, seconds=seconds))
+    return format_json(dump_plan(plan, seconds=seconds))
 
 
 def _planner(run: PlannerRun, scenario: Scenario, *, seconds: bool) -> dict[str, Any]:
@@ -108,7 +108,7 @@ def _planner(run: PlannerRun, scenario: Scenario, *, seconds: bool) -> dict[str,
             for reroute in run.reroutes
         ],
         **({} if run.start is None else {"start": asdict(run.start)}),
-        **({} if run.outcome is None else {"outcome": outcome_document(run.outcome)}),
+        **({} if run.outcome is None else {"outcome": describe_outcome(run.outcome)}),
         **make_forced_losses(run.forced_losses, scenario),
     }
 
@@ -126,7 +126,7 @@ def make_forced_losses(losses: Sequence[ForcedLoss], scenario: Scenario) -> dict
     return {"forced_losses": documents} if documents else {}
 
 
-def outcome_document(outcome: Outcome) -> dict[str, Any]:
+def describe_outcome(outcome: Outcome) -> dict[str, Any]:
     """Return an outcome as plan files and reports for programs have it."""
     factor = outcome.factor
     return {

@@ -21,7 +21,7 @@ MAX_LANES = 5_000
 """Larger roadmaps are not searched."""
 
 
-def crossing_note(scenario: Scenario) -> Iterator[Phrase]:
+def note_crossings(scenario: Scenario) -> Iterator[Phrase]:
     """Yield a note on lanes that cross without a vertex, if no robot has a size."""
     roadmap = scenario.roadmap
     if roadmap.grid is not None or any(robot.radius for robot in scenario.robots):

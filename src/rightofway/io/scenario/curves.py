@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputError
 from rightofway.io.layouts.draft import MICRO
-from rightofway.io.layouts.nurbs import bezier
+from rightofway.io.layouts.nurbs import make_bezier
 from rightofway.site import Point
 from rightofway.site.spacing import measure_lengths_along
 
@@ -45,12 +45,12 @@ class LaneCurve(NamedTuple):
     length: Fraction
     error: Fraction
 
-    def reversed(self) -> LaneCurve:
+    def reverse(self) -> LaneCurve:
         """Return the curve driven back."""
         return self._replace(controls=self.controls[::-1], points=self.points[::-1])
 
 
-def lane_curve(tail: Point, controls: Sequence[Point], head: Point) -> LaneCurve:
+def make_lane_curve(tail: Point, controls: Sequence[Point], head: Point) -> LaneCurve:
     """Return the Bézier curve between two points.
 
     Raises
@@ -62,7 +62,7 @@ def lane_curve(tail: Point, controls: Sequence[Point], head: Point) -> LaneCurve
     whole_length = float(np.hypot(*np.diff(whole, axis=0).T).sum())
     error = Fraction(ceil(whole_length * float(ERROR) * MICRO), MICRO)
     try:
-        ends = bezier(whole).pieces(float(error))
+        ends = make_bezier(whole).cut_pieces(float(error))
     except ValueError as fault:
         raise InputError.at("", f"{fault} (move its control points nearer to its ends)") from None
     points = [at for at, _ in groupby([tail, *_exact(ends[1:-1]), head])]
@@ -74,11 +74,11 @@ def lane_curve(tail: Point, controls: Sequence[Point], head: Point) -> LaneCurve
     )
 
 
-def points_along(
+def make_points_along(
     curve: LaneCurve, tail: Point, head: Point, spacing: Fraction
 ) -> tuple[Point, ...]:
     """Return points on a curve, as far apart along it as equal pieces of at most a spacing are."""
-    whole = bezier(_floats([tail, *curve.controls, head]))
+    whole = make_bezier(_floats([tail, *curve.controls, head]))
     return tuple(_exact(whole.cut(ceil(curve.length / spacing))[1:-1]))
 
 

@@ -15,8 +15,8 @@ from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.layouts import read_layout
 from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap
 from rightofway.io.scenario.maps import map_of
-from rightofway.io.scenario.writer import yaml_of
-from rightofway.io.text import json_text
+from rightofway.io.scenario.writer import format_yaml
+from rightofway.io.text import format_json
 from rightofway.metrics.connectivity import find_strong_parts, list_ways
 from rightofway.quantities import Units
 from rightofway.site import make_grid_roadmap
@@ -41,7 +41,7 @@ WORK = 10
 
 
 @checks_arguments
-def example_of_layout(path: Path | str, target: Path | str, radius: Fraction = Fraction(0)) -> str:
+def format_example(path: Path | str, target: Path | str, radius: Fraction = Fraction(0)) -> str:
     """Return the text of a scenario that has a layout as its map.
 
     Parameters
@@ -89,7 +89,7 @@ def example_of_layout(path: Path | str, target: Path | str, radius: Fraction = F
         **({"units": {"length": "m", "time": "s"}} if loaded.units.length else {}),
         "robots": _robots(loaded, level, radius),
     }
-    return json_text(document) if target.suffix.lower() == ".json" else yaml_of(document)
+    return format_json(document) if target.suffix.lower() == ".json" else format_yaml(document)
 
 
 def _cell_size(occupancy: Occupancy, radius: Fraction) -> str:

@@ -25,11 +25,11 @@ from rightofway.errors import (
     name_file,
     quote,
 )
-from rightofway.io.faults import Faults, keys_of, validate
+from rightofway.io.faults import Faults, list_keys, validate
 from rightofway.io.movingai import ScenRow, load_scen
 from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap
-from rightofway.io.scenario.maps import file_beside
-from rightofway.io.tables import CellDocument, robots_of_csv
+from rightofway.io.scenario.maps import find_file_beside
+from rightofway.io.tables import CellDocument, read_robots_of_csv
 from rightofway.model import Robot, Stop
 from rightofway.model.robot import ROBOT_ATTRIBUTES
 from rightofway.site import VertexId
@@ -44,15 +44,15 @@ DEFAULT_SPEED = Fraction(1)
 HOME = f"the place it starts from: {list_kinds_of_places(None)}"
 
 
-def robots_in_table(data: dict[str, Any], base: Path | None) -> CellDocument:
+def read_robots_in_table(data: dict[str, Any], base: Path | None) -> CellDocument:
     """Return the robots of a CSV file that the document names."""
     from rightofway.io.scenario.shape import RobotDocument, RobotTableDocument
 
     with locate_faults("robots"):
         name = validate(RobotTableDocument, data).table
         with locate_faults("table"):
-            return robots_of_csv(
-                file_beside(base, name), keys_of(RobotDocument), ("robots", "table")
+            return read_robots_of_csv(
+                find_file_beside(base, name), list_keys(RobotDocument), ("robots", "table")
             )
 
 
@@ -67,7 +67,7 @@ class FleetRows:
     @property
     def traits(self) -> FleetTraits:
         """What a map depends on."""
-        own = self.document.own(Robot)
+        own = self.document.get_own_attributes(Robot)
         speeds = (self.document.speeds or [DEFAULT_SPEED])[: len(self.rows)]
         types = frozenset([own.get("type")])
         return FleetTraits(speeds=speeds, radius=own.get("radius", Fraction(0)), types=types)
@@ -127,11 +127,13 @@ def read_robot(index: int, data: Any) -> ListedRobot:
         for attribute in ROBOT_ATTRIBUTES:
             if isinstance(data, dict) and attribute.key in data:
                 with suppress(InputError):
-                    own |= validate(RobotAttributes, {attribute.key: data[attribute.key]}).own(
-                        Robot
-                    )
+                    own |= validate(
+                        RobotAttributes, {attribute.key: data[attribute.key]}
+                    ).get_own_attributes(Robot)
         return ListedRobot(index=index, data=data, document=None, own=own, faults=faults)
-    return ListedRobot(index=index, data=data, document=document, own=document.own(Robot))
+    return ListedRobot(
+        index=index, data=data, document=document, own=document.get_own_attributes(Robot)
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -180,7 +182,7 @@ def read_robots(data: Any, base: Path | None) -> ListedFleet | FleetRows:
         raise InputError.at("", message)
     document = validate(FleetDocument, data)
     with locate_faults("scen"):
-        file = file_beside(base, document.scen)
+        file = find_file_beside(base, document.scen)
         rows = load_scen(file)
     if document.count is not None and document.count > len(rows):
         message = f"{document.count} is more than the {len(rows)} rows of {file} (give fewer)"
@@ -190,9 +192,9 @@ def read_robots(data: Any, base: Path | None) -> ListedFleet | FleetRows:
 
 def _place_of_laps(document: Document, place: Steps) -> Steps:
     """Return where the document asks a robot without a way back for several laps."""
-    if document.given("laps"):
+    if document.get_given("laps"):
         return (*place, "laps")
-    return (*place, "return") if document.given("ends") else ("rules", "laps")
+    return (*place, "return") if document.get_given("ends") else ("rules", "laps")
 
 
 def place_robots(
@@ -223,7 +225,7 @@ def _place_robot(robot: ListedRobot, on: LoadedMap | None) -> PlacedRobot | None
     faults, document, place = Faults(), robot.document, robot.place
     faults.add(robot.faults)
     places = robot.find(on, faults)
-    faults.stop(keys_of(RobotDocument))
+    faults.stop(list_keys(RobotDocument))
     if document is None or on is None:
         return None
     trip: list[tuple[Steps, Fraction | None]] = [(("target",), document.work)]
@@ -245,7 +247,7 @@ def _place_rows(robots: FleetRows, on: LoadedMap, faults: Faults) -> list[Placed
     document, placed = robots.document, list[PlacedRobot]()
     ends = faults.attempt(("robots", "scen"), _starts_and_goals, robots, on) or []
     speeds, works = cycle(document.speeds or [DEFAULT_SPEED]), cycle(document.work or [Fraction(0)])
-    own = document.own(Robot)
+    own = document.get_own_attributes(Robot)
     aliases: dict[Steps, Steps] = {
         (attribute.name,): ("robots", attribute.key)
         for attribute in ROBOT_ATTRIBUTES

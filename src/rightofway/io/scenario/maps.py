@@ -12,7 +12,7 @@ from rightofway.deadline import READING, limit_loop
 from rightofway.errors import InputError, find_nearest, locate_faults, quote
 from rightofway.io.faults import Faults
 from rightofway.io.movingai import load_map
-from rightofway.io.scenario.curves import LaneCurve, lane_curve, points_along
+from rightofway.io.scenario.curves import LaneCurve, make_lane_curve, make_points_along
 from rightofway.io.scenario.loaded_map import (
     FleetTraits,
     LoadedMap,
@@ -68,7 +68,7 @@ def map_of(
     """
     if document.layout is not None:
         with locate_faults("layout"):
-            file = file_beside(base, document.layout)
+            file = find_file_beside(base, document.layout)
         from rightofway.io.scenario.layouts import map_of_layout
 
         return map_of_layout(document, file, units, fleet)
@@ -87,7 +87,7 @@ def map_of(
     }
     if document.file is not None:
         with locate_faults("file"):
-            file = file_beside(base, document.file)
+            file = find_file_beside(base, document.file)
             lines = load_map(file)
             roadmap = make_grid_roadmap(lines, cell_size=cell_size, **frame)
     else:
@@ -111,7 +111,7 @@ def _obstacle_of(
     return Obstacle(name=document.name, x=x - left, y=y - low, width=width, height=height)
 
 
-def file_beside(base: Path | None, name: str) -> Path:
+def find_file_beside(base: Path | None, name: str) -> Path:
     """Return the path of a file that a document names.
 
     InputError for a document in no file, and for devices, pipes and directories.
@@ -234,7 +234,7 @@ def _map_of_roadmap(
         if curve:
             curves[forward] = curve
         if curve and edge.both_ways:
-            curves[back] = curve.reversed()
+            curves[back] = curve.reverse()
         for tail, head in (forward, back) if edge.both_ways else (forward,):
             earlier = first.setdefault((tail, head), index)
             if earlier != index:
@@ -314,7 +314,7 @@ def _shapes(
         return {ends: curve.points for ends, curve in curves.items()}
     refuse_many_pieces((curve.length for curve in curves.values()), spacing)
     return {
-        (tail, head): points_along(curve, positions[tail], positions[head], spacing)
+        (tail, head): make_points_along(curve, positions[tail], positions[head], spacing)
         for (tail, head), curve in curves.items()
     }
 
@@ -377,5 +377,5 @@ def _length(
     if edge.curve is None:
         return edge.length or measure_straight_length(square or Fraction(0), step), None
     with locate_faults("curve"):
-        curve = lane_curve(positions[edge.tail], edge.curve, positions[edge.head])
+        curve = make_lane_curve(positions[edge.tail], edge.curve, positions[edge.head])
     return edge.length or curve.length, curve

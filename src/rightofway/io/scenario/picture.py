@@ -23,14 +23,14 @@ MOST_PIXELS = 50_000_000
 """Pixels of the largest picture that is read; a floor plan of 7000 x 7000."""
 
 
-def with_picture(
+def add_picture(
     loaded: LoadedMap, document: PictureDocument | None, base: Path | None
 ) -> LoadedMap:
     """Return a map with the picture that it is drawn over; a note where the file is missing."""
     if document is None:
         return loaded
     with locate_faults("picture"):
-        picture, is_there = picture_of(document, base)
+        picture, is_there = read_picture(document, base)
     note = Phrase(
         "there is no picture {file}; the map is shown without it", file=quote(document.file)
     )
@@ -41,7 +41,7 @@ def with_picture(
     )
 
 
-def picture_of(document: PictureDocument, base: Path | None) -> tuple[Picture, bool]:
+def read_picture(document: PictureDocument, base: Path | None) -> tuple[Picture, bool]:
     """Return a picture, and whether its file is there; no plan depends on it.
 
     Raises

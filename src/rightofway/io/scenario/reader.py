@@ -1,6 +1,6 @@
 """Scenario documents, read: every fault at once, or a scenario that is valid by construction.
 
-A file becomes plain data (`document_of`), the data become checked parts (`shape`), the parts a
+A file becomes plain data (`open_document`), the data become checked parts (`shape`), the parts a
 `Scenario`. Each step notes its faults and goes on with the parts that have none.
 """
 
@@ -17,17 +17,17 @@ from rightofway.assign import deal_homes
 from rightofway.errors import InputError, Steps, Where, find_nearest, name_file, quote
 from rightofway.io.faults import Faults, validate
 from rightofway.io.formats import SCENARIO_FORMAT, check_format
-from rightofway.io.scenario.crossings import crossing_note
+from rightofway.io.scenario.crossings import note_crossings
 from rightofway.io.scenario.fleet import (
     ListedFleet,
     PlacedRobot,
     place_robots,
     read_robots,
-    robots_in_table,
+    read_robots_in_table,
 )
 from rightofway.io.scenario.loaded_map import LoadedMap, note_on_rounding
 from rightofway.io.scenario.maps import map_of
-from rightofway.io.scenario.picture import with_picture
+from rightofway.io.scenario.picture import add_picture
 from rightofway.model import Rules, Scenario
 from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
@@ -62,7 +62,9 @@ class Loaded:
 
 
 @checks_arguments
-def scenario_of(document: dict[str, Any], base: Path | None = None, source: str = "") -> Scenario:
+def parse_scenario(
+    document: dict[str, Any], base: Path | None = None, source: str = ""
+) -> Scenario:
     """Return the scenario of a document.
 
     Parameters
@@ -85,7 +87,7 @@ def scenario_of(document: dict[str, Any], base: Path | None = None, source: str 
 
 
 def read_scenario(document: Any, base: Path | None, pictures: Path | None = None) -> Loaded:
-    """Return the scenario of a document with notes; the work behind `load` and `scenario_of`.
+    """Return the scenario of a document with notes; the work behind `load` and `parse_scenario`.
 
     The picture below its map is in ``pictures``, by default in ``base``, where other files are.
     """
@@ -100,7 +102,7 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
                 return None
         traits = replace(robots.traits, clearance=rules.clearance)
         loaded_map = map_of(drawn, base, units, traits)
-        loaded_map = loaded_map and with_picture(loaded_map, drawn.picture, pictures or base)
+        loaded_map = loaded_map and add_picture(loaded_map, drawn.picture, pictures or base)
         return (
             loaded_map
             if loaded_map is None or loaded_map.units.length
@@ -110,23 +112,23 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
     document = check_format(document, SCENARIO_FORMAT)
     given = document.get("robots")
     if isinstance(given, dict) and "table" in given:
-        table = robots_in_table(given, base)
+        table = read_robots_in_table(given, base)
         with table.locate():
             return read_scenario({**document, "robots": table.part}, base, pictures)
     faults = Faults()
     faults.attempt("", validate, ScenarioFrame, document)
-    rules = faults.part(document, "rules", _rules_of) or Rules()
-    units = faults.part(document, "units", _units_of) or Units()
-    robots = faults.part(document, "robots", read_robots, base) or ListedFleet()
+    rules = faults.read_part(document, "rules", _rules_of) or Rules()
+    units = faults.read_part(document, "units", _units_of) or Units()
+    robots = faults.read_part(document, "robots", read_robots, base) or ListedFleet()
     deals = document.get("homes") == "parking"
-    loaded = faults.part(document, "map", loaded_map_of)
+    loaded = faults.read_part(document, "map", loaded_map_of)
     if loaded:
         rules = replace(rules, clearance=rules.clearance + 2 * loaded.chord_error)
     if loaded and loaded.keeps_clear and rules.walls == "strict":
         remedy = "robots keep clear of what a map in pixels shows; take it out"
         faults.note(("rules", "walls"), f"'strict' is for grids and floors ({remedy})")
     placed = place_robots(robots, loaded, faults, deals=deals)
-    closures = faults.part(document, "closures", _closures, loaded) or []
+    closures = faults.read_part(document, "closures", _closures, loaded) or []
     scenario, notes = None, list[Phrase]()
     if loaded and placed and deals:
         placed = faults.attempt("", _deal_homes, placed, loaded.roadmap, rules, notes) or ()
@@ -147,13 +149,13 @@ def _rules_of(data: Any) -> Rules:
     if isinstance(data, str):
         remedy = "give classic, or a mapping like {headway: 1}"
         raise InputError.at("", f"{quote(data)} is no name of rules ({remedy})")
-    return Rules(**validate(RulesDocument, data).own(Rules))
+    return Rules(**validate(RulesDocument, data).get_own_attributes(Rules))
 
 
 def _units_of(data: Any) -> Units:
     from rightofway.io.scenario.shape import UnitsDocument
 
-    return Units(**validate(UnitsDocument, data).given("length", "time"))
+    return Units(**validate(UnitsDocument, data).get_given("length", "time"))
 
 
 def _closures(data: Any, on: LoadedMap | None) -> list[Closure]:
@@ -171,7 +173,7 @@ def _closures(data: Any, on: LoadedMap | None) -> list[Closure]:
         closure = Closure(
             at=document.at,
             edge=None if document.edge is None else (document.edge[0], document.edge[1]),
-            **document.given("from_", "until", "radius"),
+            **document.get_given("from_", "until", "radius"),
         )
         for fault in find_closure_faults(closure, on.roadmap):
             faults.add([fault.nest(index)])
@@ -254,7 +256,7 @@ def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[Phrase]:
     if loaded.rounding:
         yield note_on_rounding(*loaded.rounding, scenario.units)
     yield from _type_notes(scenario)
-    yield from crossing_note(scenario)
+    yield from note_crossings(scenario)
     if not scenario.problem.clock.exact:
         yield Phrase(
             "each drive, turn and work time is rounded up to a multiple of {tick} (the shortest of"

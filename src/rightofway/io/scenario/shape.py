@@ -28,10 +28,10 @@ from rightofway.io.fields import (
     Size,
     Spacing,
     Words,
-    exactly_one_of,
+    add_attributes,
+    choose_exactly_one,
     finish_schema,
-    optional,
-    with_attributes,
+    make_optional,
 )
 from rightofway.model import Robot, Rules
 from rightofway.model.resources import circumscribe
@@ -62,7 +62,7 @@ class FloorDocument(Document):
 
     size: Size = Field(description="[width, height] [length unit]")
     obstacles: list[ObstacleDocument] = Field(default=[], description="a list of rectangles")
-    max_cells: Count = optional(
+    max_cells: Count = make_optional(
         f"the most cells to make, from 1 to {MAX_CELLS_ALLOWED}", le=MAX_CELLS_ALLOWED
     )
 
@@ -72,20 +72,22 @@ class EdgeDocument(Document):
 
     tail: Name = Field(alias="from", description="the name of the vertex it begins at")
     head: Name = Field(alias="to", description="the name of the vertex it leads to")
-    length: Positive = optional(
+    length: Positive = make_optional(
         "its length [length unit]; by default the straight distance, or that along its curve,"
         " rounded up to 1/1000"
     )
-    curve: list[Position] = optional(
+    curve: list[Position] = make_optional(
         "control points of a Bézier curve from one end to the other: one or two [x, y]"
         " [length unit]; straight by default",
         min_length=1,
         max_length=2,
     )
     both_ways: bool = Field(default=True, description="true or false: can it be driven back?")
-    max_speed: Positive = optional("its speed limit [length unit per time unit]; none by default")
+    max_speed: Positive = make_optional(
+        "its speed limit [length unit per time unit]; none by default"
+    )
     barred: list[Name] = Field(default=[], description=BARRED)
-    surcharge: NotNegative = optional(
+    surcharge: NotNegative = make_optional(
         "what makes it less liked, not slower [time unit]; 0 by default"
     )
 
@@ -119,7 +121,7 @@ class VertexDocument(Document):
 
     at: Position = Field(description="[x, y] [length unit]")
     barred: list[Name] = Field(default=[], description=BARRED)
-    surcharge: NotNegative = optional(
+    surcharge: NotNegative = make_optional(
         "what makes each edge into it less liked, not slower [time unit]; 0 by default"
     )
 
@@ -157,12 +159,14 @@ class PictureDocument(Document):
     """A picture that the map is drawn over; no plan depends on it."""
 
     file: Name = Field(description="a PNG, JPEG or PGM file, relative to the scenario's own")
-    scale: Positive = optional("length of a pixel [length unit]; by default as wide as the map")
-    origin: Position = optional(
+    scale: Positive = make_optional(
+        "length of a pixel [length unit]; by default as wide as the map"
+    )
+    origin: Position = make_optional(
         "[x, y] of its lower left corner on the site [length unit]; by default that of the map"
     )
-    yaw: Angle = optional("angle by which it is turned about that corner, from x to y [rad]")
-    opacity: Share = optional("how strong it is, from 0 to 1; 0.6 by default")
+    yaw: Angle = make_optional("angle by which it is turned about that corner, from x to y [rad]")
+    opacity: Share = make_optional("how strong it is, from 0 to 1; 0.6 by default")
 
 
 class RoadmapDocument(Document):
@@ -182,7 +186,7 @@ class RoadmapDocument(Document):
     )
     parking: list[Name] = Field(default=[], description="names of vertices to park at")
     charging: list[Name] = Field(default=[], description="names of vertices to charge at")
-    sides: list[Positive] = optional(
+    sides: list[Positive] = make_optional(
         "side of the square cell round each vertex, in their order [length unit]"
     )
 
@@ -223,27 +227,31 @@ class MapDocument(Document):
         )
     )
 
-    grid: Lines = optional("rows of . (free) and @ (blocked), as a list or one text")
-    file: Name = optional("a .map file, relative to the scenario's own")
-    floor: FloorDocument = optional("{size, obstacles}")
-    roadmap: RoadmapDocument = optional("{vertices, edges}")
-    layout: Name = optional("a layout of another program, relative to the scenario's own file")
-    level: Name = optional("which level of a layout; needed where it has several")
-    vehicle_type: Name = optional("whose lanes of a layout; needed where they differ")
+    grid: Lines = make_optional("rows of . (free) and @ (blocked), as a list or one text")
+    file: Name = make_optional("a .map file, relative to the scenario's own")
+    floor: FloorDocument = make_optional("{size, obstacles}")
+    roadmap: RoadmapDocument = make_optional("{vertices, edges}")
+    layout: Name = make_optional("a layout of another program, relative to the scenario's own file")
+    level: Name = make_optional("which level of a layout; needed where it has several")
+    vehicle_type: Name = make_optional("whose lanes of a layout; needed where they differ")
     unknown: Literal["blocked", "free"] = Field(
         default="blocked", description="blocked, or free: pixels of a picture that are not known"
     )
-    cell_size: CellSize = optional(
+    cell_size: CellSize = make_optional(
         "side of a cell [length unit]: 1 by default, 0.5 m on a ROS map, on a floor clustered;"
         " adaptive: squares of a quadtree"
     )
-    smallest: Positive = optional("side of the smallest adaptive cells [length unit]")
-    largest: Positive = optional(
+    smallest: Positive = make_optional("side of the smallest adaptive cells [length unit]")
+    largest: Positive = make_optional(
         "limit on the side of adaptive cells [length unit]; 4 smallest ones by default"
     )
     y: YAxis = Field(default="down", description="down, or up: which way y grows")
-    origin: Position = optional("[x, y] of the map's lower left corner on the site [length unit]")
-    yaw: Angle = optional("angle by which the map is turned about its origin, from x to y [rad]")
+    origin: Position = make_optional(
+        "[x, y] of the map's lower left corner on the site [length unit]"
+    )
+    yaw: Angle = make_optional(
+        "angle by which the map is turned about its origin, from x to y [rad]"
+    )
     obstacles: list[ObstacleDocument] = Field(
         default=[], description="names of blocked cells of a grid or file: a list of rectangles"
     )
@@ -252,11 +260,13 @@ class MapDocument(Document):
         description="how edges of a roadmap are split into pieces: longer ones than a length"
         " [length unit]; auto: those that others cross, for robots with a size; whole: none",
     )
-    picture: PictureDocument = optional("{file, scale, origin, opacity}: a picture below the map")
+    picture: PictureDocument = make_optional(
+        "{file, scale, origin, opacity}: a picture below the map"
+    )
 
     @model_validator(mode="after")
     def _check_one_map(self) -> Self:
-        kind = exactly_one_of(self, MAPS)
+        kind = choose_exactly_one(self, MAPS)
         if kind == "roadmap" and self.cell_size is not None:
             raise ValueError("cell_size is given with a roadmap, which has no cells (take it out)")
         if kind == "roadmap" and self.roadmap.sides is None:
@@ -282,7 +292,7 @@ class MapDocument(Document):
 
     @model_validator(mode="after")
     def _check_cells(self) -> Self:
-        kind, word = exactly_one_of(self, MAPS), self.cell_size
+        kind, word = choose_exactly_one(self, MAPS), self.cell_size
         if (word == "clustered" and kind != "floor") or (
             word == "adaptive" and kind not in {"floor", "layout"}
         ):
@@ -311,15 +321,15 @@ class StopDocument(Document):
     """A place to work at."""
 
     at: Place = Field(description=f"a place: {PLACES}")
-    work: NotNegative = optional(WORK)
+    work: NotNegative = make_optional(WORK)
 
 
-@with_attributes(Robot)
+@add_attributes(Robot)
 class RobotAttributes(Document):
     """What a robot has beside its name and its trip."""
 
 
-@with_attributes(Robot)
+@add_attributes(Robot)
 class RobotDocument(Document):
     """A robot and its trip: target and work, or stops."""
 
@@ -333,11 +343,11 @@ class RobotDocument(Document):
     )
 
     name: Name = Field(description="a name of its own")
-    home: Place = optional(f"the place it starts from: {PLACES}; left out with homes: parking")
-    target: Place = optional(f"the place to work at: {PLACES}")
-    work: NotNegative = optional(WORK)
-    stops: list[StopDocument] = optional("one or more {at, work}, in order", min_length=1)
-    size: RobotSize = optional(
+    home: Place = make_optional(f"the place it starts from: {PLACES}; left out with homes: parking")
+    target: Place = make_optional(f"the place to work at: {PLACES}")
+    work: NotNegative = make_optional(WORK)
+    stops: list[StopDocument] = make_optional("one or more {at, work}, in order", min_length=1)
+    size: RobotSize = make_optional(
         "[length, width] instead of a radius: the circle around it [length unit]"
     )
 
@@ -355,22 +365,22 @@ class RobotDocument(Document):
             raise ValueError("size: length and width are not both positive (give two above 0)")
         return self
 
-    def own(self, owner: type) -> dict[str, Any]:
+    def get_own_attributes(self, owner: type) -> dict[str, Any]:
         """Return the attributes that were written; a size as the radius of the circle around it."""
         size = {} if self.size is None else {"radius": circumscribe(*self.size)}
-        return super().own(owner) | size
+        return super().get_own_attributes(owner) | size
 
 
-@with_attributes(Robot, but="speed")
+@add_attributes(Robot, but="speed")
 class FleetDocument(Document):
     """Robots R1, R2, ... from the rows of a MovingAI .scen file."""
 
     scen: Name = Field(description="a .scen file, relative to the scenario's own")
-    count: Count = optional("how many of its rows to take, 1 or more; all by default")
-    speeds: list[Positive] = optional(
+    count: Count = make_optional("how many of its rows to take, 1 or more; all by default")
+    speeds: list[Positive] = make_optional(
         "speeds to deal out in turn: first, second, ...", min_length=1
     )
-    work: list[NotNegative] = optional("work times to deal out in turn", min_length=1)
+    work: list[NotNegative] = make_optional("work times to deal out in turn", min_length=1)
 
 
 class RobotTableDocument(Document):
@@ -379,7 +389,7 @@ class RobotTableDocument(Document):
     table: Name = Field(description="a .csv file, relative to the scenario's own")
 
 
-@with_attributes(Rules)
+@add_attributes(Rules)
 class RulesDocument(Document):
     """What holds for the whole fleet."""
 
@@ -391,15 +401,15 @@ class ClosureDocument(Document):
         json_schema_extra=finish_schema(oneOf=[{"required": ["at"]}, {"required": ["edge"]}])
     )
 
-    at: Place = optional(f"the place that is closed: {PLACES}")
-    edge: list[Place] = optional(
+    at: Place = make_optional(f"the place that is closed: {PLACES}")
+    edge: list[Place] = make_optional(
         "[A, B] instead of at: both ends of an edge that is closed in both directions",
         min_length=2,
         max_length=2,
     )
-    from_: NotNegative = optional("when it begins [time unit]; 0 by default", alias="from")
-    until: Positive = optional("when it ends [time unit]; left out: never")
-    radius: NotNegative = optional(
+    from_: NotNegative = make_optional("when it begins [time unit]; 0 by default", alias="from")
+    until: Positive = make_optional("when it ends [time unit]; left out: never")
+    radius: NotNegative = make_optional(
         "what is nearer than this, a robot's radius and the clearance is closed for that robot,"
         " too [length unit]"
     )
@@ -415,8 +425,8 @@ class ClosureDocument(Document):
 class UnitsDocument(Document):
     """What numbers are measured in, for people who read reports; none by default."""
 
-    length: LengthUnit = optional("mm, cm or m")
-    time: TimeUnit = optional("ms, s, min or h")
+    length: LengthUnit = make_optional("mm, cm or m")
+    time: TimeUnit = make_optional("ms, s, min or h")
 
 
 class ScenarioFrame(Document):
@@ -424,24 +434,24 @@ class ScenarioFrame(Document):
 
     format: Literal["rightofway-scenario/1"] = Field(description="rightofway-scenario/1")
     map: Any = Field(description=f"one of {', '.join(MAPS)}")
-    units: Any = optional("{length, time}: how reports write quantities")
-    homes: Literal["parking"] = optional(
+    units: Any = make_optional("{length, time}: how reports write quantities")
+    homes: Literal["parking"] = make_optional(
         "parking: robots without a home start from the parking and charging places of a layout"
     )
     robots: Any = Field(description="a list of robots, {scen: file} or {table: file}")
-    rules: Any = optional("classic, or rules for the whole fleet")
-    closures: Any = optional("a list of {at or edge, from, until, radius}")
+    rules: Any = make_optional("classic, or rules for the whole fleet")
+    closures: Any = make_optional("a list of {at or edge, from, until, radius}")
 
 
 class ScenarioDocument(ScenarioFrame):
     """A scenario: where the fleet drives, its robots, its rules."""
 
     map: MapDocument = Field(description="where the fleet drives")
-    units: UnitsDocument = optional("how reports write quantities")
+    units: UnitsDocument = make_optional("how reports write quantities")
     robots: list[RobotDocument] | FleetDocument | RobotTableDocument = Field(
         description="the fleet"
     )
-    rules: Literal["classic"] | RulesDocument = optional(
+    rules: Literal["classic"] | RulesDocument = make_optional(
         "classic (no turning, no way back), or rules for the whole fleet"
     )
-    closures: list[ClosureDocument] = optional("what nobody may use for a while")
+    closures: list[ClosureDocument] = make_optional("what nobody may use for a while")

@@ -10,10 +10,10 @@ from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.files import as_path, write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
-from rightofway.io.text import json_text
+from rightofway.io.text import format_json
 from rightofway.model import Robot, Scenario
 from rightofway.model.attributes import list_plain_attributes
-from rightofway.model.given import checked_scenario
+from rightofway.model.given import require_scenario
 from rightofway.quantities import Units
 from rightofway.site import EdgeClass, Roadmap, VertexId
 from rightofway.site.drawing import Picture
@@ -34,7 +34,7 @@ def dump_scenario(scenario: Scenario) -> dict[str, Any]:
     Reading the document gives an equal scenario, where robots and vertices have printable names,
     numbers have at most 18 digits, and a roadmap without a grid has labels.
     """
-    roadmap = checked_scenario(scenario).roadmap
+    roadmap = require_scenario(scenario).roadmap
     return {
         "format": SCENARIO_FORMAT,
         "map": _map(roadmap) | _spacing(scenario),
@@ -63,13 +63,13 @@ def write_scenario(scenario: Scenario, path: Path | str) -> None:
     path = as_path(path)
     document = dump_scenario(scenario)
     if path.suffix.lower() == ".json":
-        write_whole(path, json_text(document))
+        write_whole(path, format_json(document))
     elif path.suffix.lower() in {".yaml", ".yml"}:
-        write_whole(path, yaml_of(document))
+        write_whole(path, format_yaml(document))
     elif path.suffix.lower() == ".xlsx":
-        from rightofway.io.workbook.writer import workbook_of
+        from rightofway.io.workbook.writer import format_workbook
 
-        write_whole(path, workbook_of(document))
+        write_whole(path, format_workbook(document))
     else:
         endings = "end the name in .yaml, .json or .xlsx"
         message = f"the suffix {path.suffix!r} is no scenario's ({endings})"
@@ -77,7 +77,7 @@ def write_scenario(scenario: Scenario, path: Path | str) -> None:
 
 
 @checks_arguments
-def scenario_text(scenario: Scenario) -> str:
+def format_scenario(scenario: Scenario) -> str:
     """Return a scenario as YAML, as `write_scenario` writes it.
 
     Parameters
@@ -85,10 +85,10 @@ def scenario_text(scenario: Scenario) -> str:
     scenario
         The scenario.
     """
-    return yaml_of(dump_scenario(scenario))
+    return format_yaml(dump_scenario(scenario))
 
 
-def yaml_of(document: dict[str, Any]) -> str:
+def format_yaml(document: dict[str, Any]) -> str:
     """Return a scenario's document as YAML."""
     import yaml
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError, Steps, Where, find_nearest, name_file, quote
-from rightofway.io.faults import Faults, keys_of
+from rightofway.io.faults import Faults, list_keys
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.scenario.reader import Loaded, read_scenario
 from rightofway.io.tables import (
@@ -15,12 +15,12 @@ from rightofway.io.tables import (
     WORD_KEYS,
     CellDocument,
     Row,
-    heading_key,
-    records_of,
-    robots_of_rows,
-    value_of,
+    find_heading_key,
+    read_cell_value,
+    read_records,
+    read_robots_of_rows,
 )
-from rightofway.io.workbook.sheets import Sheet, read_sheets, reference
+from rightofway.io.workbook.sheets import Sheet, find_reference, read_sheets
 from rightofway.phrases import Phrase, say_count
 
 SHEETS = ("map", "robots", "rules", "vertices", "edges", "closures")
@@ -85,7 +85,9 @@ def _document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[Phrase]) 
         faults.note("", f"the sheet {missing} is missing (add it; `rightofway new` writes one)")
     if "robots" in sheets:
         sheet = sheets["robots"]
-        robots = robots_of_rows(_rows(sheet, offset), sheet.cell, keys_of(RobotDocument))
+        robots = read_robots_of_rows(
+            _rows(sheet, offset), sheet.locate_cell, list_keys(RobotDocument)
+        )
         document["robots"] = robots.part
         cells |= {("robots",): sheet.location, **robots.cells}
         faults.add(robots.faults)
@@ -95,9 +97,9 @@ def _document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[Phrase]) 
         _add_rules(sheets["rules"], document, cells, faults)
         cells["rules",] = sheets["rules"].location
     if "closures" in sheets:
-        sheet, known = sheets["closures"], keys_of(ClosureDocument)
-        closures = records_of(
-            _rows(sheet, offset), sheet.cell, ("closures",), known, noun="a closure"
+        sheet, known = sheets["closures"], list_keys(ClosureDocument)
+        closures = read_records(
+            _rows(sheet, offset), sheet.locate_cell, ("closures",), known, noun="a closure"
         )
         document["closures"] = closures.part
         cells |= closures.cells
@@ -119,10 +121,10 @@ def _grid(
     bottom, right = max(row for row, _ in used), max(column for _, column in used)
     count = (bottom - top + 1) * (right - left + 1)
     if count > MAX_CELLS:
-        last = sheet.cell(*max(used, key=lambda cell: (cell[0] + cell[1], cell)))
+        last = sheet.locate_cell(*max(used, key=lambda cell: (cell[0] + cell[1], cell)))
         message = (
-            f"the map reaches from {sheet.cell(top, left).cell} to here: {count} cells, more than"
-            f" {MAX_CELLS} (clear what stands beside the map)"
+            f"the map reaches from {sheet.locate_cell(top, left).cell} to here: {count} cells,"
+            f" more than {MAX_CELLS} (clear what stands beside the map)"
         )
         raise InputError.at(last, message)
     faults, empty = Faults(), []
@@ -139,29 +141,29 @@ def _grid(
                 line += value
             else:
                 message = f"{quote(value)} is no cell of a map (write . or @, or fill the cell)"
-                faults.note(sheet.cell(row, column), message)
+                faults.note(sheet.locate_cell(row, column), message)
         lines.append(line)
     faults.stop()
     if empty:
         cells_count = say_count(
             len(empty), "empty cell of the map counts", "empty cells of the map count"
         )
-        first = str(sheet.cell(*empty[0]).cell)
+        first = str(sheet.locate_cell(*empty[0]).cell)
         notes.append(Phrase("{cells} as free, the first is {cell}", cells=cells_count, cell=first))
     cells: dict[Steps, Where] = {("map",): sheet.location, ("map", "grid"): sheet.location}
-    cells |= {("map", "grid", k): sheet.cell(top + k, left) for k in range(len(lines))}
+    cells |= {("map", "grid", k): sheet.locate_cell(top + k, left) for k in range(len(lines))}
     return lines, (top, left), cells
 
 
 def _rows(sheet: Sheet, offset: tuple[int, int]) -> Iterator[Row]:
     """Yield the rows of a sheet whose places may be cells of the map."""
-    for number, values in sheet.rows():
+    for number, values in sheet.list_rows():
         yield number, {column: _in_map(value, offset) for column, value in values.items()}
 
 
 def _in_map(value: Any, offset: tuple[int, int]) -> Any:
     """Return what a cell holds; for a reference to a cell of the map its row and column there."""
-    cell = reference(value) if isinstance(value, str) else None
+    cell = find_reference(value) if isinstance(value, str) else None
     if cell is None:
         return value
     return f"[{cell[0] - offset[0]}, {cell[1] - offset[1]}]"
@@ -173,30 +175,32 @@ def _add_rules(
     """Add the rows of the rules sheet: rules, units, and what belongs to the map."""
     from rightofway.io.scenario.shape import MAPS, MapDocument, RulesDocument
 
-    rules = keys_of(RulesDocument)
+    rules = list_keys(RulesDocument)
     of_map = [name for name in MapDocument.model_fields if name not in MAPS]
     known = [*rules, *of_map, *UNIT_KEYS, HOMES]
     seen = set[str]()
     parts: dict[str, dict[str, Any]] = {"rules": {}, "units": {}, "map": {}}
-    for row, values in sheet.rows():
+    for row, values in sheet.list_rows():
         name, value = values.get(1), values.get(2)
-        key = heading_key(name)
+        key = find_heading_key(name)
         if key in {"rule", "rules", "key"} or name is None:
             continue
         if key not in known:
             near = find_nearest(key, known)
             hint = f"did you mean {near}?" if near else f"known: {', '.join(known)}"
-            faults.note(sheet.cell(row, 1), f"{quote(name)} is no rule ({hint})")
+            faults.note(sheet.locate_cell(row, 1), f"{quote(name)} is no rule ({hint})")
             continue
         if key in seen:
-            faults.note(sheet.cell(row, 1), f"the rule {key} is given twice (take one out)")
+            faults.note(sheet.locate_cell(row, 1), f"the rule {key} is given twice (take one out)")
             continue
         seen.add(key)
         part = "units" if key in UNIT_KEYS else "map" if key in of_map else "rules"
         path: Steps = (key,) if key == HOMES else (part, UNIT_KEYS.get(key, key))
-        cells[path] = sheet.cell(row, 2)
+        cells[path] = sheet.locate_cell(row, 2)
         read = (
-            faults.attempt(sheet.cell(row, 2), value_of, key, value) if value is not None else None
+            faults.attempt(sheet.locate_cell(row, 2), read_cell_value, key, value)
+            if value is not None
+            else None
         )
         if read is not None and key == HOMES:
             document[HOMES] = read
@@ -215,12 +219,14 @@ def _roadmap(vertices: Sheet, edges: Sheet) -> CellDocument:
     from rightofway.io.scenario.shape import EdgeDocument
 
     path, faults, first = ("map", "roadmap"), Faults(), dict[str, int]()
-    table = records_of(vertices.rows(), vertices.cell, (), VERTEX_KEYS, noun="a vertex")
-    ways = records_of(
-        edges.rows(),
-        edges.cell,
+    table = read_records(
+        vertices.list_rows(), vertices.locate_cell, (), VERTEX_KEYS, noun="a vertex"
+    )
+    ways = read_records(
+        edges.list_rows(),
+        edges.locate_cell,
         (*path, "edges"),
-        keys_of(EdgeDocument),
+        list_keys(EdgeDocument),
         noun="an edge",
         words={*WORD_KEYS, "from", "to"},
     )

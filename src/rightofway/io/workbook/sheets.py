@@ -21,7 +21,7 @@ from typing import Any
 from rightofway.errors import InputError, Location, find_nearest, quote
 from rightofway.extras import load_library
 from rightofway.io.faults import Faults
-from rightofway.io.text import content_of
+from rightofway.io.text import read_content
 
 MAX_BYTES = 2**28
 """Largest content of a workbook that is read, unpacked [bytes]."""
@@ -76,13 +76,13 @@ class Sheet:
         """The sheet as a place."""
         return Location(cell=self.name)
 
-    def cell(self, row: int, column: int) -> Location:
+    def locate_cell(self, row: int, column: int) -> Location:
         """Return the place of a cell: ``robots!E4``."""
         from openpyxl.utils import get_column_letter  # type: ignore[import-untyped]
 
         return Location(cell=f"{self.name}!{get_column_letter(column)}{row}")
 
-    def rows(self) -> Iterator[tuple[int, dict[int, Any]]]:
+    def list_rows(self) -> Iterator[tuple[int, dict[int, Any]]]:
         """Yield the rows that are not empty: their number, and their values by column."""
         by_row: dict[int, dict[int, Any]] = {}
         for (row, column), value in sorted(self.values.items()):
@@ -118,7 +118,7 @@ def read_sheets(path: Path, wanted: Collection[str], faults: Faults) -> dict[str
 
 
 def _content(path: Path) -> bytes:
-    data = bytes(content_of(path, MAX_BYTES))
+    data = bytes(read_content(path, MAX_BYTES))
     if data.startswith(OLD_OFFICE):
         message = "has a password, or is an old .xls file (save it as .xlsx without a password)"
         raise InputError.at("", message)
@@ -248,15 +248,15 @@ def _keep_computed(
             f"the formula {quote(formulas[position])} has no value yet"
             " (open the workbook in a spreadsheet and save it, or write the value)"
         )
-        faults.note(sheet.cell(*position), message)
+        faults.note(sheet.locate_cell(*position), message)
 
 
 def is_reference(text: str) -> bool:
     """Return whether a text points to a cell of the map: ``=map!C3``, ``map!$C$3``."""
-    return reference(text) is not None
+    return find_reference(text) is not None
 
 
-def reference(text: str) -> Position | None:
+def find_reference(text: str) -> Position | None:
     """Return row and column of the cell of the map that a text points to."""
     from openpyxl.utils import column_index_from_string
 
@@ -271,7 +271,7 @@ def reference(text: str) -> Position | None:
 
 def _keep(sheet: Sheet, position: Position, value: Any, kind: str, faults: Faults) -> None:
     """Add a value of a cell, or note why it is none."""
-    place = sheet.cell(*position)
+    place = sheet.locate_cell(*position)
     if kind == "e":
         faults.note(place, f"holds the error {value} (mend it)")
     elif isinstance(value, datetime | date | time | timedelta):

@@ -93,10 +93,10 @@ def write_template(path: Path | str) -> None:
     InputError
         If the file cannot be written.
     """
-    write_whole(path, workbook_of(TEMPLATE))
+    write_whole(path, format_workbook(TEMPLATE))
 
 
-def workbook_of(document: dict[str, Any]) -> bytes:
+def format_workbook(document: dict[str, Any]) -> bytes:
     """Return the workbook of a scenario document.
 
     Parameters

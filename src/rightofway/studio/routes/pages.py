@@ -15,7 +15,7 @@ from zlib import crc32
 from fastapi import APIRouter, Request, Response
 
 from rightofway import __version__
-from rightofway.io import schema
+from rightofway.io import make_schema
 from rightofway.languages import read_tables
 from rightofway.studio.errors import Refused
 from rightofway.studio.guard import MAX_BODY
@@ -118,6 +118,6 @@ def describe(studio: InStudio) -> dict[str, Any]:
 
 
 @about.get("/schema", tags=["studio"])
-def get_scenario_schema() -> dict[str, Any]:
+def get_scenario_make_schema() -> dict[str, Any]:
     """Return the JSON Schema of scenarios, as `rightofway schema scenario` prints it."""
-    return schema("scenario")
+    return make_schema("scenario")

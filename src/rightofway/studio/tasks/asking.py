@@ -7,7 +7,7 @@ from typing import Any
 
 from rightofway.check import check
 from rightofway.errors import InputError, InvalidPlan, find_nearest
-from rightofway.io import plan_text
+from rightofway.io import format_plan
 from rightofway.metrics import compute_lost_time
 from rightofway.model import Loss, Plan, Tick
 from rightofway.phrases import Phrase, to_parts
@@ -114,7 +114,7 @@ def flip(
         "before": compute_figures(plan),
         "status": run.status,
     }
-    return (result, plan_text(flipped_plan).encode())
+    return (result, format_plan(flipped_plan).encode())
 
 
 def _index(plan: Plan, place: str, name: str) -> int:

@@ -11,7 +11,7 @@ from typing import Any
 
 from rightofway.errors import InputError, locate_faults
 from rightofway.io.faults import validate
-from rightofway.io.fields import positive
+from rightofway.io.fields import read_positive
 from rightofway.io.scenario.loaded_map import FleetTraits
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.shape import MapDocument, UnitsDocument
@@ -77,14 +77,14 @@ def deal_robots(
 
 def _speed(given: Any) -> Fraction:
     try:
-        return positive(given)
+        return read_positive(given)
     except ValueError as error:
         raise InputError.at("", str(error)) from None
 
 
 def _roadmap(document: dict[str, Any], folder: str, speeds: list[Fraction]) -> Roadmap:
     with locate_faults("units"):
-        units = validate(UnitsDocument, document.get("units") or {}).given("length", "time")
+        units = validate(UnitsDocument, document.get("units") or {}).get_given("length", "time")
     with locate_faults("map"):
         shape = validate(MapDocument, document.get("map"))
         roadmap = map_of(shape, Path(folder), Units(**units), FleetTraits(speeds=speeds))

@@ -14,20 +14,20 @@ from rightofway.errors import InputError, InputFault
 from rightofway.io import (
     Loaded,
     dump_scenario,
-    example_of_layout,
+    format_example,
+    format_plan,
     is_layout,
     load_either,
     load_with_notes,
-    plan_text,
     read_layout,
 )
 from rightofway.io.layouts import describe_layout
-from rightofway.io.locations import document_of, locate
+from rightofway.io.locations import locate, open_document
 from rightofway.io.readers import WORKBOOKS
 from rightofway.io.scenario.reader import read_scenario
-from rightofway.io.scenario.writer import yaml_of
-from rightofway.io.sites import sites_of
-from rightofway.io.text import json_text, parse_yaml
+from rightofway.io.scenario.writer import format_yaml
+from rightofway.io.sites import make_sites
+from rightofway.io.text import format_json, parse_yaml
 from rightofway.metrics import inspect, measure
 from rightofway.model import Plan, Scenario
 from rightofway.phrases import Phrase, to_parts
@@ -44,7 +44,7 @@ def open_file(_emit: Emit, _blobs: Blobs, *, path: str, count: int | None = None
     """
     file = Path(path)
     if is_layout(file):
-        document = parse_yaml(example_of_layout(file, file.with_suffix(".yaml")))
+        document = parse_yaml(format_example(file, file.with_suffix(".yaml")))
         layout = read_layout(file)
         new = Phrase("a new scenario on {layout}", layout=describe_layout(layout))
         notes = to_parts([*getattr(layout, "notes", ()), new])
@@ -58,7 +58,10 @@ def open_file(_emit: Emit, _blobs: Blobs, *, path: str, count: int | None = None
     except InputError:
         return (_with_faults(file),)
     if isinstance(loaded, Plan):
-        return ({"kind": "plan", "figures": compute_figures(loaded)}, plan_text(loaded).encode())
+        return (
+            {"kind": "plan", "figures": compute_figures(loaded)},
+            format_plan(loaded).encode(),
+        )
     return ({**_of_loaded("scenario", loaded), "document": read_document(file)},)
 
 
@@ -69,7 +72,7 @@ def _of_loaded(kind: str, loaded: Loaded) -> dict[str, Any]:
 
 def _with_faults(file: Path) -> dict[str, Any]:
     """Return a scenario that has faults, to be mended in the studio; what is none is refused."""
-    with document_of(file) as document:
+    with open_document(file) as document:
         if isinstance(document, dict) and isinstance(document.get("map"), dict):
             return {"kind": "scenario", "document": as_plain(document), "notes": []}
     load_either(file)
@@ -78,7 +81,7 @@ def _with_faults(file: Path) -> dict[str, Any]:
 
 def read_document(file: Path) -> Any:
     """Return what stands in a YAML or JSON file, as plain data."""
-    with document_of(file) as document:
+    with open_document(file) as document:
         return as_plain(document)
 
 
@@ -120,7 +123,7 @@ def validate_document(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str)
 def inspect_document(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) -> Result:
     """Return what will hurt on the floor of a document, as `rightofway inspect --json` has it."""
     loaded = load_document(document, folder)
-    sites = sites_of(loaded.scenario, loaded.notes)
+    sites = make_sites(loaded.scenario, loaded.notes)
     results = [(site, inspect(site)) for _, site in sites.sites]
     (result,) = (inspected for _, inspected in results)
     return (
@@ -139,13 +142,13 @@ def write_document(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str, na
     """Return the text of a document as a file of some name has it: .yaml, .yml, .json or .xlsx."""
     suffix = Path(name).suffix.lower()
     if suffix in {".yaml", ".yml"}:
-        return (None, yaml_of(document).encode())
+        return (None, format_yaml(document).encode())
     if suffix == ".json":
-        return (None, json_text(document).encode())
+        return (None, format_json(document).encode())
     if suffix == ".xlsx":
-        from rightofway.io.workbook.writer import workbook_of
+        from rightofway.io.workbook.writer import format_workbook
 
-        return (None, workbook_of(dump_scenario(load_document(document, folder).scenario)))
+        return (None, format_workbook(dump_scenario(load_document(document, folder).scenario)))
     message = f"{name!r} does not end in .yaml, .yml, .json or .xlsx (give a name that does)"
     raise InputError.at("path", message)
 

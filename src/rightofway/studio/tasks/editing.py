@@ -15,8 +15,8 @@ from rightofway.io import Loaded, dump_scenario
 from rightofway.io.faults import validate
 from rightofway.io.scenario.loaded_map import FleetTraits
 from rightofway.io.scenario.maps import map_of
-from rightofway.io.scenario.picture import with_picture
-from rightofway.io.sites import sites_of
+from rightofway.io.scenario.picture import add_picture
+from rightofway.io.sites import make_sites
 from rightofway.metrics import Inspection, Site, describe_site, inspect
 from rightofway.phrases import to_parts
 from rightofway.quantities import Units
@@ -60,7 +60,7 @@ def survey_document(
     loaded, kept_robots, faults = read_readable(document, folder)
     if loaded is not None:
         scenario, notes = loaded.scenario, loaded.notes
-        ((_, site),) = sites_of(scenario, notes).sites
+        ((_, site),) = make_sites(scenario, notes).sites
         closures = [make_closure_data(closure, scenario) for closure in scenario.closures]
     else:
         site = read_map(document, folder)
@@ -195,7 +195,7 @@ def read_map(document: dict[str, Any], folder: str) -> Site | None:
     if isinstance(drawn, dict):
         drawn = {key: value for key, value in drawn.items() if key != "picture"}
     try:
-        given = validate(UnitsDocument, document.get("units") or {}).given("length", "time")
+        given = validate(UnitsDocument, document.get("units") or {}).get_given("length", "time")
         shape = validate(MapDocument, drawn)
         loaded = map_of(shape, Path(folder), Units(**given), FleetTraits(speeds=[Fraction(1)]))
     except InputError:
@@ -204,7 +204,7 @@ def read_map(document: dict[str, Any], folder: str) -> Site | None:
         return None
     if picture is not None:
         with contextlib.suppress(InputError):
-            loaded = with_picture(loaded, validate(PictureDocument, picture), Path(folder))
+            loaded = add_picture(loaded, validate(PictureDocument, picture), Path(folder))
     units = loaded.units if loaded.units.length else Units(**given)
     return Site(roadmap=loaded.roadmap, units=units)
 

@@ -8,7 +8,7 @@ from typing import Any
 from rightofway.errors import InputError
 from rightofway.io import dump_scenario, is_layout, load_either, load_with_notes
 from rightofway.io.scenario.reader import read_scenario
-from rightofway.io.sites import Choice, Sites, read_sites, sites_of
+from rightofway.io.sites import Choice, Sites, make_sites, read_sites
 from rightofway.metrics.site import compute_extent
 from rightofway.model import Plan
 from rightofway.quantities import format_decimal
@@ -52,14 +52,14 @@ def _file(file: Path) -> tuple[str, Sites]:
             raise
         return "scenario", _document(document, str(file.parent))
     if isinstance(loaded, Plan):
-        return "plan", sites_of(loaded.scenario, ())
-    return "scenario", sites_of(loaded.scenario, loaded.notes)
+        return "plan", make_sites(loaded.scenario, ())
+    return "scenario", make_sites(loaded.scenario, loaded.notes)
 
 
 def _document(document: dict[str, Any], folder: str) -> Sites:
     loaded, _, faults = read_readable(document, folder)
     if loaded is not None:
-        return sites_of(loaded.scenario, loaded.notes)
+        return make_sites(loaded.scenario, loaded.notes)
     site = read_map(document, folder)
     if site is None:
         raise InputError(faults)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from rightofway.io import FOREIGN_FORMATS, plan_of, plan_text
+from rightofway.io import FOREIGN_FORMATS, format_plan, parse_plan
 from rightofway.io.text import parse_json
 from rightofway.model import Plan
 from rightofway.solve import improve as improved
@@ -54,7 +54,7 @@ class PlanningProgress:
         if seconds < self._next:
             self._emit(event)
             return
-        self._emit({**event, "figures": compute_figures(plan)}, plan_text(plan).encode())
+        self._emit({**event, "figures": compute_figures(plan)}, format_plan(plan).encode())
         ended = self._seconds()
         self._next = ended + (ended - seconds) * (1 / SHARE_OF_SENDING - 1)
 
@@ -73,13 +73,13 @@ def plan(
 ) -> Result:
     """Plan a document; ``start`` is the run whose plan, a blob, it starts from."""
     scenario = load_document(document, folder).scenario
-    old = None if start is None else plan_of(parse_json(blobs[0].decode()))
+    old = None if start is None else parse_plan(parse_json(blobs[0].decode()))
     return _searched(emit, lambda progress: solve(scenario, start=old, **settings, **progress))
 
 
 def improve(emit: Emit, blobs: Blobs, **settings: Any) -> Result:
     """Make a plan better."""
-    given = plan_of(parse_json(blobs[0].decode()))
+    given = parse_plan(parse_json(blobs[0].decode()))
     return _searched(emit, lambda progress: improved(given, **settings, **progress))
 
 
@@ -95,7 +95,7 @@ def _searched(emit: Emit, search: Callable[[dict[str, Any]], Plan]) -> Result:
         ended = "interrupted: the best plan that was made"
         best = replace(progress.best, run=replace(progress.best.run, status=ended))
     status = {"status": best.run.status, "seconds": best.run.seconds}
-    return ({"figures": compute_figures(best), **status}, plan_text(best).encode())
+    return ({"figures": compute_figures(best), **status}, format_plan(best).encode())
 
 
 def list_choices(_emit: Emit, _blobs: Blobs) -> Result:

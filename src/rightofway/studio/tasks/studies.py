@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rightofway.errors import GaveUp, InputError
-from rightofway.io import plan_of, plan_text
+from rightofway.io import format_plan, parse_plan
 from rightofway.io.text import parse_json
 from rightofway.model import Scenario
 from rightofway.phrases import to_parts
@@ -70,7 +70,7 @@ def make_laps(emit: Emit, _blobs: Blobs, *, document: Any, folder: str, **settin
     The report is that of `rightofway laps --json`, with the one for people as ``text``.
     """
     from rightofway.cyclic import make_excerpt, plan_of_laps
-    from rightofway.model.steady_state import within
+    from rightofway.model.steady_state import keep_within
 
     scenario = load_document(document, folder).scenario
     run = _repeated(scenario, emit, **settings)
@@ -83,10 +83,10 @@ def make_laps(emit: Emit, _blobs: Blobs, *, document: Any, folder: str, **settin
         whole = plan_of_laps(run)
     except GaveUp as reason:  # a robot that is home for ever blocks others: only laps are shown
         return ({**result, "status": str(reason)}, payload)
-    whole = replace(whole, steady=within(steady, list(map(len, whole.tracks))))
+    whole = replace(whole, steady=keep_within(steady, list(map(len, whole.tracks))))
     digest = compute_digest(scenario)  # that of `whole` says how many laps are shown
     costs = {**compute_figures(whole), "scenario": digest}
-    return ({**result, "figures": costs}, payload, plan_text(whole).encode())
+    return ({**result, "figures": costs}, payload, format_plan(whole).encode())
 
 
 def make_laps_if(
@@ -155,7 +155,7 @@ def simulate(
     from rightofway.execution import DEFAULT_DELAYS
     from rightofway.execution import simulate as execute
 
-    given, report = plan_of(parse_json(blobs[0].decode())), PlanningProgress(emit).report
+    given, report = parse_plan(parse_json(blobs[0].decode())), PlanningProgress(emit).report
     causes = list(delays) or [DEFAULT_DELAYS]
     outcome = execute(given, causes, runs, keep_runs=True, report=report, **settings)
     named = {"typical": outcome.find_typical_run, "worst": outcome.find_worst_run}
@@ -174,7 +174,7 @@ def simulate(
         "ranks": compute_ranks(outcome),
     }
     result = {"report": data, "has_payload": True, "figures": compute_figures(outcome.plan)}
-    return (result, payload, plan_text(outcome.plan).encode())
+    return (result, payload, format_plan(outcome.plan).encode())
 
 
 def replay_run(
@@ -183,7 +183,7 @@ def replay_run(
     """Return what the viewer plays of one run of a simulation."""
     from rightofway.execution import DEFAULT_DELAYS, replay
 
-    plan = plan_of(parse_json(blobs[0].decode()))
+    plan = parse_plan(parse_json(blobs[0].decode()))
     trace = replay(plan, list(delays) or [DEFAULT_DELAYS], run, seed, **policy)
     return (None, as_compact_json(make_payload(plan, actual=trace)).encode())
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, NotRequired, TypedDict
 
 from rightofway.errors import InputError
-from rightofway.io import FOREIGN_FORMATS, foreign_text, plan_of, write_plan
+from rightofway.io import FOREIGN_FORMATS, format_foreign, parse_plan, write_plan
 from rightofway.io.scenario.reader import read_scenario
 from rightofway.io.text import parse_json
 from rightofway.metrics import compare, find_changes
@@ -68,7 +68,7 @@ def read(blob: bytes) -> Plan:
     blob
         The text of a plan file.
     """
-    return plan_of(parse_json(blob.decode()))
+    return parse_plan(parse_json(blob.decode()))
 
 
 def make_plan_payload(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
@@ -98,7 +98,7 @@ def export_plan(_emit: Emit, blobs: Blobs, *, form: str, origin: Origin | None =
     """Return a plan as a file: an ending of `WRITERS`, or a format of other programs."""
     plan = as_drawn(read(blobs[0]), origin if form in PICTURES else None)
     if form in FOREIGN_FORMATS:
-        return (None, foreign_text(plan, form).encode())
+        return (None, format_foreign(plan, form).encode())
     if form not in WRITERS:
         known = ", ".join([*WRITERS, *FOREIGN_FORMATS])
         raise InputError.at("form", f"{form!r} is no format (give one of: {known})")

@@ -18,7 +18,7 @@ from rightofway.arguments import checks_arguments
 from rightofway.errors import NoPlanExists
 from rightofway.files import write_whole
 from rightofway.model import ExecutionTrace, Plan, SteadyState
-from rightofway.model.given import checked_plan
+from rightofway.model.given import require_plan
 from rightofway.values import read_at, read_label
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.payload import make_payload
@@ -75,7 +75,7 @@ def make_page(
         If ``steady`` or ``actual`` are not of this plan, the background cannot be read, or the
         plans cannot be compared: too many, or times in a unit and in none.
     """
-    count = len(checked_plan(plan).scenario.robots)
+    count = len(require_plan(plan).scenario.robots)
     title = read_at("title", read_label, title)
     robots = f"{count} robot{'s' * (count != 1)}"
     about = f"{title}: {robots}" if title else f"{robots}, planned by {plan.run.name}"

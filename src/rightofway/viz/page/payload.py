@@ -35,7 +35,7 @@ from rightofway.model import (
     Track,
 )
 from rightofway.model.closures import Closure
-from rightofway.model.given import checked_plan
+from rightofway.model.given import require_plan
 from rightofway.model.place_names import PlaceNames
 from rightofway.model.steady_state import refuse_unknown_robots
 from rightofway.phrases import Phrase, PhraseBook, join_items, to_parts
@@ -224,7 +224,7 @@ def _refuse_other_kinds(
         if not isinstance(other, list | tuple) or len(other) != 2:  # noqa: PLR2004 (plan, title)
             message = f"{quote(other)} is no plan with a title (give (plan, title))"
             raise InputError.at(("others", index), message)
-        checked_plan(other[0], ("others", index, 0))
+        require_plan(other[0], ("others", index, 0))
         read_at(("others", index, 1), read_label, other[1])
 
 

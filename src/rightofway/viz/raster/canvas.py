@@ -10,7 +10,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from rightofway.model import Plan
-from rightofway.model.given import checked_plan
+from rightofway.model.given import require_plan
 from rightofway.model.place_names import PlaceNames
 from rightofway.site import Roadmap
 from rightofway.values import make_class_reader, read_at
@@ -53,9 +53,9 @@ class Scene(Ground):
 
     def __init__(self, plan: Plan, theme: Theme) -> None:
         read_at("theme", make_class_reader(Theme, "no theme", "give a rightofway.Theme"), theme)
-        super().__init__(checked_plan(plan).scenario.roadmap, theme)
+        super().__init__(require_plan(plan).scenario.roadmap, theme)
         self.plan = plan
-        self.where = PlaceNames(plan.scenario).where
+        self.where = PlaceNames(plan.scenario).describe_place
         self.trips = make_trips(plan)
         self.colours = choose_colours(len(self.trips))
         self.end = max(end_of(self.trips), 1)

@@ -16,7 +16,16 @@ import numpy as np
 from rightofway.errors import InputError, InputFault
 from rightofway.metrics import find_collisions, find_near_misses, find_swaps, free_running
 from rightofway.metrics.waits import waits_in
-from rightofway.model import NEVER, Plan, Scenario, Stays, Tick, Track, completions_of, stays_of
+from rightofway.model import (
+    NEVER,
+    Plan,
+    Scenario,
+    Stays,
+    Tick,
+    Track,
+    compute_completions,
+    find_stays,
+)
 from rightofway.quantities import DIGITS, Quantities, format_decimal
 from rightofway.site import Roadmap
 
@@ -292,7 +301,7 @@ def end_of(plan: Plan, robots: Sequence[str] | None = None) -> Tick:
     """
     shown = choose_robots(plan.scenario, robots)
     fleets = (free_running(plan), plan.tracks)
-    ends = [completions_of(plan.scenario, tracks) for tracks in fleets]
+    ends = [compute_completions(plan.scenario, tracks) for tracks in fleets]
     return max(end[robot] for end in ends for robot in shown)
 
 
@@ -304,7 +313,7 @@ def _table(
 ) -> TimeSpaceTable:
     """Make a table of rows in an order: a robot in a fleet of tracks."""
     fleets = dict(fleet for _, fleet in order)
-    stays = {kind: stays_of(scenario, tracks) for kind, tracks in fleets.items()}
+    stays = {kind: find_stays(scenario, tracks) for kind, tracks in fleets.items()}
     marked = {kind: _marks(scenario, tracks, stays[kind]) for kind, tracks in fleets.items()}
     ends = [stays[kind][robot].completion for robot, (kind, _) in order]
     first, last = _window(*window, max(ends))
