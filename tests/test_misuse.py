@@ -105,7 +105,7 @@ GOOD: dict[str, Callable[[], tuple[Callable[..., Any], dict[str, Any]]]] = {
     "improve": lambda: (rw.improve, {"plan": plan(), "time_limit": 0.01}),
     "Layout.get_level": lambda: (SITE.get_level, {}),
     "LostTime.as_dict": lambda: (plan().lost_time[0].as_dict, {}),
-    "Objective.of": lambda: (
+    "Objective.compute_cost": lambda: (
         rw.Objective.FLOWTIME.compute_cost,
         {"scenario": DOOR, "tracks": plan().tracks},
     ),
@@ -114,7 +114,7 @@ GOOD: dict[str, Callable[[], tuple[Callable[..., Any], dict[str, Any]]]] = {
         plan().compute_value,
         {"objective": rw.Objective.MAKESPAN},
     ),
-    "Plan.once": lambda: (plan().compute_once, {"figure": "of a test", "compute": list}),
+    "Plan.compute_once": lambda: (plan().compute_once, {"figure": "of a test", "compute": list}),
     "Plan.to_dataframe": lambda: (plan().to_dataframe, {"library": "pandas"}),
     "Quantities.format_cell": lambda: (QUANTITIES.format_cell, {"ticks": 1}),
     "Quantities.format_duration": lambda: (QUANTITIES.format_duration, {"ticks": 1}),

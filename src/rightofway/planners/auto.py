@@ -64,7 +64,8 @@ def _best(task: Task) -> Draft:
     prover = _Prover(task)
     first = _explained(task)
     if first is not None:
-        first = prover.prove(first, FIRST_NODES, SHARE_OF_FIRST_NODES)
+        nodes = min(FIRST_NODES, task.options["nodes"] or FIRST_NODES)
+        first = prover.prove(first, nodes, SHARE_OF_FIRST_NODES)
         if _is_optimal(task, first):
             return first
     try:
