@@ -99,6 +99,7 @@ class Client(httpx.Client):
         studio._scratch.cleanup()  # the workers have one
         studio.desk, studio.planners = self.studio.desk, self.studio.planners
         studio.runs = Runs(studio.store, studio.planners, studio.desk)
+        studio.drives = self.studio.drives
         self.app.state.studio = studio
         self.do(studio.runs.start())
 

@@ -275,3 +275,45 @@ def test_both_studies_are_whole_in_german(studio: StudioPage) -> None:
     studio.page.locator(".parameter").first.wait_for()
     assert "Was den Takt bestimmt" in studio.text(".study")
     assert "undefined" not in studio.text(".study")
+
+
+def test_a_plan_is_driven_and_watched_inside_the_studio(studio: StudioPage) -> None:
+    """The live page is over all else; its buttons hold robots, and the studio ends the drive."""
+    studio.page.locator(".settings [type=submit]").click()
+    studio.planned()
+    studio.page.locator("details.drives summary").click()
+    studio.page.fill("#pace", "0.5")
+    studio.button("Drive").click()
+    dialog = studio.page.get_by_role("dialog", name="Watch the robots")
+    live = dialog.frame_locator("iframe")
+    live.get_by_role("button", name="Hold all robots").click()
+    live.get_by_role("dialog").get_by_role("button", name="Yes").click()
+    live.get_by_text("carried out").wait_for()
+    robots = live.locator("#robot-list")
+    robots.get_by_text("held by a person").first.wait_for()
+    studio.keep("drive")
+    dialog.get_by_role("button", name="Stop the robots").click()
+    live.get_by_text("the control has ended").wait_for()
+    studio.keep("drive-ended")
+    dialog.get_by_role("button", name="Close").click()
+    dialog.wait_for(state="hidden")
+    status = studio.page.locator("details.drives .drive")
+    assert status.inner_text() == "Stopped while robots drove plan 1."
+    studio.button("Watch the robots").click()
+    dialog.get_by_role("button", name="Close").wait_for()
+    assert studio.complaints == []
+
+
+def test_why_a_plan_cannot_be_driven_is_said_on_the_page(studio: StudioPage) -> None:
+    studio.page.locator(".settings [type=submit]").click()
+    studio.planned()
+    studio.page.locator("details.drives summary").click()
+    drives = studio.page.locator("details.drives")
+    drives.get_by_role("button", name="Another cause").click()
+    drives.get_by_label("Cause").select_option("breaks")
+    drives.locator(".causes input").fill("100")
+    studio.button("Drive").click()
+    studio.page.get_by_text("would never complete, and a demo ends when").wait_for()
+    studio.keep("drive-refused")
+    drives.locator(".causes").get_by_role("button").click()  # it was the only one
+    assert drives.locator(".causes li").count() == 0

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import math
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import ExitStack, closing, contextmanager
 from datetime import datetime
 from pathlib import Path
@@ -191,7 +190,7 @@ def drive(
     def narrate(tick: int, sentence: str) -> None:
         say(Phrase("{time}  {text}", time=f"{quantities.format_cell(tick):>8}", text=sentence))
 
-    from rightofway.control.demo import drive_demo
+    from rightofway.control.demo import drive_demo, make_pause
 
     with _kept_demo(shown if live else None, journal) as file:
         outcome = drive_demo(
@@ -202,7 +201,7 @@ def drive(
             switch=switch,
             identities=known,
             report=narrate,
-            wait_until=_playing(opened, time_scale),
+            wait_until=make_pause(opened, time_scale),
             journal=file,
             pace=None if math.isinf(time_scale) else time_scale,
             stays=stay,
@@ -262,19 +261,6 @@ def _kept_demo(page: WatchPage | None, journal: str | None) -> Iterator[Path | N
         SqliteJournal(file).close()  # a page reads what is there
         with page.serve(file, takes_orders=True):
             yield file
-
-
-def _playing(plan: Plan, time_scale: float) -> Callable[[int], None]:
-    """Return what waits until a tick is played."""
-    clock, seconds = plan.scenario.problem.clock, plan.scenario.units.seconds
-    began = time.monotonic()
-
-    def wait_until(tick: int) -> None:
-        if time_scale < math.inf:
-            planned = float(clock.convert_to_time(tick) * (seconds or 1)) / time_scale
-            time.sleep(max(began + planned - time.monotonic(), 0))
-
-    return wait_until
 
 
 def _show(letter: Letter) -> None:

@@ -7,6 +7,8 @@ arrives at once and nothing is lost. Simulated time goes from one step of a robo
 from __future__ import annotations
 
 import heapq
+import math
+import time
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -34,7 +36,7 @@ from rightofway.errors import InputError
 from rightofway.model import ExecutionTrace, Plan, Tick, Track
 from rightofway.phrases import Phrase, to_parts
 
-__all__ = ["DemoResult", "drive_demo"]
+__all__ = ["DemoResult", "drive_demo", "make_pause"]
 
 Report = Callable[[Tick, str], None]
 
@@ -168,6 +170,28 @@ def drive_demo(
     finally:
         if record:
             record.close()
+
+
+def make_pause(plan: Plan, time_scale: float) -> Callable[[Tick], None]:
+    """Return what waits until a tick of a plan has come, for `drive_demo`.
+
+    Parameters
+    ----------
+    plan
+        The plan.
+    time_scale
+        Seconds of the plan in each second, or its time units where it has no unit; inf for no
+        pause.
+    """
+    clock, seconds = plan.scenario.problem.clock, plan.scenario.units.seconds
+    began = time.monotonic()
+
+    def wait_until(tick: Tick) -> None:
+        if time_scale < math.inf:
+            planned = float(clock.convert_to_time(tick) * (seconds or 1)) / time_scale
+            time.sleep(max(began + planned - time.monotonic(), 0))
+
+    return wait_until
 
 
 class _Demo:

@@ -68,6 +68,8 @@ def create_app(studio: Studio, access: Access, *, has_page: bool = True) -> Fast
     app.include_router(pages.about, prefix=API)
     for routes in (documents, glances, planners, runs, plans, questions):
         app.include_router(routes.router, prefix=API)
+    app.include_router(drives.api, prefix=API)
+    app.include_router(drives.router)
     if has_page:
         app.include_router(pages.router)
     return _guarded(app, access)

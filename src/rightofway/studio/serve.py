@@ -46,6 +46,7 @@ class _Server(uvicorn.Server):
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         self._studio.runs.hang_up()
+        self._studio.drives.hang_up()
         await super().shutdown(sockets)
 
 

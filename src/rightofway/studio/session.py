@@ -11,6 +11,7 @@ from typing import Any
 from rightofway.errors import InputError
 from rightofway.io.text import check_depth
 from rightofway.studio.crew import Crew, Job
+from rightofway.studio.driving import Drives
 from rightofway.studio.runs import Runs
 from rightofway.studio.shared import SharedAnswers
 from rightofway.studio.store import Store
@@ -62,6 +63,7 @@ class Studio:
         self.glanced = SharedAnswers(GLANCED)
         self.glancing = asyncio.Semaphore(1)  # so that a list of files delays no other request
         self.runs = Runs(self.store, self.planners, self.desk)
+        self.drives = Drives(*place)
 
     async def start(self) -> None:
         """Start workers, and take up what was left."""
@@ -71,6 +73,7 @@ class Studio:
 
     async def close(self) -> None:
         """End everything."""
+        await self.drives.close()
         await self.runs.close()
         await self.planners.close()
         await self.desk.close()

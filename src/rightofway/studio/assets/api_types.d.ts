@@ -191,6 +191,20 @@ export interface DraftList {
   are_kept: boolean;
 }
 
+/** A plan that simulated robots drive, or have driven; ``page`` is where to watch them. */
+export interface DriveData {
+  number: number;
+  run: number;
+  state: "driving" | "done" | "stopped" | "failed";
+  error: ErrorData | null;
+  page: string;
+}
+
+/** The drives of a studio, the latest first. */
+export interface DriveList {
+  drives: Array<DriveData>;
+}
+
 /** Why a request was refused or a run has failed. */
 export interface ErrorData {
   kind: string;
@@ -361,6 +375,14 @@ export interface LossData {
 /** Why robots lose time. */
 export interface LossList {
   losses: Array<LossData>;
+}
+
+/** How simulated robots are to drive a plan. */
+export interface NewDrive {
+  delays?: Array<string>;
+  seed?: number;
+  laps?: number | null;
+  time_scale?: number;
 }
 
 /** A run whose plan is to be improved. */
@@ -695,12 +717,14 @@ export type GetAnswer<Path extends string> =
   Path extends `/runs/${number}/report` | `/runs/${number}/report?${string}` ? LapsReport | DelaysReport | PlanSummary :
   Path extends `/documents/${string}` | `/documents/${string}?${string}` ? Opened :
   Path extends `/drafts/${string}` | `/drafts/${string}?${string}` ? DraftData :
+  Path extends `/drives/${number}` | `/drives/${number}?${string}` ? DriveData :
   Path extends `/examples/${string}` | `/examples/${string}?${string}` ? ExampleData :
   Path extends `/runs/${number}` | `/runs/${number}?${string}` ? RunData :
   Path extends `/` | `/?${string}` ? About :
   Path extends `/choices` | `/choices?${string}` ? Choices :
   Path extends `/compare` | `/compare?${string}` ? Compared :
   Path extends `/drafts` | `/drafts?${string}` ? DraftList :
+  Path extends `/drives` | `/drives?${string}` ? DriveList :
   Path extends `/examples` | `/examples?${string}` ? ExampleList :
   Path extends `/files` | `/files?${string}` ? FileList :
   Path extends `/planners` | `/planners?${string}` ? PlannerList :
@@ -714,7 +738,9 @@ export type PatchAnswer<Path extends string> =
 
 /** What POST answers, by the path with what follows it. */
 export type PostAnswer<Path extends string> =
+  Path extends `/drives/${number}/stop` | `/drives/${number}/stop?${string}` ? DriveData :
   Path extends `/runs/${number}/cancel` | `/runs/${number}/cancel?${string}` ? RunData :
+  Path extends `/runs/${number}/drives` | `/runs/${number}/drives?${string}` ? DriveData :
   Path extends `/runs/${number}/flip` | `/runs/${number}/flip?${string}` ? FlippedPlan :
   Path extends `/runs/${number}/laps` | `/runs/${number}/laps?${string}` ? LapsAnswer :
   Path extends `/runs/${number}/stop` | `/runs/${number}/stop?${string}` ? RunData :
@@ -735,7 +761,7 @@ export type PutAnswer<Path extends string> =
 /** What a request may hold, by method. */
 export interface Bodies {
   PATCH: Rename;
-  POST: Placed | Survey | Deal | NewPlan | NewImprovement | NewLaps | NewSimulation | OtherLaps | Flip;
+  POST: Placed | Survey | Deal | NewPlan | NewImprovement | NewLaps | NewSimulation | OtherLaps | Flip | NewDrive;
   PUT: Save | DraftBody;
 }
 

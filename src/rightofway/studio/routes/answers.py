@@ -15,6 +15,7 @@ from rightofway.studio.routes.models import (
     Document,
     DraftBody,
     Flip,
+    NewDrive,
     NewRun,
     OtherLaps,
     Placed,
@@ -649,6 +650,22 @@ class FlippedPlan(TypedDict):
     run: RunData
 
 
+class DriveData(TypedDict):
+    """A plan that simulated robots drive, or have driven; ``page`` is where to watch them."""
+
+    number: int
+    run: int
+    state: Literal["driving", "done", "stopped", "failed"]
+    error: ErrorData | None
+    page: str
+
+
+class DriveList(TypedDict):
+    """The drives of a studio, the latest first."""
+
+    drives: list[DriveData]
+
+
 ANSWERS: dict[tuple[str, str], Any] = {
     ("GET", "/"): About,
     ("GET", "/files"): FileList,
@@ -683,6 +700,10 @@ ANSWERS: dict[tuple[str, str], Any] = {
     ("POST", "/runs/{number}/laps"): LapsAnswer,
     ("POST", "/runs/{number}/flip"): FlippedPlan,
     ("GET", "/compare"): Compared,
+    ("GET", "/drives"): DriveList,
+    ("POST", "/runs/{number}/drives"): DriveData,
+    ("GET", "/drives/{number}"): DriveData,
+    ("POST", "/drives/{number}/stop"): DriveData,
 }
 """What each route answers that the page asks; `RefusalData` where it refuses."""
 
@@ -697,6 +718,7 @@ BODIES: dict[tuple[str, str], Any] = {
     ("PATCH", "/runs/{number}"): Rename,
     ("POST", "/runs/{number}/laps"): OtherLaps,
     ("POST", "/runs/{number}/flip"): Flip,
+    ("POST", "/runs/{number}/drives"): NewDrive,
 }
 """What each of these takes."""
 

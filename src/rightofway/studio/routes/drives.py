@@ -4,17 +4,57 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Body, Request
+from fastapi import APIRouter, Body, Path, Request
 from fastapi.responses import HTMLResponse, StreamingResponse
 
 from rightofway.studio.errors import Refused
+from rightofway.studio.routes.models import InStudio, NewDrive, RunNumber
+from rightofway.studio.titles import describe_shown
 from rightofway.studio.watching import Watched
 
 router = APIRouter(include_in_schema=False)
+"""The pages of drives."""
+
+api = APIRouter(tags=["drives"])
+"""What is asked of the drives of a studio."""
+
+DriveNumber = Annotated[int, Path(ge=1, le=2**53, description="number of a drive")]
+
+
+@api.get("/drives")
+async def list_drives(studio: InStudio) -> dict[str, Any]:
+    """List the plans that simulated robots drive or have driven, the latest first."""
+    return {"drives": [drive.describe() for drive in studio.drives.list_all()]}
+
+
+@api.post("/runs/{number}/drives", status_code=201)
+async def start_drive(studio: InStudio, number: RunNumber, new: NewDrive) -> dict[str, Any]:
+    """Have simulated robots drive the plan of a run by right of way, as by `drive --demo`.
+
+    ``page`` is where to watch them, to hold them and to give other orders.
+    """
+    plan = await studio.runs.read_blob(number, "plan")
+    (shown,) = describe_shown([studio.runs.get(number)])
+    drive = await studio.drives.start(number, plan, shown["title"], new.model_dump())
+    return drive.describe()
+
+
+@api.get("/drives/{number}")
+async def get_drive(studio: InStudio, number: DriveNumber) -> dict[str, Any]:
+    """Return whether robots still drive, and why not if they failed."""
+    return studio.drives.get(number).describe()
+
+
+@api.post("/drives/{number}/stop")
+async def stop_drive(studio: InStudio, number: DriveNumber) -> dict[str, Any]:
+    """End a drive at once; its page plays what has happened."""
+    return (await studio.drives.stop(number)).describe()
 
 
 def _watched(request: Request, number: int) -> Watched:
-    drives: dict[int, Watched] = request.app.state.drives
+    state = request.app.state
+    is_alone = hasattr(state, "drives")  # the page of one fleet, without a studio
+    drives: dict[int, Watched] = state.drives if is_alone else state.studio.drives.pages
     if number not in drives:
         raise Refused(f"no fleet {number} is driven here (open the page of one that is)", 404)
     return drives[number]

@@ -207,6 +207,17 @@ class OtherLaps(Model):
     time_limit: float = Field(2, gt=0, le=30, description="seconds, up to 30")
 
 
+class NewDrive(Model):
+    """How simulated robots are to drive a plan."""
+
+    delays: list[str] = Field([], max_length=50, description="as in rightofway drive --delays")
+    seed: int = Field(0, ge=0, lt=2**32, description="a whole number from 0 to 4294967295")
+    laps: int | None = Field(None, ge=0, description="laps of each robot; 0 for laps without end")
+    time_scale: float = Field(
+        1, gt=0, le=1000, description="seconds of the plan in each second, up to 1000"
+    )
+
+
 class Rename(Model):
     """A name for a run."""
 

@@ -81,8 +81,8 @@ export const causeOf = (kind, robots) => ({
  */
 export const notation = ({ kind, values }) => KINDS[kind].text(values);
 
-/** @param {{causes: Cause[], robots: string[], unit: string | null, set: (causes: Cause[]) => void}} props */
-export function Causes({ causes, robots, unit, set }) {
+/** @param {{causes: Cause[], robots: string[], unit: string | null, least?: number, set: (causes: Cause[]) => void}} props */
+export function Causes({ causes, robots, unit, least = 1, set }) {
   /**
    * @param {number} index
    * @param {Cause} cause
@@ -112,7 +112,7 @@ export function Causes({ causes, robots, unit, set }) {
             : html`<input inputmode="decimal" value=${cause.values[place]} onInput=${write} />`
         }${type === "percent" ? " %" : type === "time" && unit ? ` ${unit}` : ""}</label>`;
       })}
-      ${causes.length > 1 && html`<button type="button" class="quiet" aria-label=${`${words.remove}: ${words.causes[cause.kind].name}`} onClick=${() => set(causes.filter((_, i) => i !== index))}>✕</button>`}</li>`,
+      ${causes.length > least && html`<button type="button" class="quiet" aria-label=${`${words.remove}: ${words.causes[cause.kind].name}`} onClick=${() => set(causes.filter((_, i) => i !== index))}>✕</button>`}</li>`,
     )}</ul>
     <button type="button" class="quiet" onClick=${() => set([...causes, causeOf("chance", robots)])}>${words.anotherCause}</button>`;
 }

@@ -68,7 +68,7 @@ function look(studio, name) {
  * @param {HTMLDialogElement | null} dialog
  * @returns {void}
  */
-function show(dialog) {
+export function showModal(dialog) {
   if (dialog && !dialog.open) dialog.showModal();
 }
 
@@ -78,7 +78,7 @@ function show(dialog) {
  */
 function SideBySide({ page, close }) {
   return html`
-    <dialog class="beside" aria-label=${words.sideBySide} onClose=${close} ref=${show}>
+    <dialog class="beside" aria-label=${words.sideBySide} onClose=${close} ref=${showModal}>
       <form method="dialog"><button class="framed">${words.close}</button></form>
       <iframe title=${words.sideBySide} src=${`${page}&lang=${language}`}></iframe>
     </dialog>`;

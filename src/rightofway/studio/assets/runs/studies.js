@@ -4,6 +4,7 @@ import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
 import { causeOf, Causes, notation } from "./causes.js";
 import { Delays } from "./delays.js";
+import { Drives } from "./drives.js";
 import { Laps } from "./laps.js";
 import { present } from "../given.js";
 /** @import { NewLaps, NewSimulation } from "../api_types.js" */
@@ -73,6 +74,7 @@ export function Studies({ studio }) {
           <button type="submit" class="framed" disabled=${Boolean(runs.running)}>${words.simulate}</button>
         </form></details>`
       }
+      <${Drives} studio=${studio} />
     </section>`;
 }
 

@@ -350,6 +350,18 @@ export const GERMAN = {
   delaysTitle: "Den Plan mit Verzögerungen durchspielen",
   runCount: "Läufe",
   simulate: "Simulieren",
+  driveTitle: "Den Plan mit simulierten Robotern fahren",
+  pace: "Tempo",
+  paceHint: "Sekunden des Plans in jeder Sekunde",
+  drive: "Fahren",
+  watchDrive: "Den Robotern zusehen",
+  stopDrive: "Die Roboter anhalten",
+  driveStates: {
+    driving: (run) => `Roboter fahren Plan ${run}.`,
+    done: (run) => `Roboter sind Plan ${run} bis zum Ende gefahren.`,
+    stopped: (run) => `Angehalten, während Roboter Plan ${run} fuhren.`,
+    failed: (run) => `Die Fahrt von Plan ${run} ist gescheitert.`,
+  },
   laterBy: (time) => `${time} später`,
   inTime: "pünktlich",
   lateInSum: (median, most, worst) =>

@@ -367,6 +367,18 @@ export const ENGLISH = {
   delaysTitle: "Execute the plan with delays",
   runCount: "Runs",
   simulate: "Simulate",
+  driveTitle: "Drive the plan with simulated robots",
+  pace: "Pace",
+  paceHint: "Seconds of the plan in each second",
+  drive: "Drive",
+  watchDrive: "Watch the robots",
+  stopDrive: "Stop the robots",
+  driveStates: {
+    driving: (/** @type {number} */ run) => `Robots drive plan ${run}.`,
+    done: (/** @type {number} */ run) => `Robots have driven plan ${run} to its end.`,
+    stopped: (/** @type {number} */ run) => `Stopped while robots drove plan ${run}.`,
+    failed: (/** @type {number} */ run) => `The drive of plan ${run} has failed.`,
+  },
   laterBy: (/** @type {string} */ time) => `${time} later`,
   inTime: "in time",
   lateInSum: (
