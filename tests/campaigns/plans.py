@@ -313,6 +313,7 @@ def main() -> int:
                 _say(f"{path}: round {number}: {what}")
             if total["judged"] >= given_.count:
                 break
+            _say(f"… {total['judged']} judged, {found} findings, after round {number}")
         pool.terminate()
     seconds = time.perf_counter() - began
     _say(", ".join(f"{total[name]} {name}" for name in sorted(total)))
