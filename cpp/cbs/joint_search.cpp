@@ -81,7 +81,11 @@ void JointSearch::prepare(std::span<const GroupMember> members) {
     choices_.resize(std::max(choices_.size(), size_));
     Tick last = 0;
     Tick longest = 0;
-    const auto note = [&](Tick tick) { last = is_finite(tick) ? std::max(last, tick) : last; };
+    closes_for_ever_ = false;
+    const auto note = [&](Tick tick) {
+        closes_for_ever_ = closes_for_ever_ || !is_finite(tick);
+        last = is_finite(tick) ? std::max(last, tick) : last;
+    };
     for (std::size_t k = 0; k < problem_.closures().row.size(); ++k) {
         note(problem_.closures().start[k]);
         note(problem_.closures().end[k]);
@@ -219,10 +223,10 @@ void JointSearch::drive(std::size_t k, const State& state, EdgeId edge, Tick now
     const Tick enter = ahead ? now + ticks : now;
     const std::int32_t here = problem_.vertex_row(member.robot, state.vertex);
     const std::int32_t there = problem_.vertex_row(member.robot, head);
-    if (now < horizon_ && (!is_free(member, here, now, enter + headway) ||
-                           !is_free(member, there, now, enter + headway + 1) ||
-                           (closes_edges() && !is_free(member, edge_row(member, edge),
-                                                       enter - ticks, enter + headway)))) {
+    if (closes(now) && (!is_free(member, here, now, enter + headway) ||
+                        !is_free(member, there, now, enter + headway + 1) ||
+                        (closes_edges() && !is_free(member, edge_row(member, edge), enter - ticks,
+                                                    enter + headway)))) {
         return;
     }
     State driven{state.vertex, edge, stage, false, 0, ticks, state.trails};

@@ -147,6 +147,7 @@ class JointSearch {
     bool is_free(const Member& member, std::int32_t row, Tick start, Tick end) const;
     bool drives_book_edges() const { return problem_.has_sizes() && problem_.edges_exclude(); }
     bool closes_edges() const { return closures_.n_rows() > problem_.n_vertices(); }
+    bool closes(Tick now) const { return now < horizon_ || closes_for_ever_; }
     std::int32_t edge_row(const Member& member, EdgeId edge) const {
         return problem_.first_row(member.robot) + problem_.n_vertices() + edge;
     }
@@ -160,6 +161,7 @@ class JointSearch {
     std::deque<Member> members_;
     std::size_t size_ = 0;
     Tick horizon_ = 0;  // nothing closes or opens later
+    bool closes_for_ever_ = false;
     std::vector<Node> nodes_;
     std::vector<std::int32_t> states_;  // of all members, node after node
     std::vector<EdgeId> edges_;         // chosen in the step before the node

@@ -159,8 +159,9 @@ def least_flowtime(scenario: Scenario, latest: int | None = None) -> int | None:
     alone = [fleet.costs_alone(robot) for robot in range(len(itineraries))]
     moments = [begins(scenario, closure) for closure in scenario.closures]
     moments += [ends(scenario, closure) or 0 for closure in scenario.closures]
-    moments += [] if latest is None else [latest + 1]
-    horizon = max(moments, default=0)  # nothing is opened or closed later, and nobody may complete
+    opens = max(moments, default=0)  # nothing is opened or closed later
+    horizon = max(opens, 0 if latest is None else latest + 1)  # nobody may complete later
+    earliest = dict[tuple[State, ...], int]()  # of what was looked at; where nothing is ever closed
 
     def least_left(states: tuple[State, ...]) -> int | None:
         least = 0
@@ -177,15 +178,16 @@ def least_flowtime(scenario: Scenario, latest: int | None = None) -> int | None:
     while heap:
         _, negative, tick, states = heappop(heap)
         cost = -negative
-        if tick == horizon and all(
+        if tick >= opens and all(
             state.is_done and not fleet.is_closed(robot, ((state.vertex,),), tick)
             for robot, state in enumerate(states)
         ):
             return cost
-        if best[tick, states] < cost:
+        if best[tick, states] < cost or (not opens and tick >= earliest.get(states, tick + 1)):
             continue
+        earliest[states] = tick
         for chosen in fleet.together(states, tick):
-            if _is_late(states, chosen, tick, latest):
+            if _is_late(alone, states, chosen, tick, latest):
                 continue
             after = (min(tick + 1, horizon), tuple(each[0] for each in chosen))
             total = cost + sum(w * each[2] for w, each in zip(weights, chosen, strict=True))
@@ -196,12 +198,16 @@ def least_flowtime(scenario: Scenario, latest: int | None = None) -> int | None:
 
 
 def _is_late(
-    states: tuple[State, ...], chosen: Sequence[Action], tick: int, latest: int | None
+    alone: Sequence[dict[State, int]],
+    states: tuple[State, ...],
+    chosen: Sequence[Action],
+    tick: int,
+    latest: int | None,
 ) -> bool:
-    """Tell whether a robot completes too late, or is still on its way then."""
+    """Tell whether a robot completes too late, or would do so alone from its next state on."""
     return latest is not None and any(
-        not before.is_done and tick + action[2] > latest
-        for before, action in zip(states, chosen, strict=True)
+        not before.is_done and tick + ticks + costs.get(after, latest) > latest
+        for costs, before, (after, _, ticks) in zip(alone, states, chosen, strict=True)
     )
 
 
