@@ -95,6 +95,7 @@ def test_a_plan_does_not_get_worse_by_the_objective_of_its_improvement(
 ) -> None:
     plan = planned(scenario, "prioritized")
     options = {"objective": name, **LIMITS[planner]}
+    options |= {"nodes": 30} if planner == "auto" else {}  # steps of prices, too
     try:
         better = improve(plan, planner, options=options, time_limit=None, seed=seed)
     except InputError:
