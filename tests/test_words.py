@@ -173,7 +173,7 @@ def test_functions_begin_with_a_verb(room: str) -> None:
 
 IDIOM = {
     r"\bso many\b": "name the number",
-    r"\bwhoever\b": "name the person or the program",
+    r"\b[Ww]hoever\b": "name the person or the program",
     r"\banew\b": "again",
     r"\b(what|that|who) (is|are) no\b": "is not a …, or: without a …",
     r"\bthe (more|longer)\b[^.]{0,60}, the (more|longer)\b": "grows with",

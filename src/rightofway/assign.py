@@ -1,7 +1,7 @@
 """Homes for robots that have none: the parking and charging places of a map.
 
-Files and builders hand over robots without a home. Whoever makes a scenario of them deals homes out
-here first; a free place with a way to the work and back is searched for each.
+Files and builders hand over robots without a home. Before a scenario is made of these robots, homes
+are dealt out here: a free place with a way to the work and back is searched for each.
 """
 
 from __future__ import annotations

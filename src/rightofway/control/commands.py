@@ -1,6 +1,6 @@
 """Commands to a control that runs: a table of their own in a file beside its journal.
 
-The journal is locked by the process that may send. Whoever wants something else writes a row into
+The journal is locked by the process that may send. Any other program writes a row into
 this file, and the control answers in it. A command is in the journal with what it has changed, in
 one transaction, so that it is carried out once, also by a control that was killed.
 """

@@ -151,7 +151,7 @@ class _Prover:
 
     def _prove_with_makespan(self, draft: Draft, nodes: int, share: float) -> Draft:
         task = self._task
-        if len(task.scenario.robots) > MOST_PROVEN or not self._has_time():
+        if not self._may_search():
             return draft
         search = MakespanSearch(
             task=replace(task, deadline=task.deadline.shorten(share)),
@@ -222,7 +222,7 @@ class _Prover:
     def _run(self, nodes: int, share: float, upper: int | None) -> ConflictBasedSearch | None:
         """Search on; None where there is no time, or where the fleet is too large."""
         task = self._task
-        if len(task.scenario.robots) > MOST_PROVEN or not self._has_time():
+        if not self._may_search():
             return None
         if self._search is None:
             self._search = ConflictBasedSearch(task.scenario.problem)
@@ -233,6 +233,9 @@ class _Prover:
             if not task.keep_best or upper is None:
                 raise
         return self._search
+
+    def _may_search(self) -> bool:
+        return len(self._task.scenario.robots) <= MOST_PROVEN and self._has_time()
 
     def _has_time(self) -> bool:
         left = self._task.deadline.measure_seconds_left()

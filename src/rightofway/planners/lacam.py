@@ -1,7 +1,7 @@
 """LaCAM: the whole fleet at once, a search over where all robots are.
 
 The search goes from instant to instant with each robot's own speed and work. Where it ends without
-a plan, the same search brings all robots through their trips in steps (`Problem.in_steps`), in some
+a plan, the same search brings all robots through their trips in steps (`Problem.as_steps`), in some
 order of moves. That order gives each robot a route, and each vertex an order of visits: rights of
 way, whose earliest timetable is a plan for any speeds, work times and headways.
 

@@ -1,6 +1,6 @@
 """LaCAM: a search over the states of a whole fleet, instant by instant.
 
-Only robots that are free decide. Where the fleet moves in steps (`Problem.in_steps`), the search is
+Only robots that are free decide. Where the fleet moves in steps (`Problem.as_steps`), the search is
 complete: it finds a plan or proves that none exists.
 
 References

@@ -108,7 +108,7 @@ def make_payload(
     Parameters
     ----------
     plan, steady, actual, no_plan, title, background, others
-        As for `page_of`; times in the result are ticks.
+        As for `make_page`; times in the result are ticks.
 
     Raises
     ------
