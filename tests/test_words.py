@@ -121,8 +121,8 @@ FIRST_WORDS = """
     fade fail fill find finish finishes flip flush follow forget format free get give glance go goes
     group handle hang happens has have hold holds improve inline insert inspect is join judge keep
     keeps kill lay limit link list listen load locate make map may measure mix name need nest note
-    number obey open order owns pack parse pass pause perturb place plan prepare prioritize prove
-    put quote rank reach reaches read receive recognizes refuse release relocate remind remove
+    number obey operate open order owns pack parse pass pause perturb place plan prepare prioritize
+    prove put quote rank reach reaches read receive recognizes refuse release relocate remind remove
     rename reorder repair repeat replan replay report require reroute reset resolve restore resume
     retime retry reverse rollback round run save say scale search select send serve set sets settle
     share shorten show simulate skip solve sort speak splice split spread start stay step stop

@@ -33,6 +33,7 @@ from rightofway.control import (
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.fleet_control import LONG_ORDER
 from rightofway.control.laps import LapsToDrive
+from rightofway.control.operator import Operator
 from rightofway.cyclic import make_excerpt, plan_of_laps, run_laps
 from rightofway.cyclic.result import CyclicResult
 from rightofway.errors import GaveUp, InputError, NoPlanExists
@@ -282,6 +283,7 @@ class _World:
                 if not self.journal.written:
                     dispatcher.begin("run")
                 self.control, self.dispatcher = control, dispatcher
+                self.operator = Operator(dispatcher)
                 if len(self.journal.written) > 1 and self._chance(self.chaos.splices):
                     self._splice(control)
                 self.send(control.start())
@@ -383,7 +385,7 @@ class _World:
             self.counts["resets"] += self.robots[robot].forget()
         elif self._happens(chaos.cancels):
             self.counts["cancels"] += 1
-            self.call(partial(self.control.cancel, robot))
+            self.call(partial(self._operate, "cancel", robot))
         elif self._happens(chaos.jobs):
             self.call(self._change_work)
         elif self._happens(chaos.people):
@@ -460,7 +462,7 @@ class _World:
 
     def _change_work(self) -> list[Message]:
         """Add, change or withdraw a job; close or open a place; where no plan is found, go on."""
-        draw, dispatcher, roadmap = self.draw, self.dispatcher, self.scenario.roadmap
+        draw, operator, roadmap = self.draw, self.operator, self.scenario.roadmap
         ledger, names = self.control.ledger, self.control.ledger.names
         at = roadmap.name(draw.randrange(roadmap.n_vertices))
         jobs = [
@@ -474,28 +476,31 @@ class _World:
         try:
             if kind == "switched":
                 before = self.control.ledger.graph
-                messages = dispatcher.switch()
+                messages = self.dispatcher.switch()
                 kind = kind if self.control.ledger.graph is not before else "not switched"
             elif kind == "added":
                 robot = draw.choice([*names, None])
-                messages = dispatcher.add_job(at, draw.randint(0, 5), robot)[1]
+                messages = operator.add_job(at, draw.randint(0, 5), robot)[1]
             elif kind == "closed":
-                messages = dispatcher.close(*self._any_place(at))
+                messages = operator.close(*self._any_place(at))
             elif kind == "opened" or not jobs:
-                messages = dispatcher.open(*draw.choice([*sorted(ledger.closed), (at,)]))
+                messages = operator.open(*draw.choice([*sorted(ledger.closed), (at,)]))
             else:
                 number, job = draw.choice(jobs)
                 name = f"{names[number]}/{job}"
                 if kind == "changed":
-                    messages = dispatcher.change_job(name, at)
+                    messages = operator.change_job(name, at)
                 else:
                     self.observer.withdrawn.add((number, job))
-                    messages = dispatcher.withdraw_job(name)
+                    messages = operator.withdraw_job(name)
         except (GaveUp, InputError):
             self.counts[f"not {kind}"] += 1
             return []
         self.counts[kind] += 1
         return messages
+
+    def _operate(self, kind: str, robot: int) -> list[Message]:
+        return self.operator.operate(kind, self.control.ledger.names[robot])
 
     def _intervene(self, robot: int) -> None:
         """Have trouble with a robot, or a person look after it."""
@@ -506,11 +511,11 @@ class _World:
             self.conditions[robot] = Condition(errors=(broken,) if kind == "unfit" else ())
             self._tell(robot)
         elif kind in {"held", "let go"}:
-            self.call(partial(self.control.hold, robot, on=kind == "held"))
+            self.call(partial(self._operate, "hold" if kind == "held" else "go", robot))
         elif kind == "decided":
             self._decide(robot)
         elif real.next_step in {None, "begin to drive", "begin work"}:
-            self.call(partial(self.control.take_off, robot))
+            self.call(partial(self._operate, "remove", robot))
             if self.control.ledger.robots[robot].is_off:
                 self._put(robot)
         else:
@@ -522,10 +527,10 @@ class _World:
         for job in sorted(self.control.ledger.robots[robot].failed):
             name = f"{self.control.ledger.names[robot]}/{job}"
             if self._chance(0.6):
-                self.call(partial(self.dispatcher.retry_job, name))
+                self.call(partial(self.operator.retry_job, name))
             else:
                 self.observer.withdrawn.add((robot, job))
-                self.call(partial(self.dispatcher.skip_job, name))
+                self.call(partial(self.operator.skip_job, name))
 
     def _put(self, robot: int) -> None:
         """Put a robot that is off the floor at a vertex, where a plan from there is found.
@@ -541,7 +546,7 @@ class _World:
             before, real.place = real.place, place
             name = self.control.ledger.names[robot]
             try:
-                self.call(partial(self.dispatcher.place_robot, name, place))
+                self.call(partial(self.operator.place_robot, name, place))
             except (GaveUp, InputError):
                 self.counts["not placed"] += 1
                 if self.is_calm:
@@ -560,15 +565,15 @@ class _World:
     def _ask_a_person(self) -> None:
         """Have a person look after faulty robots, and open what is closed."""
         for place in sorted(self.control.ledger.closed):
-            self.call(partial(self.dispatcher.open, *place))
+            self.call(partial(self.operator.open, *place))
         for robot in range(len(self.robots)):
             if self.control.ledger.robots[robot].fault is not None:
                 self.counts["cleared"] += 1
-                self.call(partial(self.control.clear, robot))
+                self.call(partial(self._operate, "clear", robot))
             self._decide(robot)  # a state with a wrong field may say FAILED, too
             if self.chaos.people:
                 self.conditions[robot] = Condition()
-                self.call(partial(self.control.hold, robot, on=False))
+                self.call(partial(self._operate, "go", robot))
                 if self.control.ledger.robots[robot].is_off:
                     self._put(robot)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from rightofway.control import Message, Order, SimulatedRobot
 from rightofway.control.dispatcher import Dispatcher
+from rightofway.control.operator import Operator
 
 __all__ = ["Floor"]
 
@@ -12,7 +13,7 @@ class Floor:
     """Robots that drive one after another, without any fault."""
 
     def __init__(self, dispatcher: Dispatcher) -> None:
-        self.dispatcher = dispatcher
+        self.dispatcher, self.operator = dispatcher, Operator(dispatcher)
         self.robots = [SimulatedRobot(own.route.places[0]) for own in dispatcher.ledger.robots]
         self.send(dispatcher.control.start())
 

@@ -12,7 +12,6 @@ import pytest
 from rightofway.control import FleetControl, SqliteJournal
 from rightofway.control.commands import Commands
 from rightofway.control.dispatcher import Dispatcher
-from rightofway.control.operator import Operator
 from tests.builders.floors import Floor
 from tests.builders.plans import door
 from tests.cli.conftest import Cli
@@ -31,7 +30,7 @@ def journal(tmp_path: Path) -> Iterator[Path]:
         floor.drive(2)
         begun.set()
         while not ends.wait(0.02):
-            messages, answers = Operator(dispatcher).obey(commands)
+            messages, answers = floor.operator.obey(commands)
             floor.send(messages)
             for number, answer in answers:
                 commands.answer(number, answer)

@@ -130,7 +130,8 @@ def test_control_and_broker_are_killed_and_everything_goes_on(
 def test_withdrawals_over_the_broker_lose_nothing(tmp_path: Path, broker: Mosquitto) -> None:
     """Withdrawals come at any time, late ones too; robots get the rest again."""
     plan, said = warehouse(5), list[str]()
-    identities = make_simulated_identities([robot.name for robot in plan.scenario.robots])
+    names = [robot.name for robot in plan.scenario.robots]
+    identities = make_simulated_identities(names)
     observer = Observer(broker.port)
     journal = SqliteJournal(tmp_path / "plan.journal")
     address = Broker.of(broker.url)
@@ -141,7 +142,8 @@ def test_withdrawals_over_the_broker_lose_nothing(tmp_path: Path, broker: Mosqui
         said.append(sentence)
         if len(said) % 3 == 0 and len(said) < 60:
             loop = asyncio.get_running_loop()
-            loop.call_soon(lambda: driver.send(driver.control.cancel(draw.randrange(5))))
+            name = draw.choice(names)
+            loop.call_soon(lambda: driver.send(driver.operator.operate("cancel", name)))
 
     driver = Driver(plan, identities, journal, report=take_note)
 

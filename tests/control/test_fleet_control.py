@@ -17,6 +17,7 @@ from rightofway.control import (
     SimulatedRobot,
 )
 from rightofway.control.dispatcher import Dispatcher
+from rightofway.control.operator import OPERATIONS
 from rightofway.control.routes import make_routes_to_drive
 from rightofway.errors import InputError
 from rightofway.precedence import Arrival, Part, ReleaseGraph
@@ -57,6 +58,11 @@ def orders(messages: object) -> list[tuple[int, int, list[str]]]:
     ]
 
 
+def operate(control: FleetControl, command: str, robot: int) -> list[Message]:
+    """Do to a robot what an operator asks for."""
+    return control.note({**OPERATIONS[command], "robot": robot})
+
+
 def test_the_first_order_is_the_vertex_where_the_robot_stands() -> None:
     control = begun()
     assert orders(control.remind()) == [(0, 0, ["N0"]), (1, 0, ["N2"])]
@@ -82,9 +88,9 @@ def test_a_robot_waits_for_the_arrival_behind_the_vertex_not_for_its_leaving() -
 
 def test_a_robot_on_hold_gets_nothing_more_until_it_is_let_go() -> None:
     control = begun()
-    control.hold(1, on=True)
+    operate(control, "hold", 1)
     assert orders(control.receive(1, state("run-1-0", 0, "N2", 0, ()))) == []
-    assert orders(control.hold(1, on=False)) == [(1, 1, ["N2", "N1", "N4", "N7", "N8"])]
+    assert orders(operate(control, "go", 1)) == [(1, 1, ["N2", "N1", "N4", "N7", "N8"])]
 
 
 def test_a_robot_with_an_order_of_others_is_faulty_until_a_person_has_looked() -> None:
@@ -100,13 +106,13 @@ def test_a_robot_with_an_order_of_others_is_faulty_until_a_person_has_looked() -
     assert told[0][0] == 1
     assert "is faulty" in told[0][1]
     assert orders(control.receive(1, state("run-1-0", 0, "N2", 0, ()))) == []
-    assert orders(control.clear(1)) == [(1, 1, ["N2", "N1", "N4", "N7", "N8"])]
+    assert orders(operate(control, "clear", 1)) == [(1, 1, ["N2", "N1", "N4", "N7", "N8"])]
 
 
 def test_a_robot_taken_off_the_floor_is_in_nobodys_way() -> None:
     control = begun()
     control.receive(0, state("run-0-0", 0, "N0", 0, ()))
-    sent = control.take_off(1)
+    sent = operate(control, "remove", 1)
     assert [order[:2] for order in orders(sent)] == [(0, 1)]
 
 
@@ -120,7 +126,7 @@ def test_nobody_goes_by_because_of_a_robot_that_was_taken_off_in_between() -> No
     floor = Floor(dispatcher)
     robots = dispatcher.ledger.robots
     assert robots[2].held == ("N1", "N2", "N7", "N12", "N13")
-    floor.send(dispatcher.control.take_off(3))
+    floor.send(floor.operator.operate("remove", dispatcher.ledger.names[3]))
     assert robots[0].held == ("N18",)
     floor.drive(80)
     assert [own.is_done for own in robots] == [True, True, True, False]
@@ -191,7 +197,7 @@ def test_a_withdrawal_that_comes_after_the_next_order_costs_one_more_order() -> 
     take(control.remind())
     take(control.receive(1, robot.report_state()))
     control.receive(1, robot.report_state())
-    [late] = take(control.cancel(1))
+    [late] = take(operate(control, "cancel", 1))
     robot.forget()
     for _ in range(3):
         take([*control.receive(1, robot.report_state()), *control.remind()])

@@ -32,7 +32,7 @@ def driven(steps: int, journal: MemoryJournal | SqliteJournal | None = None) -> 
 
 def obey(floor: Floor, commands: Commands) -> None:
     """Carry commands out, and answer them."""
-    messages, answers = Operator(floor.dispatcher).obey(commands)
+    messages, answers = floor.operator.obey(commands)
     floor.send(messages)
     for number, answer in answers:
         commands.answer(number, answer)
@@ -46,7 +46,7 @@ def jobs_of(floor: Floor) -> dict[str, str]:
 def test_a_job_that_is_added_goes_where_it_is_least_out_of_the_way_and_is_done() -> None:
     floor = driven(2)
     assert jobs_of(floor) == {"R1/job0": "N6", "R2/job0": "N8"}
-    name, messages = floor.dispatcher.add_job("N7", 2)  # on the way of R1, which has not set out
+    name, messages = floor.operator.add_job("N7", 2)  # on the way of R1, which has not set out
     floor.send(messages)
     assert name == "R1/job1"
     assert list(jobs_of(floor)) == ["R1/job1", "R1/job0", "R2/job0"]
@@ -59,7 +59,7 @@ def test_a_job_that_is_added_goes_where_it_is_least_out_of_the_way_and_is_done()
 def test_a_robot_can_be_named_and_may_be_at_its_end_already() -> None:
     floor = driven(80)
     assert jobs_of(floor) == {}
-    name, messages = floor.dispatcher.add_job("N2", 1, "R2")  # where it stands: it comes back
+    name, messages = floor.operator.add_job("N2", 1, "R2")  # where it stands: it comes back
     floor.send(messages)
     floor.drive(60)
     assert name == "R2/job1"
@@ -69,15 +69,15 @@ def test_a_robot_can_be_named_and_may_be_at_its_end_already() -> None:
 
 def test_a_job_is_changed_and_withdrawn_until_it_is_released() -> None:
     floor = driven(2)
-    floor.send(floor.dispatcher.change_job("R1/job0", at="N7", work=1))
+    floor.send(floor.operator.change_job("R1/job0", at="N7", work=1))
     assert jobs_of(floor)["R1/job0"] == "N7"
     with pytest.raises(InputError, match="'R2/job0' is released already"):
-        floor.dispatcher.change_job("R2/job0", at="N7")
-    floor.send(floor.dispatcher.withdraw_job("R1/job0"))
+        floor.operator.change_job("R2/job0", at="N7")
+    floor.send(floor.operator.withdraw_job("R1/job0"))
     floor.drive(60)
     assert [own.jobs_done for own in floor.dispatcher.ledger.robots] == [0, 1]
     with pytest.raises(InputError, match="'R1/job0' is no job"):
-        floor.dispatcher.withdraw_job("R1/job0")
+        floor.operator.withdraw_job("R1/job0")
 
 
 @pytest.mark.parametrize(
@@ -89,21 +89,21 @@ def test_a_job_is_changed_and_withdrawn_until_it_is_released() -> None:
 )
 def test_a_job_nowhere_or_of_nobody_is_refused(at: str, robot: str | None, message: str) -> None:
     with pytest.raises(InputError, match=message):
-        driven(2).dispatcher.add_job(at, 0, robot)
+        driven(2).operator.add_job(at, 0, robot)
 
 
 def test_a_closed_place_is_entered_by_nobody_until_it_is_open() -> None:
     """N1 and N4 are the door; R1 has not set out when N4 is closed, and there is no other way."""
     floor = driven(2)
-    floor.send(floor.dispatcher.close("N4"))
+    floor.send(floor.operator.close("N4"))
     floor.drive(60)
     assert floor.robots[0].place in {"N0", "N1"}
     assert jobs_of(floor) == {"R1/job0": "N6"}
-    floor.send(floor.dispatcher.open("N4"))
+    floor.send(floor.operator.open("N4"))
     floor.drive(80)
     assert jobs_of(floor) == {}
     with pytest.raises(InputError, match="N4 is not closed"):
-        floor.dispatcher.open("N4")
+        floor.operator.open("N4")
 
 
 def test_a_command_is_carried_out_once_though_its_answer_was_lost(tmp_path: Path) -> None:
@@ -193,9 +193,9 @@ def places_of(floor: Floor, robot: int = 0) -> tuple[str, ...]:
 def test_robots_drive_round_what_is_closed(closed: tuple[str, ...]) -> None:
     """Of a lane both directions are closed, whichever end is named first."""
     floor = ring()
-    floor.dispatcher.control.hold(0, on=True)
-    floor.send(floor.dispatcher.close(*closed))
-    floor.send(floor.dispatcher.control.hold(0, on=False))
+    floor.operator.operate("hold", "R1")
+    floor.send(floor.operator.close(*closed))
+    floor.send(floor.operator.operate("go", "R1"))
     floor.drive(60)
     assert jobs_of(floor) == {}
     assert floor.robots[0].place == "N0"
@@ -206,7 +206,7 @@ def test_what_is_closed_can_be_left() -> None:
     floor = ring()
     while floor.robots[0].place != "N1":
         floor.drive(1)
-    floor.send(floor.dispatcher.close("N1"))
+    floor.send(floor.operator.close("N1"))
     assert "N1" not in places_of(floor)[1:]
     floor.drive(60)
     assert floor.robots[0].place == "N0"
@@ -215,11 +215,11 @@ def test_what_is_closed_can_be_left() -> None:
 
 def test_a_robot_whose_work_is_closed_waits_and_the_others_go_on() -> None:
     floor = ring({"name": "R2", "home": "N8", "target": "N6", "work": 1})
-    floor.send(floor.dispatcher.close("N2"))
+    floor.send(floor.operator.close("N2"))
     floor.drive(60)
     assert jobs_of(floor) == {"R1/job0": "N2"}
     assert floor.robots[1].place == "N8"
-    floor.send(floor.dispatcher.open("N2"))
+    floor.send(floor.operator.open("N2"))
     floor.drive(60)
     assert jobs_of(floor) == {}
 
@@ -244,13 +244,13 @@ def test_a_closed_lane_is_closed_with_its_pieces() -> None:
     floor = Floor(dispatcher)
     while floor.robots[0].place != "A-B/1":
         floor.drive(1)
-    floor.send(floor.dispatcher.close("B", "A"))
+    floor.send(floor.operator.close("B", "A"))
     floor.drive(60)
     assert floor.robots[0].place in {"B", "C"}  # its way home is closed
     assert dispatcher.ledger.robots[0].jobs_done == 1
     with pytest.raises(InputError, match="no lane joins A and C"):
-        floor.dispatcher.close("A", "C")
-    floor.send(floor.dispatcher.open("A", "B"))
+        floor.operator.close("A", "C")
+    floor.send(floor.operator.open("A", "B"))
     floor.drive(60)
     assert floor.robots[0].place == "A"
 
@@ -263,7 +263,7 @@ def test_laps_are_driven_round_what_is_closed() -> None:
     dispatcher.begin("run")
     floor = Floor(dispatcher)
     floor.drive(4)
-    floor.send(dispatcher.close("N1"))
+    floor.send(floor.operator.close("N1"))
     own = dispatcher.ledger.robots[0]
     before = own.laps_done
     floor.drive(400)

@@ -36,6 +36,7 @@ from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd
 from rightofway.control.identities import Identity, make_simulated_identities
 from rightofway.control.names import list_jobs
 from rightofway.control.notices import Notices
+from rightofway.control.operator import Operator
 from rightofway.control.order_map import OrderMap
 from rightofway.errors import GaveUp, InputError
 from rightofway.io import parse_scenario
@@ -80,6 +81,7 @@ class Floor:
         notices = Notices([one.serial_number for one in self.identities], self.said.append)
         control = FleetControl(self.journal, look_ahead=1, report=notices.report_on)
         self.dispatcher = Dispatcher(control, self.plan, planner="prioritized")
+        self.operator = Operator(self.dispatcher)
         if not self.journal.written:
             self.dispatcher.begin("run")
         maps = [OrderMap(self.plan.scenario, *one) for one in enumerate(self.identities)]
@@ -223,26 +225,26 @@ def test_a_robot_that_is_elsewhere_when_it_comes_back(floor: Floor) -> None:
     sentence = "it stands at N3, which it does not hold; a person has to look after it"
     assert floor.said == [f"R1 is faulty: {sentence}"]
     with pytest.raises(InputError, match=r"R1 is on the floor .*remove R1"):
-        floor.dispatcher.place_robot("R1")
-    floor.send(floor.dispatcher.control.take_off(0))
-    floor.send(floor.dispatcher.place_robot("R1"))
+        floor.operator.place_robot("R1")
+    floor.send(floor.operator.operate("remove", "R1"))
+    floor.send(floor.operator.place_robot("R1"))
     assert floor.ledger.robots[0].held[0] == "N3"
     assert floor.ends_well()
     assert len(floor.said) == 1
 
 
 def test_a_robot_is_placed_where_nobody_is_and_not_with_an_old_order(floor: Floor) -> None:
-    floor.send(floor.dispatcher.control.take_off(0))
+    floor.send(floor.operator.operate("remove", "R1"))
     others = floor.places[1]
     with pytest.raises(GaveUp):
-        floor.dispatcher.place_robot("R1", others)
+        floor.operator.place_robot("R1", others)
     with pytest.raises(InputError, match="no vertex is named 'N9'"):
-        floor.dispatcher.place_robot("R1", "N9")
+        floor.operator.place_robot("R1", "N9")
     robot = floor.robots[0].robot
     old = robot.report_state().order_id
     assert robot.forget()
     robot.place = "N7"
-    floor.send(floor.dispatcher.place_robot("R1", "N7"))
+    floor.send(floor.operator.place_robot("R1", "N7"))
     assert floor.said == []
     floor.hear(0, orderId=old, nodeStates=[{"nodeId": "N5", "sequenceId": 4, "released": True}])
     sentence = "it still has an order from before it was placed"
@@ -270,7 +272,7 @@ def test_a_robot_that_is_off_its_way(floor: Floor, changes: dict[str, Any], faul
     released = floor.ledger.robots[0].released
     floor.drive(20)
     assert floor.ledger.robots[0].released == released
-    floor.send(floor.dispatcher.control.clear(0))
+    floor.send(floor.operator.operate("clear", "R1"))
     assert floor.ends_well()
 
 
@@ -298,7 +300,7 @@ def test_states_that_are_doubled_old_or_wrong() -> None:
             floor.hear(0, **wrong[step // 2 % len(wrong)])
         floor.send(floor.dispatcher.control.remind())
         if floor.ledger.robots[0].fault:
-            floor.send(floor.dispatcher.control.clear(0))
+            floor.send(floor.operator.operate("clear", "R1"))
         held = {*floor.ledger.robots[0].held} & {*floor.ledger.robots[1].held}
         assert not held
     assert floor.ends_well()
@@ -325,14 +327,14 @@ def test_work_that_fails_is_done_again(floor: Floor, monkeypatch: pytest.MonkeyP
     floor.wait()
     assert floor.places == ["N1", "N0"]
     assert floor.done == [0, 1]
-    floor.send(floor.dispatcher.retry_job(name))
+    floor.send(floor.operator.retry_job(name))
     assert floor.ends_well()
     with pytest.raises(InputError, match="'R1/job0' has not failed"):
-        floor.dispatcher.retry_job(name)
+        floor.operator.retry_job(name)
 
 
 def test_work_that_fails_is_skipped(floor: Floor, monkeypatch: pytest.MonkeyPatch) -> None:
-    floor.send(floor.dispatcher.skip_job(fail_work(floor, monkeypatch)))
+    floor.send(floor.operator.skip_job(fail_work(floor, monkeypatch)))
     floor.drive(80)
     assert floor.places == ["N5", "N0"]
     assert floor.done == [0, 1]
@@ -401,11 +403,11 @@ def test_a_journal_that_cannot_be_written() -> None:
 
 
 def test_a_robot_on_hold(floor: Floor) -> None:
-    floor.send(floor.dispatcher.control.hold(0, on=True))
+    floor.send(floor.operator.operate("hold", "R1"))
     floor.wait()
     assert floor.places == ["N1", "N0"]
     assert floor.said == []
-    floor.send(floor.dispatcher.control.hold(0, on=False))
+    floor.send(floor.operator.operate("go", "R1"))
     assert floor.ends_well()
 
 

@@ -21,6 +21,7 @@ from rightofway.control import (
     SimulatedRobot,
 )
 from rightofway.control.identities import VERSIONS, Identity
+from rightofway.control.operator import OPERATIONS
 from rightofway.control.order_map import OrderMap
 from rightofway.control.routes import make_routes_to_drive
 from rightofway.control.vda5050 import (
@@ -79,7 +80,8 @@ def all_sent() -> list[Message]:
                 robot.take_order(message)
             else:
                 robot.take_action(message)
-        fresh = control.cancel(1) if number == 5 else control.remind()
+        cancel = {**OPERATIONS["cancel"], "robot": 1}
+        fresh = control.note(cancel) if number == 5 else control.remind()
         for k, robot in enumerate(robots):
             robot.step()
             fresh += control.receive(k, robot.report_state())

@@ -234,7 +234,8 @@ class _Demo:
         }
         self._story = Story(control.ledger, names)
         self._sent = Counter[str]()
-        self._dispatcher, self.switches = dispatcher, False
+        self._dispatcher, self._operator = dispatcher, Operator(dispatcher)
+        self.switches = False
         self._may_begin = set(range(len(self._robots)))  # robots that may have something to do
         self._has_news = set(range(len(self._robots)))  # robots of which the story may go on
         self._graph = control.ledger.graph  # at the last look of the story
@@ -333,7 +334,7 @@ class _Demo:
         """Carry out what people have asked for; return whether there was anything."""
         if self._record is None:
             return False
-        messages, answers = Operator(self._dispatcher).obey(self._record.commands)
+        messages, answers = self._operator.obey(self._record.commands)
         if not answers:
             return False
         for _, answer in answers:

@@ -108,7 +108,8 @@ class Driver:
         self.control = FleetControl(self._journal, report=notices.report_on)
         self._laps = laps
         repeated = None if laps is None else LapsToDrive(plan)
-        self.dispatcher = dispatcher = Dispatcher(self.control, plan, repeated)
+        self._dispatcher = dispatcher = Dispatcher(self.control, plan, repeated)
+        self.operator = Operator(dispatcher)
         self._commands, self._switches = commands, switch
         ledger, digest = self.control.ledger, _digest(plan, maps)
         if not ledger.run:
@@ -224,13 +225,13 @@ class Driver:
 
     def _obey(self) -> list[Letter]:
         """Pass robots that are stuck, switch rights of way, and carry out commands."""
-        changes = [*self.dispatcher.pass_stuck()]
+        changes = [*self._dispatcher.pass_stuck()]
         if self._switches:
-            changes += self.dispatcher.switch()
+            changes += self._dispatcher.switch()
         switched = self.end.make_letters(changes)
         if self._commands is None:
             return switched
-        messages, answers = Operator(self.dispatcher).obey(self._commands)
+        messages, answers = self.operator.obey(self._commands)
         self._answers += answers
         for _, answer in answers:
             if answer["text"]:

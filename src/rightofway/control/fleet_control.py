@@ -183,19 +183,8 @@ class FleetControl:
             self._since_snapshot = 0
         return self._go_on()
 
-    def cancel(self, robot: int) -> list[Message]:
-        """Take back what is released to a robot, as far as it can stop before.
-
-        Parameters
-        ----------
-        robot
-            A robot of the plan.
-        """
-        self._commit({"kind": "cancel wanted", "robot": robot})
-        return self._go_on()
-
     def note(self, *entries: Entry) -> list[Message]:
-        """Commit what a dispatcher has to remember.
+        """Commit what people have asked for, or what a dispatcher has to remember, and go on.
 
         Parameters
         ----------
@@ -203,41 +192,6 @@ class FleetControl:
             For the ledger.
         """
         self._commit(*entries)
-        return self._go_on()
-
-    def hold(self, robot: int, *, on: bool) -> list[Message]:
-        """Release nothing more to a robot until it is let go.
-
-        Parameters
-        ----------
-        robot
-            A robot of the plan.
-        on
-            Whether it is on hold from now on.
-        """
-        self._commit({"kind": "hold", "robot": robot, "on": on})
-        return self._go_on()
-
-    def clear(self, robot: int) -> list[Message]:
-        """Have a person confirm that a faulty robot is where the journal has it.
-
-        Parameters
-        ----------
-        robot
-            A robot of the plan.
-        """
-        self._commit({"kind": "cleared", "robot": robot})
-        return self._go_on()
-
-    def take_off(self, robot: int) -> list[Message]:
-        """Have a person confirm that a robot is off the floor: it holds nothing any more.
-
-        Parameters
-        ----------
-        robot
-            A robot of the plan.
-        """
-        self._commit({"kind": "taken off", "robot": robot})
         return self._go_on()
 
     @property

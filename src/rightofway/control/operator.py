@@ -6,32 +6,51 @@ was killed knows at its next start which commands it has carried out.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from functools import partial
+from itertools import pairwise
 from typing import Any
 
 from rightofway.control.commands import Answer, Commands
+from rightofway.control.commitments import StopToMake, list_stops_to_make
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.journal import Entry
 from rightofway.control.messages import Message
-from rightofway.control.names import find_robot, list_jobs
+from rightofway.control.names import (
+    find_failed_job,
+    find_open_job,
+    find_robot,
+    list_edges_into,
+    list_jobs,
+    name_place,
+)
+from rightofway.control.robot_ledger import RobotLedger
+from rightofway.control.routes import make_route_from
 from rightofway.errors import GaveUp, InputError, quote
+from rightofway.search import Distances
+from rightofway.site import VertexId
 
-__all__ = ["Operator"]
+__all__ = ["OPERATIONS", "Operator"]
 
 OPERATIONS: Mapping[str, Entry] = {
-    "hold": {"kind": "hold", "on": True},
+    "hold": {"kind": "hold", "on": True},  # nothing more is released to it until it is let go
     "go": {"kind": "hold", "on": False},
-    "clear": {"kind": "cleared"},
-    "cancel": {"kind": "cancel wanted"},
-    "remove": {"kind": "taken off"},
+    "cancel": {"kind": "cancel wanted"},  # as far as it can stop before
+    "clear": {"kind": "cleared"},  # a person confirms that it is where the journal has it
+    "remove": {"kind": "taken off"},  # a person confirms that it is off the floor
 }
-"""What an operator does to robots: the entry of each command."""
+"""What an operator does to robots: the entry of each command, without its robot."""
+
+UNREACHABLE = 10**12
+"""More than any way [ticks]."""
 
 
 class Operator:
-    """Carries out what people have asked for.
+    """Carries out what people ask for.
+
+    Each command has a method, which returns what is to be sent.
 
     Parameters
     ----------
@@ -40,7 +59,10 @@ class Operator:
     """
 
     def __init__(self, dispatcher: Dispatcher) -> None:
-        self._dispatcher = dispatcher
+        self._dispatcher, self._scenario = dispatcher, dispatcher.plan.scenario
+        self._ledger = dispatcher.ledger
+        self._distances = Distances(self._scenario.roadmap)
+        self._number: int | None = None  # of the command under way, until it is committed
 
     def obey(self, commands: Commands) -> tuple[list[Message], list[tuple[int, Answer]]]:
         """Carry out what people have asked for, each command once.
@@ -56,7 +78,7 @@ class Operator:
             What is to be sent, and the answers: give them to `Commands.answer` once all is on the
             disk.
         """
-        dispatcher, ledger = self._dispatcher, self._dispatcher.ledger
+        ledger = self._ledger
         messages: list[Message] = []
         answers: list[tuple[int, Answer]] = []
         for number, command in commands.list_unanswered():
@@ -65,49 +87,324 @@ class Operator:
                 text = ledger.answer if is_last else "carried out before a start"
                 answers.append((number, {"done": True, "text": text}))
                 continue
-            dispatcher.command = number
+            self._number = number
             try:
                 more, answer = self._obey(command)
             except (InputError, GaveUp) as error:
                 more, answer = [], {"done": False, "text": str(error)}
-            dispatcher.command = None
+            self._number = None
             answers.append((number, answer))
             messages += more
         return messages, answers
 
     def _obey(self, command: Mapping[str, Any]) -> tuple[list[Message], Answer]:
         """Carry out a command; return what is to be sent, and the answer."""
-        dispatcher = self._dispatcher
+        ledger = self._ledger
         kind, name, at = command["kind"], str(command.get("name")), command.get("at")
         robot, lasts = command.get("robot"), command.get("work")
         places = [str(command[key]) for key in ("name", "to") if key in command]
-        clock = dispatcher.plan.scenario.problem.clock
+        clock = self._scenario.problem.clock
         ticks = None if lasts is None else clock.count_ticks(Fraction(lasts))
         if kind == "list":
-            return [], {"done": True, "text": "", "jobs": list_jobs(dispatcher.ledger)}
+            return [], {"done": True, "text": "", "jobs": list_jobs(ledger)}
         changes: dict[str, Callable[[], list[Message]]] = {
-            "add": lambda: dispatcher.add_job(str(at), int(ticks or 0), robot)[1],
-            "change": lambda: dispatcher.change_job(name, at, ticks),
-            "withdraw": lambda: dispatcher.withdraw_job(name),
-            "again": lambda: dispatcher.retry_job(name),
-            "skip": lambda: dispatcher.skip_job(name),
-            "close": lambda: dispatcher.close(*places),
-            "open": lambda: dispatcher.open(*places),
-            "place": lambda: dispatcher.place_robot(name, at),
-            "replan": dispatcher.replan,
+            "add": lambda: self.add_job(str(at), int(ticks or 0), robot)[1],
+            "change": lambda: self.change_job(name, at, ticks),
+            "withdraw": lambda: self.withdraw_job(name),
+            "again": lambda: self.retry_job(name),
+            "skip": lambda: self.skip_job(name),
+            "close": lambda: self.close(*places),
+            "open": lambda: self.open(*places),
+            "place": lambda: self.place_robot(name, at),
+            "replan": lambda: self._replan(self._dispatcher.list_stops(), text="replanned"),
         }
-        change = changes.get(kind) or partial(self._operate, kind, command.get("name"))
+        change = changes.get(kind) or partial(self.operate, kind, command.get("name"))
         messages = change()
-        return messages, {"done": True, "text": dispatcher.ledger.answer}
+        return messages, {"done": True, "text": ledger.answer}
 
-    def _operate(self, kind: str, name: str | None) -> list[Message]:
-        """Hold one robot or all, let them go, or confirm where one is."""
-        dispatcher, names = self._dispatcher, self._dispatcher.ledger.names
-        robots = range(len(names)) if name is None else [find_robot(dispatcher.ledger, name)]
-        entry = OPERATIONS.get(kind)
+    # --- robots ----------------------------------------------------------------------------------
+
+    def operate(self, kind: str, name: str | None = None) -> list[Message]:
+        """Hold one robot or all, let them go, cancel, or confirm where a robot is.
+
+        Parameters
+        ----------
+        kind
+            One of `OPERATIONS`.
+        name
+            Of the robot; None for all, with hold and go.
+
+        Raises
+        ------
+        InputError
+            If there is no such command or robot, or a robot has to be named.
+        """
+        ledger, entry = self._ledger, OPERATIONS.get(kind)
         if entry is None:
             raise InputError.at("command", f"{quote(kind)} is no command (see rightofway jobs)")
         if name is None and kind not in {"hold", "go"}:
             raise InputError.at("robot", f"{kind} needs the name of a robot (give one)")
+        robots = range(len(ledger.names)) if name is None else [find_robot(ledger, name)]
         text = f"{name or 'all robots'}: {kind}"
-        return dispatcher.note(*({**entry, "robot": robot} for robot in robots), text=text)
+        return self._note(*({**entry, "robot": robot} for robot in robots), text=text)
+
+    def place_robot(self, name: str, at: str | None = None) -> list[Message]:
+        """Take in a robot again that was off the floor, where a person has put it.
+
+        Its jobs that are not done are planned from there. It gets a new order; an order of before
+        that it still has makes it faulty.
+
+        Parameters
+        ----------
+        name
+            Of the robot.
+        at
+            The name of a vertex; None for that where the robot says that it is.
+
+        Raises
+        ------
+        InputError
+            If the robot is not off the floor, or does not say where it is.
+        GaveUp
+            If no plan from there was found, as where another robot is in the way.
+        """
+        robot = find_robot(self._ledger, name)
+        own, said = self._ledger.robots[robot], self._dispatcher.control.places.get(robot, "")
+        if not own.is_off:
+            remedy = f"confirm first that it is off the floor: rightofway jobs … remove {name}"
+            raise InputError.at("robot", f"{name} is on the floor ({remedy})")
+        if at is None and not said:
+            raise InputError.at("robot", f"{name} does not say where it is (give --at)")
+        place = at or said
+        self._scenario.roadmap.get_vertex(place)  # refuses what is none
+        first, stops = own.route.end, self._dispatcher.list_stops()
+        stops[robot] = list_stops_to_make(own, own.arrived - 1)
+        if stops[robot] and stops[robot][0].ends_lap:
+            del stops[robot][0]  # it was counted when the robot arrived
+        begun = replace(own, route=make_route_from(own.route, place), is_off=False)
+        begun.arrived = begun.released = first
+        return self._replan(stops, placed={robot: begun}, text=f"{name} goes on from {place}")
+
+    # --- jobs ------------------------------------------------------------------------------------
+
+    def add_job(self, at: str, work: int, robot: str | None = None) -> tuple[str, list[Message]]:
+        """Give a robot one more job, where it is least out of its way.
+
+        Parameters
+        ----------
+        at
+            The name of a vertex.
+        work
+            How long it lasts [ticks].
+        robot
+            Whose job it is; None for the robot that drives least more.
+
+        Returns
+        -------
+        tuple
+            The name of the job, and what is to be sent.
+
+        Raises
+        ------
+        InputError
+            If there is no such vertex or robot.
+        GaveUp
+            If no plan with it was found: the old one stands.
+        """
+        self._scenario.roadmap.get_vertex(at)  # refuses what is none
+        robots = self._ledger.robots
+        candidates = [find_robot(self._ledger, robot)] if robot is not None else range(len(robots))
+        on_floor = [number for number in candidates if not robots[number].is_off]
+        if not on_floor:
+            raise InputError.at("robot", "is off the floor (name another one, or none)")
+        stops = self._dispatcher.list_stops()
+        _, place, number = min(
+            (*self._detour(number, stops[number], at), number) for number in on_floor
+        )
+        own = robots[number]
+        job = f"job{own.next_job}"
+        stops[number].insert(place, StopToMake(at, job, work))
+        name = f"{self._ledger.names[number]}/{job}"
+        return name, self._replan(stops, text=f"{name} at {at} is added")
+
+    def change_job(
+        self, name: str, at: str | None = None, work: int | None = None
+    ) -> list[Message]:
+        """Change place or work of a job that is not released.
+
+        Parameters
+        ----------
+        name
+            The job, as ``R1/job2``.
+        at, work
+            What is changed: the name of a vertex, and how long it lasts [ticks].
+
+        Raises
+        ------
+        InputError
+            If there is no such job or vertex, or the job is released already.
+        GaveUp
+            If no plan with it was found: the old one stands.
+        """
+        if at is not None:
+            self._scenario.roadmap.get_vertex(at)  # refuses what is none
+        stops = self._dispatcher.list_stops()
+        number, place = find_open_job(self._ledger, stops, name)
+        old = stops[number][place]
+        stops[number][place] = old._replace(
+            place=old.place if at is None else at, work=old.work if work is None else work
+        )
+        return self._replan(stops, text=f"{name} is changed")
+
+    def withdraw_job(self, name: str) -> list[Message]:
+        """Take a job back that is not released.
+
+        Parameters
+        ----------
+        name
+            The job, as ``R1/job2``.
+
+        Raises
+        ------
+        InputError
+            If there is no such job, or it is released already.
+        GaveUp
+            If no plan without it was found: the old one stands.
+        """
+        stops = self._dispatcher.list_stops()
+        number, place = find_open_job(self._ledger, stops, name)
+        job = stops[number].pop(place).job
+        text = f"{name} is withdrawn"
+        return self._replan(stops, withdrawn=[(number, job)], text=text)
+
+    def retry_job(self, name: str) -> list[Message]:
+        """Have a robot do a job again that has failed: by a new order from where it stands.
+
+        Parameters
+        ----------
+        name
+            The job, as ``R1/job2``.
+
+        Raises
+        ------
+        InputError
+            If it has not failed.
+        """
+        entry = {"kind": "again", **find_failed_job(self._ledger, name)}
+        robot = entry["robot"]
+        return self._note(
+            entry, {"kind": "cancel wanted", "robot": robot}, text=f"{name} is done again"
+        )
+
+    def skip_job(self, name: str) -> list[Message]:
+        """Give up a job that has failed: its robot goes on without it.
+
+        Parameters
+        ----------
+        name
+            The job, as ``R1/job2``.
+
+        Raises
+        ------
+        InputError
+            If it has not failed.
+        """
+        return self._note(
+            {"kind": "skipped", **find_failed_job(self._ledger, name)}, text=f"{name} is skipped"
+        )
+
+    def _detour(self, robot: int, stops: Sequence[StopToMake], at: str) -> tuple[int, int]:
+        """Return how much longer a robot drives for a job at best, and before which stop."""
+        own, roadmap = self._ledger.robots[robot], self._scenario.roadmap
+        itinerary = self._scenario.problem.itineraries[robot]
+        stations = [
+            own.route.get_place(own.released),
+            *(stop.place for stop in stops),
+            own.route.places[-1],
+        ]
+        vertices = [roadmap.get_vertex(place) for place in stations]
+
+        def ticks(start: int, end: int) -> int:
+            to_end = self._distances.to(VertexId(end), itinerary.edge_ticks)[start]
+            return int(to_end) if to_end >= 0 else UNREACHABLE
+
+        vertex = roadmap.get_vertex(at)
+        return min(
+            (ticks(before, vertex) + ticks(vertex, after) - ticks(before, after), place)
+            for place, (before, after) in enumerate(pairwise(vertices))
+        )
+
+    # --- places ----------------------------------------------------------------------------------
+
+    def close(self, *names: str) -> list[Message]:
+        """Let no robot enter a vertex or a lane; those that hold it drive on.
+
+        The rest is replanned round it as far as a way is left; where no plan is found, the old one
+        stands, and robots stop before it.
+
+        Parameters
+        ----------
+        names
+            The name of a vertex, or of both ends of a lane, which is closed in both directions.
+
+        Raises
+        ------
+        InputError
+            If there is no such vertex or lane.
+        """
+        edges = list_edges_into(self._scenario.roadmap, names)
+        return self._change_floor({"kind": "closed", "names": names, "edges": edges}, "closed")
+
+    def open(self, *names: str) -> list[Message]:
+        """Open a vertex or a lane again that was closed; replan the rest.
+
+        Parameters
+        ----------
+        names
+            The name of a closed vertex, or of both ends of a closed lane.
+
+        Raises
+        ------
+        InputError
+            If it is not closed.
+        """
+        closed = self._ledger.closed
+        known = names if names in closed else names[::-1]
+        if known not in closed:
+            remedy = f"closed are: {', '.join(map(name_place, closed)) or 'none'}"
+            raise InputError.at("place", f"{name_place(names)} is not closed ({remedy})")
+        return self._change_floor({"kind": "opened", "names": known}, "open")
+
+    def _change_floor(self, entry: Entry, state: str) -> list[Message]:
+        """Commit a change of the floor, then replan the rest if that is possible."""
+        text = f"{name_place(entry['names'])} is {state}"
+        messages = self._note(entry, text=text)
+        try:
+            return [*messages, *self._dispatcher.replan()]
+        except GaveUp:
+            return messages
+
+    # --- what all of them do ---------------------------------------------------------------------
+
+    def _note(self, *entries: Entry, text: str) -> list[Message]:
+        """Commit what a command changes, with its answer."""
+        return self._dispatcher.control.note(*entries, *self._answer(text))
+
+    def _replan(
+        self,
+        stops: Sequence[Sequence[StopToMake]],
+        *,
+        text: str,
+        withdrawn: Collection[tuple[int, str]] = (),
+        placed: Mapping[int, RobotLedger] | None = None,
+    ) -> list[Message]:
+        """Plan the rest with these stops; commit it with the answer."""
+        notes = self._answer(text)
+        return self._dispatcher.replan(stops, withdrawn=withdrawn, placed=placed, notes=notes)
+
+    def _answer(self, text: str) -> list[Entry]:
+        """Return the entry of the command that is under way, with its answer."""
+        if self._number is None:
+            return []
+        number, self._number = self._number, None
+        return [{"kind": "command", "number": number, "answer": text}]
