@@ -124,7 +124,7 @@ class Location:
         if whole.inner:
             return replace(whole, inner=self.nest(whole.inner))
         if self.file:
-            return replace(whole, inner=self)
+            return self if whole == Location() else replace(whole, inner=self)
         return replace(
             self,
             path=whole.path + self.path,

@@ -51,6 +51,15 @@ def test_a_plan_needs_only_what_reads_and_plans(tmp_path: Path) -> None:
     assert not {name for name in loaded if name.startswith(("rightofway.viz", "rightofway.studio"))}
 
 
+def test_a_classic_plan_needs_no_library_that_reads_documents(tmp_path: Path) -> None:
+    """A `.scen` file is a list of numbers, and the plan is written without any model of it."""
+    scen = str(EXAMPLES / "maps" / "warehouse-10-20-10-2-1-random-1.scen")
+    plan = str(tmp_path / "plan.json")
+    loaded = imported_by("plan", scen, "-k", "4", "--planner", "lacam", "-o", plan)
+    assert not loaded & {*HEAVY, "pydantic", "yaml", "email", "urllib.request", "zipfile"}
+    assert not loaded & {"rightofway.io.scenario.shape", "rightofway.io.fields"}
+
+
 def test_a_package_that_is_imported_imports_its_rooms_when_they_are_used() -> None:
     script = (
         "import sys, rightofway; print(*sys.modules);"

@@ -116,6 +116,14 @@ def test_the_first_robots_of_a_scen_are_taken_by_number(hall: Path) -> None:
         load(hall, count=0)
 
 
+def test_a_map_without_a_free_cell_is_named(hall: Path) -> None:
+    blocked = hall.parent / "hall.map"
+    blocked.write_text("type octile\nheight 2\nwidth 3\nmap\n@@@\n@@@\n", encoding="utf-8")
+    with pytest.raises(InputError) as caught:
+        load(hall)
+    assert str(caught.value).startswith(f"{blocked}: no free cell in 6")
+
+
 def test_its_map_may_be_in_the_folder_of_maps(hall: Path) -> None:
     folder = hall.parent / "scens"
     folder.mkdir()

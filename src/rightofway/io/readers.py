@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 from rightofway.arguments import checks_arguments
-from rightofway.errors import InputError, Steps, Where, name_file, quote
+from rightofway.errors import InputError, name_file
 from rightofway.files import as_path
-from rightofway.io.formats import SCENARIO_FORMAT
-from rightofway.io.movingai import load_scen
-from rightofway.io.scenario.reader import Loaded, read_scenario
-from rightofway.io.text import is_regular, read_text
+from rightofway.io.scenario.reader import Loaded, read_classic, read_scenario
+from rightofway.io.text import read_text
 from rightofway.model import Plan, Scenario
 
 WORKBOOKS = (".xlsx", ".xlsm", ".xls", ".ods")
@@ -51,8 +48,7 @@ def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
     """
     path = as_path(path)
     if path.suffix.lower() == ".scen":
-        with name_file(str(path)):
-            return _classic(path, count)
+        return read_classic(path, count)
     if path.suffix.lower() in WORKBOOKS:
         from rightofway.io.workbook import load_workbook_scenario
 
@@ -148,31 +144,6 @@ def load_either(
         if is_plan:
             return parse_plan(document, pictures=path.parent)
         return read_scenario(document, path.parent)
-
-
-def _classic(path: Path, count: int | None) -> Loaded:
-    """Return the scenario of the first rows of a `.scen` file, or of all."""
-    map_name = re.split(r"[\\/]", load_scen(path)[0].map_name)[-1]
-    beside = [Path(map_name), Path("..", "maps", map_name)]
-    name_beside = next((name for name in beside if is_regular(path.parent / name)), None)
-    if name_beside is None:
-        message = f"its map {quote(map_name)} is neither beside it nor in ../maps (put it there)"
-        raise InputError.at("", message)
-    document = {
-        "format": SCENARIO_FORMAT,
-        "map": {"file": str(name_beside)},
-        "robots": {"scen": path.name} | ({} if count is None else {"count": count}),
-        "rules": "classic",
-    }
-    try:
-        return read_scenario(document, path.parent)
-    except InputError as error:  # paths in the document mean nothing to the user of the file
-        starts: dict[Steps, Where] = {("robots", "scen"): "", ("robots",): ""}
-        moved = (fault.relocate(starts) for fault in error.faults)
-        raise InputError(
-            fault.place_at(fault.location.inner) if fault.location.inner else fault
-            for fault in moved
-        ) from None
 
 
 def _refuse_foreign(text: str) -> None:

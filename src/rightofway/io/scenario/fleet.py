@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import cycle
 from pathlib import Path
@@ -37,9 +37,9 @@ from rightofway.site.places import as_place, list_kinds_of_places
 
 if TYPE_CHECKING:
     from rightofway.io.fields import Document
-    from rightofway.io.scenario.shape import FleetDocument, RobotDocument
+    from rightofway.io.scenario.shape import RobotDocument
 
-DEFAULT_SPEED = Fraction(1)
+DEFAULT_SPEED, NO_WORK = Fraction(1), Fraction(0)
 
 HOME = f"the place it starts from: {list_kinds_of_places(None)}"
 
@@ -58,19 +58,34 @@ def read_robots_in_table(data: dict[str, Any], base: Path | None) -> CellDocumen
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FleetRows:
-    """Robots R1, R2, ... on the rows of a `.scen` file, speeds and work dealt out in turn."""
+    """Robots R1, R2, ... on the rows of a `.scen` file, speeds and work dealt out in turn.
 
-    document: FleetDocument
+    Attributes
+    ----------
+    file, rows
+        The file, and its first rows.
+    speeds, works
+        What is dealt out.
+    own
+        The attributes that all have.
+    place, aliases
+        Where a document names the file, and keys of robots that stand elsewhere in it; without a
+        document, nowhere.
+    """
+
     file: Path
     rows: Sequence[ScenRow]
+    speeds: Sequence[Fraction] = (DEFAULT_SPEED,)
+    works: Sequence[Fraction] = (NO_WORK,)
+    own: Mapping[str, Any] = field(default_factory=dict)
+    place: Steps = ()
+    aliases: Mapping[Steps, Steps] = field(default_factory=dict)
 
     @property
     def traits(self) -> FleetTraits:
         """What a map depends on."""
-        own = self.document.get_own_attributes(Robot)
-        speeds = (self.document.speeds or [DEFAULT_SPEED])[: len(self.rows)]
-        types = frozenset([own.get("type")])
-        return FleetTraits(speeds=speeds, radius=own.get("radius", Fraction(0)), types=types)
+        speeds, radius = self.speeds[: len(self.rows)], self.own.get("radius", Fraction(0))
+        return FleetTraits(speeds=speeds, radius=radius, types=frozenset([self.own.get("type")]))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -184,10 +199,32 @@ def read_robots(data: Any, base: Path | None) -> ListedFleet | FleetRows:
     with locate_faults("scen"):
         file = find_file_beside(base, document.scen)
         rows = load_scen(file)
-    if document.count is not None and document.count > len(rows):
-        message = f"{document.count} is more than the {len(rows)} rows of {file} (give fewer)"
+    own = document.get_own_attributes(Robot)
+    aliases: dict[Steps, Steps] = {
+        (attribute.name,): ("robots", attribute.key)
+        for attribute in ROBOT_ATTRIBUTES
+        if attribute.name in own
+    }
+    aliases["laps",] = _place_of_laps(document, ("robots",))
+    if "turn_rate" not in own:
+        aliases["turn_rate",] = ("rules", "turn_rate")
+    return FleetRows(
+        file=file,
+        rows=take_rows(rows, document.count, file),
+        speeds=document.speeds or [DEFAULT_SPEED],
+        works=document.work or [NO_WORK],
+        own=own,
+        place=("robots", "scen"),
+        aliases=aliases,
+    )
+
+
+def take_rows(rows: Sequence[ScenRow], count: int | None, file: Path) -> Sequence[ScenRow]:
+    """Return the first rows of a `.scen` file, or all."""
+    if count is not None and count > len(rows):
+        message = f"{count} is more than the {len(rows)} rows of {file} (give fewer)"
         raise InputError.at("count", message)
-    return FleetRows(document=document, file=file, rows=rows[: document.count])
+    return rows[:count]
 
 
 def _place_of_laps(document: Document, place: Steps) -> Steps:
@@ -231,7 +268,7 @@ def _place_robot(robot: ListedRobot, on: LoadedMap | None) -> PlacedRobot | None
     trip: list[tuple[Steps, Fraction | None]] = [(("target",), document.work)]
     if document.stops is not None:
         trip = [(("stops", k, "at"), stop.work) for k, stop in enumerate(document.stops)]
-    stops = tuple(Stop(at=places[at], work=work or Fraction(0)) for at, work in trip)
+    stops = tuple(Stop(at=places[at], work=work or NO_WORK) for at, work in trip)
     home = places.get(("home",), HOMELESS)
     aliases: dict[Steps, Steps] = {("laps",): _place_of_laps(document, place)}
     if "turn_rate" not in robot.own:
@@ -244,23 +281,13 @@ def _place_robot(robot: ListedRobot, on: LoadedMap | None) -> PlacedRobot | None
 
 def _place_rows(robots: FleetRows, on: LoadedMap, faults: Faults) -> list[PlacedRobot]:
     """Return the robots on the rows of a file, or none after noting why."""
-    document, placed = robots.document, list[PlacedRobot]()
-    ends = faults.attempt(("robots", "scen"), _starts_and_goals, robots, on) or []
-    speeds, works = cycle(document.speeds or [DEFAULT_SPEED]), cycle(document.work or [Fraction(0)])
-    own = document.get_own_attributes(Robot)
-    aliases: dict[Steps, Steps] = {
-        (attribute.name,): ("robots", attribute.key)
-        for attribute in ROBOT_ATTRIBUTES
-        if attribute.name in own
-    }
-    aliases["laps",] = _place_of_laps(document, ("robots",))
-    if "turn_rate" not in own:
-        aliases["turn_rate",] = ("rules", "turn_rate")
-    dealt = zip(ends, speeds, works, strict=False)
+    placed = list[PlacedRobot]()
+    ends = faults.attempt(robots.place, _starts_and_goals, robots, on) or []
+    dealt = zip(ends, cycle(robots.speeds), cycle(robots.works), strict=False)
     for number, ((home, goal), speed, work) in enumerate(dealt, start=1):
         stops = (Stop(at=goal, work=work),)
-        robot = Robot(name=f"R{number}", home=home, stops=stops, speed=speed, **own)
-        placed.append(PlacedRobot(robot=robot, place=("robots", "scen"), aliases=aliases))
+        robot = Robot(name=f"R{number}", home=home, stops=stops, speed=speed, **robots.own)
+        placed.append(PlacedRobot(robot=robot, place=robots.place, aliases=robots.aliases))
     return placed
 
 

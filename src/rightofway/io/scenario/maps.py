@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rightofway.deadline import READING, limit_loop
-from rightofway.errors import InputError, find_nearest, locate_faults, quote
+from rightofway.errors import InputError, find_nearest, locate_faults, name_file, quote
 from rightofway.io.faults import Faults
 from rightofway.io.movingai import load_map
 from rightofway.io.scenario.curves import LaneCurve, make_lane_curve, make_points_along
@@ -80,22 +81,31 @@ def map_of(
             return _map_of_squares(document, fleet.speeds, fleet.radius, units)
         return _map_of_floor(document, fleet.speeds, keeps_names=units != Units())
     cell_size = document.cell_size if isinstance(document.cell_size, Fraction) else Fraction(1)
-    frame = {
-        "y_up": document.y_up,
-        "origin": document.origin,
-        "yaw": document.yaw or Fraction(0),
-    }
+    make = partial(
+        make_grid_roadmap,
+        cell_size=cell_size,
+        y_up=document.y_up,
+        origin=document.origin,
+        yaw=document.yaw or Fraction(0),
+    )
     if document.file is not None:
         with locate_faults("file"):
-            file = find_file_beside(base, document.file)
-            lines = load_map(file)
-            roadmap = make_grid_roadmap(lines, cell_size=cell_size, **frame)
+            loaded = map_of_file(find_file_beside(base, document.file), make)
     else:
         with locate_faults("grid"):
-            file, lines = None, tuple(document.grid)
-            roadmap = make_grid_roadmap(lines, cell_size=cell_size, **frame)
-    roadmap = replace(roadmap, obstacles=_named_obstacles(document.obstacles))
-    return LoadedMap(roadmap=roadmap, lines=lines, file=file)
+            lines = tuple(document.grid)
+            loaded = LoadedMap(roadmap=make(lines), lines=lines)
+    obstacles = _named_obstacles(document.obstacles)
+    return replace(loaded, roadmap=replace(loaded.roadmap, obstacles=obstacles))
+
+
+def map_of_file(
+    file: Path, make: Callable[[Sequence[str]], Roadmap] = make_grid_roadmap
+) -> LoadedMap:
+    """Make the roadmap of the rows of a `.map` file."""
+    lines = load_map(file)
+    with name_file(str(file)):
+        return LoadedMap(roadmap=make(lines), lines=lines, file=file)
 
 
 def _named_obstacles(documents: Sequence[ObstacleDocument]) -> tuple[Obstacle, ...]:

@@ -6,6 +6,7 @@ A file becomes plain data (`open_document`), the data become checked parts (`sha
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -17,17 +18,21 @@ from rightofway.assign import deal_homes
 from rightofway.errors import InputError, Steps, Where, find_nearest, name_file, quote
 from rightofway.io.faults import Faults, validate
 from rightofway.io.formats import SCENARIO_FORMAT, check_format
+from rightofway.io.movingai import ScenRow, load_scen
 from rightofway.io.scenario.crossings import note_crossings
 from rightofway.io.scenario.fleet import (
+    FleetRows,
     ListedFleet,
     PlacedRobot,
     place_robots,
     read_robots,
     read_robots_in_table,
+    take_rows,
 )
 from rightofway.io.scenario.loaded_map import LoadedMap, note_on_rounding
-from rightofway.io.scenario.maps import map_of
+from rightofway.io.scenario.maps import map_of, map_of_file
 from rightofway.io.scenario.picture import add_picture
+from rightofway.io.text import is_regular
 from rightofway.model import Rules, Scenario
 from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
@@ -139,6 +144,38 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
     assert loaded is not None, "or there was a fault"
     assert scenario is not None, "or there was a fault"
     return Loaded(scenario=scenario, notes=(*_notes(loaded, scenario), *notes))
+
+
+def read_classic(path: Path, count: int | None) -> Loaded:
+    """Return the classic scenario of the first rows of a `.scen` file, or of all.
+
+    No document stands between the file and the scenario, so that none of its libraries is needed.
+    """
+    rows = load_scen(path)
+    with name_file(str(path)):
+        if count is not None and count < 1:
+            message = f"{quote(count)} does not fit (give how many of its rows to take, 1 or more)"
+            raise InputError.at("count", message)
+        fleet = FleetRows(file=path, rows=take_rows(rows, count, path))
+        file = _find_map_beside(path, rows[0])
+    loaded, faults = map_of_file(file), Faults()
+    placed = place_robots(fleet, loaded, faults, deals=False)
+    faults.stop()
+    others = {"rules": CLASSIC, "units": loaded.units, "closures": ()}
+    scenario = _assemble(loaded.roadmap, placed, others, faults)
+    faults.stop()
+    assert scenario is not None, "or there was a fault"
+    return Loaded(scenario=scenario, notes=tuple(_notes(loaded, scenario)))
+
+
+def _find_map_beside(path: Path, row: ScenRow) -> Path:
+    """Return the map of a `.scen` file, which is beside it or in ``../maps``."""
+    name = re.split(r"[\\/]", row.map_name)[-1]
+    for file in (path.parent / name, path.parent / ".." / "maps" / name):
+        if is_regular(file):
+            return file
+    message = f"its map {quote(name)} is neither beside it nor in ../maps (put it there)"
+    raise InputError.at("", message)
 
 
 def _rules_of(data: Any) -> Rules:
