@@ -34,6 +34,7 @@ SLOW = (
     "studio/test_attacks.py",  # thousands of requests
     "studio/test_beginning.py",  # a browser
     "studio/test_bombs.py",  # a studio, and a browser
+    "studio/test_drives.py",  # a process for each drive
     "studio/test_documents.py",  # a process for each studio
     "studio/test_drawing.py",  # a browser
     "studio/test_editing.py",  # a browser

@@ -6,6 +6,7 @@ import ast
 import re
 from pathlib import Path
 
+from tests.builders.sources import parse_modules
 from tests.conftest import NIGHTLY, SLOW, TESTS
 
 CPP = TESTS.parent / "cpp"
@@ -131,10 +132,10 @@ LOCATED = {"at", "note", "attempt", "under", "InputFault"}
 """Calls of which the first argument is a place."""
 
 
-def places_as_text(source: str) -> list[str]:
+def places_as_text(module: ast.Module) -> list[str]:
     """Return the places of faults that are built as text, or hold a path as text."""
     found = []
-    for node in ast.walk(ast.parse(source)):
+    for node in ast.walk(module):
         if not (isinstance(node, ast.Call) and node.args):
             continue
         name = node.func.attr if isinstance(node.func, ast.Attribute) else ""
@@ -150,8 +151,7 @@ def places_as_text(source: str) -> list[str]:
 
 def test_faults_have_locations_instead_of_text() -> None:
     """A key, a tuple of keys and indices, or a `Location`; text is made of it in one place."""
-    sources = (TESTS.parent / "src" / "rightofway").rglob("*.py")
-    found = {path.name: places_as_text(path.read_text("utf-8")) for path in sources}
+    found = {path.name: places_as_text(module) for path, module in parse_modules().items()}
     assert {name: places for name, places in found.items() if places} == {}
 
 
@@ -163,7 +163,7 @@ under("robots[3].speed")
 InputFault(("robots", 3, "speed"), message)
 InputError.at("speed", message)
 """
-    assert len(places_as_text(source)) == 3
+    assert len(places_as_text(ast.parse(source))) == 3
 
 
 def test_every_action_of_a_workflow_is_pinned_to_a_commit() -> None:

@@ -8,15 +8,14 @@ import json
 import re
 from collections.abc import Iterator
 from functools import cache
-from pathlib import Path
 
 import pytest
 
 from rightofway.errors import join_names
 from rightofway.languages import read_tables
 from rightofway.phrases import Phrase, join_items, say_count, to_parts
+from tests.builders.sources import SOURCES, parse_modules
 
-SOURCES = Path(__file__).parents[1] / "src" / "rightofway"
 VALUE = re.compile(r"\{(\w+)\}")
 
 
@@ -27,8 +26,8 @@ def templates() -> frozenset[str]:
 
 
 def _templates() -> Iterator[str]:
-    for path in SOURCES.rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+    for module in parse_modules().values():
+        for node in ast.walk(module):
             if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Name)):
                 continue
             texts = [str(each.value) for each in node.args if isinstance(each, ast.Constant)]
@@ -131,8 +130,8 @@ def is_exempt(node: ast.AST) -> bool:
 def test_what_a_room_says_to_people_is_a_phrase(room: str) -> None:
     literals = [
         f"{path.relative_to(SOURCES)}: {text}"
-        for path in sorted((SOURCES / room).rglob("*.py"))
-        for function in ast.walk(ast.parse(path.read_text("utf-8")))
+        for path, module in parse_modules(SOURCES / room).items()
+        for function in ast.walk(module)
         if isinstance(function, ast.FunctionDef)
         for text in literals_for_people(function)
     ]

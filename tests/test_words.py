@@ -12,21 +12,14 @@ from pathlib import Path
 
 import pytest
 
+from tests.builders.sources import SOURCES, parse_modules
+
 ROOT = Path(__file__).parents[1]
-SOURCES = ROOT / "src" / "rightofway"
 ROOMS = sorted(
     path.stem
     for path in SOURCES.iterdir()
     if (path.suffix == ".py" or (path / "__init__.py").exists()) and not path.stem.startswith("_")
 )
-
-
-@cache
-def modules() -> dict[Path, ast.Module]:
-    """Return the modules of the package, parsed."""
-    return {
-        path: ast.parse(path.read_text(encoding="utf-8")) for path in sorted(SOURCES.rglob("*.py"))
-    }
 
 
 def room_of(path: Path) -> str:
@@ -44,7 +37,7 @@ def test_no_two_rooms_export_one_name_for_different_things() -> None:
 
 def test_no_two_classes_have_one_name() -> None:
     places = defaultdict[str, list[str]](list)
-    for path, module in modules().items():
+    for path, module in parse_modules().items():
         for node in module.body:
             if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
                 places[node.name].append(path.relative_to(SOURCES).as_posix())
@@ -74,10 +67,10 @@ def described_functions(module: ast.Module) -> Iterator[str]:
 
 
 def test_sections_on_parameters_stand_at_what_is_exported() -> None:
-    exported = set().union(*(exported_names(module) for module in modules().values()))
+    exported = set().union(*(exported_names(module) for module in parse_modules().values()))
     inside = [
         f"{path.relative_to(SOURCES)}: {function}"
-        for path, module in modules().items()
+        for path, module in parse_modules().items()
         for function in described_functions(module)
         if function.partition(".")[0] not in exported or function.rpartition(".")[2][:1] == "_"
     ]
@@ -104,7 +97,7 @@ def bound_names(module: ast.Module) -> Iterator[str]:
 def test_variables_say_what_they_hold(room: str) -> None:
     bound = [
         f"{path.relative_to(SOURCES)}: {name}"
-        for path, module in modules().items()
+        for path, module in parse_modules().items()
         if room_of(path) == room
         for name in bound_names(module)
         if name in STOPPED
@@ -163,7 +156,7 @@ NOT_CALLED = {
 def test_functions_begin_with_a_verb(room: str) -> None:
     nouns = [
         f"{path.relative_to(SOURCES)}: {name}"
-        for path, module in modules().items()
+        for path, module in parse_modules().items()
         if room_of(path) == room
         for name in called_names(module)
         if name.partition("_")[0] not in VERBS and name not in ESTABLISHED
@@ -188,15 +181,20 @@ IDIOM = {
 BLOCK = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 
 
-def texts_for_readers() -> Iterator[tuple[str, str]]:
-    """Yield the pages of the documentation and the docstrings of public names, by place."""
+@cache
+def texts_for_readers() -> list[tuple[str, str]]:
+    """Return the pages of the documentation and the docstrings of public names, by place."""
+    return list(_texts_for_readers())
+
+
+def _texts_for_readers() -> Iterator[tuple[str, str]]:
     for page in [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md"))]:
         text = page.read_text(encoding="utf-8")
         yield (
             page.relative_to(ROOT).as_posix(),
             re.sub(r"^```.*?^```$", "", text, flags=re.MULTILINE | re.DOTALL),
         )
-    for path, module in modules().items():
+    for path, module in parse_modules().items():
         for node in ast.walk(module):
             if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef):
                 name = getattr(node, "name", "")

@@ -92,6 +92,7 @@ SPLITTING = "splitting lanes into pieces"
 DERIVING = "working out how long robots drive"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "stages"),
     [

@@ -17,7 +17,7 @@ import pytest
 from tests.builders.pages import PAGES, ROOT, Block, blocks, title_of
 
 RUN = {"python", "console"}
-QUICK = {"README.md", "docs/tutorial.md", "docs/python.md", "docs/model.md"}
+QUICK = {"README.md", "docs/python.md", "docs/model.md"}
 """Pages of the quick lane; the others take a minute of a processor."""
 
 PAGES_WITH_EXAMPLES = [

@@ -48,6 +48,7 @@ def test_every_link_leads_somewhere(page: Path) -> None:
             assert link["anchor"] in anchors(target), f"{title_of(page)} links to {link[0]}"
 
 
+@pytest.mark.slow
 def test_generated_parts_are_those_of_the_program() -> None:
     """The output of the script names the stale pages and the recipe that refreshes them."""
     script = ROOT / "docs" / "refresh.py"

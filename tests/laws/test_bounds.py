@@ -57,7 +57,7 @@ def test_more_steps_never_lower_the_bound_and_parts_are_as_good_as_one_run(
     assert before <= in_parts.bound == whole.bound
 
 
-@pytest.mark.parametrize("robots", [40, 60])
+@pytest.mark.parametrize("robots", [40, pytest.param(60, marks=pytest.mark.slow)])
 def test_prices_close_a_third_of_the_gap_of_a_full_floor(robots: int) -> None:
     """Random 20 x 20 grids of points of one speed."""
     scenario = random_fleet(1, size=20, robots=robots)

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import ast
 from collections import Counter
-from pathlib import Path
 
 import numpy as np
 
 from rightofway.model import BookingRules, Tick
-
-SOURCES = Path(__file__).parents[2] / "src" / "rightofway"
+from tests.builders.sources import SOURCES, parse_modules
 
 READERS = {
     "model/booking_rules.py": "when a visit books",
@@ -37,8 +35,8 @@ READ = {"headway", "books_ahead"}
 def readers() -> Counter[str]:
     """Return how often each module reads an attribute of that name of rules."""
     count = Counter[str]()
-    for path in SOURCES.rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for path, module in parse_modules().items():
+        for node in ast.walk(module):
             if isinstance(node, ast.Attribute) and node.attr in READ:
                 count[path.relative_to(SOURCES).as_posix()] += 1
     return count

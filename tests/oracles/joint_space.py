@@ -8,12 +8,12 @@ or more do not rotate where the rules forbid it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import cache, partial
 from heapq import heappop, heappush
 from itertools import product
-from typing import NamedTuple
+from typing import Any, NamedTuple, Protocol, TypeVar
 
 from rightofway.model import Objective, Scenario
 from tests.oracles.closures import begins, ends, is_shut
@@ -31,6 +31,15 @@ class State(NamedTuple):
     dwell: int = 0  # ticks left of serving the stage before
     trail: tuple[tuple[tuple[Shape, ...], int], ...] = ()  # what was left, and for how long booked
 
+
+class _OneRobot(Protocol):
+    """What is known of the state of one robot."""
+
+    @property
+    def is_done(self) -> bool: ...
+
+
+S = TypeVar("S", bound=_OneRobot)
 
 Booked = tuple[Shape, ...]
 Action = tuple[State, Booked, int]
@@ -66,26 +75,7 @@ class _Fleet:
     def costs_alone(self, robot: int) -> dict[State, int]:
         """Return what a robot alone still costs in each state it can come to, without closures."""
         start = State(self.scenario.problem.itineraries[robot].home)
-        before: dict[State, list[tuple[State, int]]] = {start: []}
-        todo = [start]
-        while todo:
-            state = todo.pop()
-            for after, _, ticks in self.actions(robot, state):
-                if after not in before:
-                    before[after] = []
-                    todo.append(after)
-                before[after].append((state, ticks))
-        costs = {state: 0 for state in before if state.is_done}
-        heap = [(0, state) for state in costs]
-        while heap:
-            cost, state = heappop(heap)
-            if cost > costs[state]:
-                continue
-            for earlier, ticks in before[state]:
-                if cost + ticks < costs.get(earlier, cost + ticks + 1):
-                    costs[earlier] = cost + ticks
-                    heappush(heap, (cost + ticks, earlier))
-        return costs
+        return costs_to_go(start, partial(self.actions, robot))
 
     def together(self, states: tuple[State, ...], tick: int) -> list[tuple[Action, ...]]:
         """Return what all robots can do in a tick without booking what excludes each other."""
@@ -145,6 +135,33 @@ class _Fleet:
             for head in roadmap.heads[first:end].tolist():
                 ticks = int(drive(self.scenario, robot, state.vertex, head))
                 yield from self._moves(robot, state._replace(head=head, left=ticks))
+
+
+def costs_to_go(start: S, actions: Callable[[S], Iterable[tuple[S, Any, int]]]) -> dict[S, int]:
+    """Return what a robot alone still costs in each state it can come to from its start.
+
+    An action is the next state, what is booked, and the cost; ``is_done`` states cost nothing more.
+    """
+    before: dict[S, list[tuple[S, int]]] = {start: []}
+    todo = [start]
+    while todo:
+        state = todo.pop()
+        for after, _, ticks in actions(state):
+            if after not in before:
+                before[after] = []
+                todo.append(after)
+            before[after].append((state, ticks))
+    costs = {state: 0 for state in before if state.is_done}
+    heap = [(0, state) for state in costs]
+    while heap:
+        cost, state = heappop(heap)
+        if cost > costs[state]:
+            continue
+        for earlier, ticks in before[state]:
+            if cost + ticks < costs.get(earlier, cost + ticks + 1):
+                costs[earlier] = cost + ticks
+                heappush(heap, (cost + ticks, earlier))
+    return costs
 
 
 def least_flowtime(scenario: Scenario, latest: int | None = None) -> int | None:

@@ -10,12 +10,14 @@ from __future__ import annotations
 from cmath import phase
 from collections.abc import Iterator
 from fractions import Fraction
+from functools import cache, partial
 from heapq import heappop, heappush
 from itertools import combinations, product
 from math import ceil, degrees
 from typing import NamedTuple
 
 from rightofway.model import Scenario
+from tests.oracles.joint_space import costs_to_go
 from tests.oracles.space import Shape, drive, incompatible
 
 __all__ = ["least_flowtime", "turn"]
@@ -49,24 +51,28 @@ class _State(NamedTuple):
     is_done: bool = False
 
 
+Booked = tuple[Shape, ...]
+Action = tuple[_State, Booked, int]
+"""The next state, what is booked in the tick, and what the tick costs."""
+
+
 class _Fleet:
     def __init__(self, scenario: Scenario) -> None:
         self.scenario = scenario
         self.has_sizes = not scenario.problem.resources.are_points
-        self.excludes: dict[tuple[int, Shape, int, Shape], bool] = {}
+        self.excludes = cache(partial(incompatible, scenario))
+        self.clash = cache(self._clash)
+        self.actions = cache(lambda robot, state: list(self._actions(robot, state)))
 
-    def clash(self, i: int, one: list[Shape], j: int, other: list[Shape]) -> bool:
+    def _clash(self, i: int, one: Booked, j: int, other: Booked) -> bool:
         """Return whether what robots i and j book in one tick excludes each other."""
         if not self.has_sizes:
             return bool(set(one) & set(other))
-        for x, y in product(one, other):
-            if (i, x, j, y) not in self.excludes:
-                self.excludes[i, x, j, y] = incompatible(self.scenario, i, x, j, y)
-        return any(self.excludes[i, x, j, y] for x, y in product(one, other))
+        return any(self.excludes(i, x, j, y) for x, y in product(one, other))
 
-    def actions(self, robot: int, state: _State) -> Iterator[tuple[_State, list[Shape], int]]:
+    def _actions(self, robot: int, state: _State) -> Iterator[Action]:
         """Yield the next state, what is booked in the tick, and what the tick costs."""
-        here: list[Shape] = [(state.vertex,)]
+        here: Booked = ((state.vertex,),)
         if state.is_done:
             yield state, here, 0
         elif state.turn:
@@ -84,33 +90,42 @@ class _Fleet:
             for head in roadmap.heads[first:end].tolist():
                 turns = turn(self.scenario, robot, state.before, state.vertex, head)
                 ticks = int(drive(self.scenario, robot, state.vertex, head))
-                yield from self.actions(robot, state._replace(head=head, turn=turns, left=ticks))
+                yield from self._actions(robot, state._replace(head=head, turn=turns, left=ticks))
 
-    def _driving(self, state: _State) -> list[Shape]:
-        along: list[Shape] = [(state.vertex, state.head)] if self.has_sizes else []
-        return [(state.vertex,), (state.head,), *along]
+    def _driving(self, state: _State) -> Booked:
+        along: Booked = ((state.vertex, state.head),) if self.has_sizes else ()
+        return ((state.vertex,), (state.head,), *along)
 
 
 def least_flowtime(scenario: Scenario) -> int | None:
-    """Return the least sum of completions [ticks], None where there is no plan."""
+    """Return the least sum of completions [ticks], None where there is no plan.
+
+    Joint states in the order of what they cost and what each robot alone would cost from there.
+    """
     fleet, robots = _Fleet(scenario), range(len(scenario.robots))
     start = tuple(_State(itinerary.home) for itinerary in scenario.problem.itineraries)
+    alone = [costs_to_go(start[robot], partial(fleet.actions, robot)) for robot in robots]
+    if any(state not in costs for costs, state in zip(alone, start, strict=True)):
+        return None
     best = {start: 0}
-    heap = [(0, start)]
+    heap = [(0, 0, start)]
     while heap:
-        cost, states = heappop(heap)
+        _, negative, states = heappop(heap)
+        cost = -negative
         if all(state.is_done for state in states):
             return cost
         if best[states] < cost:
             continue
-        for chosen in product(*(list(fleet.actions(robot, states[robot])) for robot in robots)):
-            if any(
+        for chosen in product(*(fleet.actions(robot, states[robot]) for robot in robots)):
+            after = tuple(each[0] for each in chosen)
+            total = cost + sum(each[2] for each in chosen)
+            if total >= best.get(after, total + 1) or any(
                 fleet.clash(i, chosen[i][1], j, chosen[j][1]) for i, j in combinations(robots, 2)
             ):
                 continue
-            after = tuple(each[0] for each in chosen)
-            total = cost + sum(each[2] for each in chosen)
-            if total < best.get(after, total + 1):
-                best[after] = total
-                heappush(heap, (total, after))
+            if any(state not in costs for costs, state in zip(alone, after, strict=True)):
+                continue
+            best[after] = total
+            left = sum(costs[state] for costs, state in zip(alone, after, strict=True))
+            heappush(heap, (total + left, -total, after))
     return None
