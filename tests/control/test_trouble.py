@@ -25,6 +25,7 @@ import rightofway
 from rightofway.control import (
     Condition,
     FleetControl,
+    InstantAction,
     JournalFailed,
     RobotError,
     RobotState,
@@ -331,6 +332,20 @@ def test_work_that_fails_is_done_again(floor: Floor, monkeypatch: pytest.MonkeyP
     assert floor.ends_well()
     with pytest.raises(InputError, match="'R1/job0' has not failed"):
         floor.operator.retry_job(name)
+
+
+def test_failed_work_is_done_again_though_a_withdrawal_is_just_ending(
+    floor: Floor, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The order of one node after the withdrawal, which has no failed work, is on its way."""
+    name = fail_work(floor, monkeypatch)
+    robot = floor.robots[0].robot
+    [withdrawal] = floor.operator.operate("cancel", "R1")
+    assert isinstance(withdrawal, InstantAction)
+    robot.take_action(withdrawal)
+    on_its_way = floor.dispatcher.control.receive(0, robot.report_state())
+    floor.send([*floor.operator.retry_job(name), *on_its_way])
+    assert floor.ends_well()
 
 
 def test_work_that_fails_is_skipped(floor: Floor, monkeypatch: pytest.MonkeyPatch) -> None:

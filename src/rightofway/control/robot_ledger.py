@@ -235,6 +235,8 @@ def _place(own: RobotLedger, entry: Entry) -> None:
 def _retry(own: RobotLedger, entry: Entry) -> None:
     own.attempts[entry["job"]] += 1
     own.failed.discard(entry["job"])
+    if own.cancel is not None and own.cancel.stands_at is not None:
+        own.cancel = Cancel()  # the order that is on its way was made without the job
 
 
 def _skip(own: RobotLedger, entry: Entry) -> None:
