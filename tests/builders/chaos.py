@@ -40,7 +40,6 @@ from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Plan, Rules, Scenario
 from rightofway.model.steady_state import keep_within
 from rightofway.precedence import Arrival, Part, ReleaseGraph
-from rightofway.site import Roadmap
 from tests.builders.fleets import random_fleet
 from tests.oracles.space import Shape, incompatible, zones_around, zones_with
 
@@ -50,6 +49,7 @@ __all__ = [
     "Fault",
     "MemoryJournal",
     "Observer",
+    "another_plan",
     "chaotic_plan",
     "knows",
     "laps_plan",
@@ -726,8 +726,8 @@ def another_plan(
     detour = partial(_detour, scenario, draw)
     for attempt in range(6):
         routes = [
-            route if attempt % 2 or draw.random() < 0.5 else detour(route, end)
-            for route, end in zip(kept, ends, strict=True)
+            route if attempt % 2 or draw.random() < 0.5 else detour(robot, route, end)
+            for robot, (route, end) in enumerate(zip(kept, ends, strict=True))
         ]
         order = _played(scenario, routes, ends, draw)
         if order is not None:
@@ -753,20 +753,23 @@ def _vertices(scenario: Scenario, route: RouteToDrive) -> list[int]:
     return [int(scenario.roadmap.get_vertex(place)) for place in route.places]  # from its first
 
 
-def _detour(scenario: Scenario, draw: random.Random, route: RouteToDrive, end: int) -> RouteToDrive:
+def _detour(
+    scenario: Scenario, draw: random.Random, robot: int, route: RouteToDrive, end: int
+) -> RouteToDrive:
     """Return the route with random ways between the places of its later jobs, and its end."""
     roadmap, vertices = scenario.roadmap, _vertices(scenario, route)
+    heads_of = partial(_heads_for, scenario, robot)
     last = len(vertices) - 1
     laps = {lap_end - route.first for lap_end in route.lap_ends}
     goals = [k for k in range(end + 1, last + 1) if route.jobs[k] or k in {*laps, last}]
     path, jobs = vertices[: end + 1], list(route.jobs[: end + 1])
     lap_ends = [lap_end for lap_end in laps if lap_end <= end]
     for goal in goals:
-        way = _random_way(roadmap, path[-1], vertices[goal], draw)
+        way = _random_way(heads_of, path[-1], vertices[goal], draw)
         if way is None or (len(way) == 1 and (route.jobs[goal] or goal in laps)):
             return route
         if len(way) > 1 and draw.random() < 0.3:
-            way += _out_and_back(roadmap, way[-1], draw)
+            way += _out_and_back(heads_of, way[-1], draw)
         path += way[1:]
         jobs += [()] * (len(way) - 1)
         if way[1:]:
@@ -782,23 +785,34 @@ def _detour(scenario: Scenario, draw: random.Random, route: RouteToDrive, end: i
     )
 
 
-def _out_and_back(roadmap: Roadmap, vertex: int, draw: random.Random) -> list[int]:
+def _heads_for(scenario: Scenario, robot: int, vertex: int) -> list[int]:
+    """Return where a robot can drive from a vertex: it may be barred from lanes."""
+    roadmap, ticks = scenario.roadmap, scenario.problem.itineraries[robot].edge_ticks
+    edges = slice(int(roadmap.indptr[vertex]), int(roadmap.indptr[vertex + 1]))
+    ways = zip(roadmap.heads[edges].tolist(), roadmap.class_of_edge[edges].tolist(), strict=True)
+    return [head for head, edge_class in ways if ticks[edge_class] >= 0]
+
+
+def _out_and_back(
+    heads_of: Callable[[int], list[int]], vertex: int, draw: random.Random
+) -> list[int]:
     """Return a way to a neighbour and back; nothing if none leads back."""
-    heads = roadmap.heads[roadmap.indptr[vertex] : roadmap.indptr[vertex + 1]].tolist()
+    heads = heads_of(vertex)
     if not heads:
         return []
     neighbour = draw.choice(heads)
-    return [neighbour, vertex] if roadmap.find_edge(neighbour, vertex) is not None else []
+    return [neighbour, vertex] if vertex in heads_of(neighbour) else []
 
 
-def _random_way(roadmap: Roadmap, start: int, goal: int, draw: random.Random) -> list[int] | None:
+def _random_way(
+    heads_of: Callable[[int], list[int]], start: int, goal: int, draw: random.Random
+) -> list[int] | None:
     """Return a way through a random spanning tree from its start."""
     came: dict[int, int] = {start: start}
     front = [start]
     while front:
         vertex = front.pop(draw.randrange(len(front)))
-        heads = roadmap.heads[roadmap.indptr[vertex] : roadmap.indptr[vertex + 1]].tolist()
-        for head in heads:
+        for head in heads_of(vertex):
             if head not in came:
                 came[head] = vertex
                 front.append(head)

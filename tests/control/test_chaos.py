@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import random
 from dataclasses import replace
+from itertools import pairwise
 
 import pytest
 
+import rightofway
 from rightofway.control import FleetControl, Message, Order, RouteToDrive, SimulatedRobot
+from rightofway.control.routes import make_routes_to_drive
+from rightofway.io import parse_scenario
 from rightofway.precedence import ReleaseGraph
 from tests.builders.broken_wordings import WORDINGS, LastNodeIsEnough, VertexTwiceInBase
 from tests.builders.chaos import (
@@ -14,6 +19,7 @@ from tests.builders.chaos import (
     Fault,
     MemoryJournal,
     Observer,
+    another_plan,
     chaotic_plan,
     run_chaos,
 )
@@ -34,6 +40,26 @@ def test_chaos_does_what_it_says() -> None:
     counts = run_chaos(chaotic_plan(3), 3, KINDS["all"])
     for what in ("kills", "splices", "resets", "wrong fields", "cancels"):
         assert counts[what] > 0, what
+
+
+def test_another_plan_leads_along_no_lane_from_which_a_robot_is_barred() -> None:
+    """A control that was given such a route could not find a better order of it."""
+    lanes = [["A", "B"], ["B", "C"], {"from": "A", "to": "C", "barred": ["wide"]}]
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {"roadmap": {"vertices": {"A": [0, 0], "B": [1, 1], "C": [2, 0]}, "edges": lanes}},
+        "rules": {"rotations": False},
+        "robots": [{"name": "R1", "home": "A", "target": "C", "type": "wide"}],
+    }
+    plan = rightofway.solve(parse_scenario(document), "prioritized")
+    control = FleetControl(MemoryJournal())
+    control.begin("run", make_routes_to_drive(plan), ReleaseGraph.of(plan.scenario, plan.tracks))
+    ways = set[tuple[str, ...]]()
+    for seed in range(20):
+        routes, _ = another_plan(plan.scenario, control, random.Random(seed)) or ([], None)  # noqa: S311
+        ways |= {route.places for route in routes}
+    assert len(ways) > 1
+    assert {"A", "C"} not in [{*pair} for way in ways for pair in pairwise(way)]
 
 
 @pytest.mark.parametrize("wording", WORDINGS)
