@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "cbs/fewest_actions.hpp"
 #include "core/reject.hpp"
 #include "distances/shared_distances.hpp"
+#include "lns/fleet_search.hpp"
 
 namespace rightofway::bind {
 namespace {
@@ -81,6 +83,29 @@ tuple of (int, int)
     How it ended, as for `run`, and the proven bound of the sum of their costs, NEVER where no plan
     exists. [ticks])";
 
+constexpr auto actions_doc =
+    R"(Take tracks of no higher cost with which robots wait and drive less often.
+
+Parameters
+----------
+problem : Problem
+    What the fleet has to do.
+first_visit, vertices, enter : int32[R + 1], int32[N], int64[N]
+    Which visits each robot has, and where and when they begin; they keep the rules. [ticks]
+waits : int64[R]
+    How many visits of each robot last longer than it needs.
+latest : int
+    No robot completes later, NEVER for no limit. [ticks]
+most_states : int
+    End each search after this number of states.
+time_limit : float or None
+    When to stop; at once for 0 or less. [s]
+
+Returns
+-------
+tuple of (bool, int32[R + 1], int32[N], int64[N])
+    Whether it is proven that no plan of no higher cost has fewer drives and waits; the tracks.)";
+
 constexpr auto tracks_doc = R"(Return the tracks of the plan found, of no robot before.
 
 Returns
@@ -119,9 +144,6 @@ class ConflictBasedSearch {
 
     JointPlan together(const std::vector<RobotId>& robots, std::int64_t most_states,
                        const Deadline& deadline) {
-        if (!JointSearch::knows(problem_)) {
-            return {};
-        }
         const std::vector<SetId> sets(robots.size(), ConstraintSets::empty);
         try {
             return tracks_.together(robots, sets, {}, most_states, [&] { return deadline(); });
@@ -195,9 +217,46 @@ std::tuple<int, Tick> together(ConflictBasedSearch& self, const ArrayIn<RobotId>
     return {static_cast<int>(plan.end), plan.bound};
 }
 
+using FewerActions = std::tuple<bool, ArrayOut<VisitId>, ArrayOut<VertexId>, ArrayOut<Tick>>;
+
+FewerActions fewest_actions(const Problem& problem, const ArrayIn<std::int32_t>& first_visit,
+                            const ArrayIn<VertexId>& vertices, const ArrayIn<Tick>& enter,
+                            const ArrayIn<Tick>& waits, Tick latest, std::int64_t most_states,
+                            std::optional<double> time_limit) {
+    const auto n_robots = static_cast<std::size_t>(problem.n_robots());
+    require_length("waits", waits.size(), n_robots);
+    require_ranges("waits", view(waits), 0, never);
+    require_range("latest", latest, 0, never);
+    require_range("most_states", most_states, 0, never);
+    const Deadline deadline(time_limit);
+    bool is_fewest = false;
+    Tracks tracks;
+    {
+        const nb::gil_scoped_release released;
+        FleetSearch given(problem, 0, 1);  // knows how to check tracks
+        given.start({view(first_visit), view(vertices), view(enter)});
+        FleetPlan plan = given.plan();
+        for (RobotId robot = 0; robot < problem.n_robots(); ++robot) {
+            if (!plan.has_track(robot)) {
+                reject("robot", robot, "has an empty track");
+            }
+        }
+        SharedDistances distances(problem);
+        std::vector<Tick> counts(waits.data(), waits.data() + n_robots);
+        is_fewest = take_fewest_actions(distances, plan, counts, latest, most_states,
+                                        [&] { return deadline(); });
+        tracks = plan.tracks();
+    }
+    return {is_fewest, to_numpy(std::move(tracks.first_visit)), to_numpy(std::move(tracks.vertex)),
+            to_numpy(std::move(tracks.enter))};
+}
+
 }  // namespace
 
 void bind_cbs(nb::module_& module) {
+    module.def("fewest_actions", &fewest_actions, nb::arg("problem"), array("first_visit"),
+               array("vertices"), array("enter"), array("waits"), nb::arg("latest"),
+               nb::arg("most_states"), nb::arg("time_limit").none(), actions_doc);
     nb::class_<ConflictBasedSearch>(module, "ConflictBasedSearch", class_doc)
         .def(
             "__init__",

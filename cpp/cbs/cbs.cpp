@@ -10,9 +10,7 @@ namespace {
 
 constexpr std::int64_t no_factor = 1'000'000;  // a factor of 1 [millionths]
 
-// The largest fleet whose joint states are searched, and after how many nodes as many of them as a
-// pair may have.
-constexpr std::size_t most_together = 4;
+// After how many nodes of the tree as many joint states are searched as a pair may have.
 constexpr std::int64_t nodes_per_states = 50;
 
 }  // namespace
@@ -362,8 +360,8 @@ void ConflictTree::replace(Node& node, RobotId robot, const ConstrainedTrack* tr
 // it decides nothing; the bound is raised by it.
 std::optional<SearchEnd> ConflictTree::search_joint_states(Tick upper,
                                                            const StopCondition& is_over) {
-    if (robots_.size() > most_together || options_.joint_states == 0 ||
-        n_nodes_ < next_joint_search_ || !JointSearch::knows(tracks_.problem())) {
+    if (robots_.size() > JointSearch::most_robots || options_.joint_states == 0 ||
+        n_nodes_ < next_joint_search_) {
         return std::nullopt;
     }
     const std::int64_t states = options_.joint_states * next_joint_search_ / nodes_per_states;

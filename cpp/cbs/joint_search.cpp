@@ -35,10 +35,10 @@ bool exclude(const Problem& problem, std::span<const std::int32_t> left,
 }  // namespace
 
 SearchEnd JointSearch::run(std::span<const GroupMember> members, std::int64_t most_nodes,
-                           const StopCondition& is_over) {
+                           const StopCondition& is_over, const KnownPlan* known) {
     is_over_ = &is_over;
     n_steps_ = 0;
-    prepare(members);
+    prepare(members, known);
     start();
     std::int64_t n_expanded = 0;
     while (!open_.empty()) {
@@ -50,7 +50,7 @@ SearchEnd JointSearch::run(std::span<const GroupMember> members, std::int64_t mo
         bound_ = std::max(bound_, here.least);
         bool is_goal = true;
         for (std::size_t k = 0; k < size_; ++k) {
-            is_goal = is_goal && members_[k].states[index(state_of(node, k))].ends;
+            is_goal = is_goal && has_ended(members_[k].states[index(state_of(node, k))]);
         }
         if (is_goal) {
             goal_ = node;
@@ -72,8 +72,15 @@ void JointSearch::stop_if_over() {
     }
 }
 
-void JointSearch::prepare(std::span<const GroupMember> members) {
+void JointSearch::prepare(std::span<const GroupMember> members, const KnownPlan* known) {
     size_ = members.size();
+    const bool books_ahead = problem_.rules().books_ahead;
+    every_tick_ = known != nullptr || (problem_.has_sizes() && !books_ahead);
+    begins_drives_ = books_ahead || every_tick_;
+    parts_ = known == nullptr ? 1 : most_actions + 1;
+    limit_ = known == nullptr || known->cost >= never / parts_
+                 ? never
+                 : known->cost * parts_ + known->actions;
     while (members_.size() < size_) {
         members_.emplace_back();
         rests_.emplace_back(problem_.roads(), problem_.rules());
@@ -94,7 +101,7 @@ void JointSearch::prepare(std::span<const GroupMember> members) {
         Member& member = members_[k];
         member.robot = members[k].robot;
         member.trip = members[k].trip;
-        member.weight = problem_.weight(member.robot);
+        member.weight = parts_ * problem_.weight(member.robot);
         member.most = members[k].most;
         member.stays_from = member.ends_from = 0;
         member.constraints.clear();
@@ -108,6 +115,8 @@ void JointSearch::prepare(std::span<const GroupMember> members) {
             Tick& from = one.row == Constraint::completion ? member.ends_from : member.stays_from;
             from = std::max(from, one.end);
         }
+        std::sort(member.constraints.begin(), member.constraints.end(),
+                  [](const Closed& left, const Closed& right) { return left.row < right.row; });
         member.states.clear();
         member.facts.clear();
         member.known.clear();
@@ -201,36 +210,48 @@ void JointSearch::list_choices(std::size_t k, std::int32_t number, Tick now) {
          edge < roads.indptr[index(state.vertex + 1)]; ++edge) {
         drive(k, state, edge, now);
     }
+    if (limit_ < never) {
+        const Member& member = members_[k];
+        const Tick spare =
+            limit_ - nodes_[index(node_)].least + member.weight * member.facts[index(number)].rest;
+        std::erase_if(choices_[k], [&](const Choice& one) {
+            const bool ends = member.states[index(one.state)].ends;
+            const Tick rest = ends ? 0 : member.facts[index(one.state)].rest;
+            return one.edge >= 0 && one.cost + member.weight * rest >= spare;
+        });
+    }
 }
 
-// Adds the drive along an edge that begins now or, where robots do not book ahead, ends now.
+// Adds the drive along an edge that begins now, or that ends now.
 void JointSearch::drive(std::size_t k, const State& state, EdgeId edge, Tick now) {
     const Member& member = members_[k];
     const Tick headway = problem_.rules().headway;
     std::int32_t stage = none;
     Tick ticks = 0;
+    bool waits = false;
     for_each_way(k, state, [&](EdgeId way, Tick drive, Tick need, std::int32_t served) {
         if (way == edge && need <= state.age) {
             stage = served;
             ticks = drive;
+            waits = need < state.age;
         }
     });
     const VertexId head = problem_.graph().indices[index(edge)];
     if (stage == none || rests_[k].rest(head, edge, stage) < 0) {
         return;
     }
-    const bool ahead = problem_.rules().books_ahead;
-    const Tick enter = ahead ? now + ticks : now;
+    const Tick enter = begins_drives_ ? now + ticks : now;
+    const Tick booked = enter - problem_.approach(static_cast<std::int32_t>(ticks));
     const std::int32_t here = problem_.vertex_row(member.robot, state.vertex);
     const std::int32_t there = problem_.vertex_row(member.robot, head);
     if (closes(now) && (!is_free(member, here, now, enter + headway) ||
-                        !is_free(member, there, now, enter + headway + 1) ||
+                        !is_free(member, there, booked, enter + headway + 1) ||
                         (closes_edges() && !is_free(member, edge_row(member, edge), enter - ticks,
                                                     enter + headway)))) {
         return;
     }
     State driven{state.vertex, edge, stage, false, 0, ticks, state.trails};
-    if (!ahead) {
+    if (!begins_drives_) {
         driven.vertex = head;
         driven.edge = member.trip->turns.take_time() ? edge : none;
         driven.left = 0;
@@ -238,16 +259,17 @@ void JointSearch::drive(std::size_t k, const State& state, EdgeId edge, Tick now
             driven.trails.push_back({here, headway});
         }
     }
-    const Tick surcharge = member.weight * problem_.surcharge(edge);
-    if (head == member.trip->stage_vertex.back() && may_end(member, stage, enter, now)) {
+    const Tick price =
+        member.weight * problem_.surcharge(edge) + (parts_ > 1 ? (waits ? 2 : 1) : 0);
+    if (head == member.trip->stage_vertex.back() && may_end(member, stage, enter, booked)) {
         State last = driven;
         last.ends = true;
-        last.edge = ahead ? edge : none;
+        last.edge = begins_drives_ ? edge : none;
         const Tick cost = enter + work_at_end(member, stage) - now;
         choices_[k].push_back(
-            {edge, this->number(k, std::move(last)), surcharge + member.weight * cost});
+            {edge, this->number(k, std::move(last)), price + member.weight * cost});
     }
-    choices_[k].push_back({edge, this->number(k, std::move(driven)), surcharge});
+    choices_[k].push_back({edge, this->number(k, std::move(driven)), price});
 }
 
 void JointSearch::choose(std::size_t k) {
@@ -274,7 +296,7 @@ bool JointSearch::is_allowed(std::size_t k, const Choice& choice) const {
         if (exclude(problem_, members_[other].facts[index(chosen.state)].rows, rows)) {
             return false;
         }
-        if (problem_.may_follow() && choice.edge >= 0 && chosen.edge >= 0) {
+        if (!begins_drives_ && problem_.may_follow() && choice.edge >= 0 && chosen.edge >= 0) {
             const VertexId here = members_[k].states[index(state_of(node_, k))].vertex;
             const VertexId there = members_[other].states[index(state_of(node_, other))].vertex;
             if (roads.indices[index(choice.edge)] == there &&
@@ -286,43 +308,51 @@ bool JointSearch::is_allowed(std::size_t k, const Choice& choice) const {
     return true;
 }
 
-// Whether robots enter in a circle what the next one leaves at this instant.
-bool JointSearch::rotate() const {
+// Whether robots enter in a circle what the next one leaves at this instant: two of them always
+// swap, more of them may be allowed to rotate.
+bool JointSearch::is_circle_forbidden() const {
     const Graph& roads = problem_.graph();
     for (std::size_t first = 0; first < size_; ++first) {
         std::size_t at = first;
-        for (std::size_t n = 0; n < size_ && at < size_; ++n) {
-            if (chosen_[at].edge < 0) {
-                break;
-            }
-            const VertexId head = roads.indices[index(chosen_[at].edge)];
+        for (std::size_t n = 1; n <= size_ && at < size_ && entered_[at] >= 0; ++n) {
+            const VertexId head = roads.indices[index(entered_[at])];
             std::size_t next = 0;
             while (next < size_ &&
-                   (chosen_[next].edge < 0 ||
+                   (entered_[next] < 0 ||
                     members_[next].states[index(state_of(node_, next))].vertex != head)) {
                 ++next;
             }
-            if (next == first) {
+            if (next == first && (n == 2 || !problem_.rules().rotations)) {
                 return true;
             }
-            at = next;
+            at = next == first ? size_ : next;
         }
     }
     return false;
 }
 
+// Whether robots that drive without booking ahead may arrive, as the others go on.
+bool JointSearch::is_arrival_free() const {
+    for (std::size_t k = 0; k < size_; ++k) {
+        for (std::size_t other = 0; other < k && entered_[k] >= 0; ++other) {
+            if (exclude(problem_, members_[other].facts[index(after_[other])].rows,
+                        members_[k].facts[index(after_[k])].rows)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 // All robots have chosen: goes to the next instant at which something ends.
 void JointSearch::step() {
-    if (problem_.may_follow() && !problem_.rules().rotations && rotate()) {
-        return;
-    }
     const Tick now = nodes_[index(node_)].now;
     Tick cost = nodes_[index(node_)].cost;
     Tick next = never;
     bool all_end = true;
     for (std::size_t k = 0; k < size_; ++k) {
         next = std::min(next, next_step(k, chosen_[k].state, now));
-        all_end = all_end && members_[k].states[index(chosen_[k].state)].ends;
+        all_end = all_end && has_ended(members_[k].states[index(chosen_[k].state)]);
         cost += chosen_[k].cost;
     }
     if (all_end) {
@@ -332,9 +362,12 @@ void JointSearch::step() {
         return;  // nobody goes on, whatever happens
     }
     after_.clear();
+    entered_.clear();
     for (std::size_t k = 0; k < size_; ++k) {
         const Member& member = members_[k];
         const State& state = member.states[index(chosen_[k].state)];
+        const bool arrives = state.left > 0 && state.left == next - now;
+        entered_.push_back(!begins_drives_ ? chosen_[k].edge : arrives ? state.edge : none);
         if (!state.ends) {
             const std::int32_t row = problem_.vertex_row(member.robot, state.vertex);
             if (now < horizon_ && state.left == 0 &&
@@ -344,6 +377,12 @@ void JointSearch::step() {
             cost += member.weight * (next - now);
         }
         after_.push_back(all_end ? chosen_[k].state : after(k, chosen_[k].state, next - now));
+    }
+    if (problem_.may_follow() && is_circle_forbidden()) {
+        return;
+    }
+    if (begins_drives_ && !problem_.rules().books_ahead && !is_arrival_free()) {
+        return;
     }
     reach(next, cost);
 }
@@ -366,6 +405,9 @@ void JointSearch::reach(Tick now, Tick cost) {
         rest += member.weight * to_go;
     }
     least += rest;
+    if (least >= limit_) {
+        return;
+    }
     const auto fresh = static_cast<std::int32_t>(nodes_.size());
     const std::int32_t first = known_.find_or_add(hash, fresh, [&](std::int32_t other) {
         return std::min(nodes_[index(other)].now, horizon_) == std::min(now, horizon_) &&
@@ -420,7 +462,6 @@ Tick JointSearch::next_step(std::size_t k, std::int32_t number, Tick now) const 
     if (state.ends) {
         return next;
     }
-    const bool ahead = problem_.rules().books_ahead;
     for_each_way(k, state, [&](EdgeId edge, Tick drive, Tick need, std::int32_t served) {
         const Tick soonest = now + need - state.age;
         const auto note = [&](Tick tick) {
@@ -428,21 +469,22 @@ Tick JointSearch::next_step(std::size_t k, std::int32_t number, Tick now) const 
                 next = std::min(next, tick);
             }
         };
-        note(soonest);
-        if (now >= horizon_) {
+        note(every_tick_ ? std::max(soonest, now + 1) : soonest);
+        if (now >= horizon_ || every_tick_) {
             return;
         }
         const VertexId head = problem_.graph().indices[index(edge)];
         for_each_closed(member, problem_.vertex_row(member.robot, head),
                         [&](const Booking& closed) { note(closed.end); });
         if (closes_edges()) {
-            for_each_closed(member, edge_row(member, edge),
-                            [&](const Booking& closed) { note(closed.end + (ahead ? 0 : drive)); });
+            for_each_closed(member, edge_row(member, edge), [&](const Booking& closed) {
+                note(closed.end + (begins_drives_ ? 0 : drive));
+            });
         }
         if (head == member.trip->stage_vertex.back() &&
             index(served) >= member.trip->first_stage_at_end()) {
             note(member.stays_from);
-            note(member.ends_from - work_at_end(member, served) - (ahead ? drive : 0));
+            note(member.ends_from - work_at_end(member, served) - (begins_drives_ ? drive : 0));
         }
     });
     return next;
@@ -469,7 +511,9 @@ std::int32_t JointSearch::after(std::size_t k, std::int32_t number, Tick ticks) 
             state.edge = member.trip->turns.take_time() && !state.ends ? state.edge : none;
         }
     } else if (!state.ends) {
-        state.age = std::min(state.age + ticks, member.facts[index(number)].longest);
+        // A wait is what is longer than the longest stay that may be needed.
+        const Tick longest = member.facts[index(number)].longest + (parts_ > 1 ? 1 : 0);
+        state.age = std::min(state.age + ticks, longest);
     }
     return this->number(k, std::move(state));
 }
@@ -504,7 +548,9 @@ JointSearch::Facts JointSearch::look(std::size_t k, const State& state) const {
     facts.rows.push_back(problem_.vertex_row(member.robot, state.vertex));
     if (state.left > 0) {
         const VertexId head = problem_.graph().indices[index(state.edge)];
-        facts.rows.push_back(problem_.vertex_row(member.robot, head));
+        if (problem_.rules().books_ahead) {
+            facts.rows.push_back(problem_.vertex_row(member.robot, head));
+        }
         if (drives_book_edges()) {
             facts.rows.push_back(edge_row(member, state.edge));
         }
@@ -517,7 +563,7 @@ JointSearch::Facts JointSearch::look(std::size_t k, const State& state) const {
             const VertexId head = problem_.graph().indices[index(edge)];
             const Tick rest = rests_[k].rest(head, edge, served);
             if (rest >= 0) {
-                const Tick whole = problem_.rules().books_ahead ? drive + rest : rest;
+                const Tick whole = begins_drives_ ? drive + rest : rest;
                 facts.rest = std::min(facts.rest, std::max<Tick>(need - state.age, 0) + whole);
             }
         });
@@ -539,8 +585,7 @@ void JointSearch::for_each_way(std::size_t k, const State& state, const Use& use
         if (drive < 0) {
             continue;
         }
-        Tick need =
-            trip.turns.between(state.edge, edge) + (problem_.rules().books_ahead ? 0 : drive);
+        Tick need = trip.turns.between(state.edge, edge) + (begins_drives_ ? 0 : drive);
         auto stage = index(state.stage);
         use(edge, drive, need, static_cast<std::int32_t>(stage));
         while (stage + 1 < trip.n_stages() && trip.stage_vertex[stage] == state.vertex) {
@@ -553,10 +598,11 @@ void JointSearch::for_each_way(std::size_t k, const State& state, const Use& use
 
 template <class Use>
 void JointSearch::for_each_closed(const Member& member, std::int32_t row, const Use& use) const {
-    for (const Closed& one : member.constraints) {
-        if (one.row == row) {
-            use(one.time);
-        }
+    const auto is_before = [](const Closed& one, std::int32_t wanted) { return one.row < wanted; };
+    for (auto one =
+             std::lower_bound(member.constraints.begin(), member.constraints.end(), row, is_before);
+         one != member.constraints.end() && one->row == row; ++one) {
+        use(one->time);
     }
     for (const BookedBy& one : closures_.at(row)) {
         use(one.time);
@@ -587,8 +633,9 @@ void JointSearch::track(std::size_t member, std::vector<Visit>& visits) const {
     EdgeId before = none;
     for (const auto& [edge, step] : drives) {
         const std::int32_t drive = problem_.drive(members_[member].robot, edge);
-        visits.push_back({step + problem_.approach(drive), problem_.graph().indices[index(edge)],
-                          drive, trip.turns.between(before, edge)});
+        visits.push_back({begins_drives_ ? step + drive : step,
+                          problem_.graph().indices[index(edge)], drive,
+                          trip.turns.between(before, edge)});
         before = edge;
     }
 }

@@ -14,6 +14,13 @@
 // Where robots book ahead, a drive begins in a step. Else a robot is at one vertex until it is at
 // the next one, and it enters a vertex in a step, after the ticks of the drive.
 //
+// Of the plans of least cost, which one has the fewest waits and drives? A robot may wait once for
+// long, and not at each place for a bit, so that it begins drives later than it could. Then each
+// tick is a step, every drive begins in a step, costs count in parts of a tick, and a wait or a
+// drive is one part: were drives not counted, robots would drive to and fro rather than wait. Steps
+// at each tick are also right for points that book edges which exclude each other and do not book
+// ahead: they enter in time for what opens. No scenario has both.
+//
 // Standley, "Finding optimal solutions to cooperative pathfinding problems", AAAI 2010. Sharon,
 // Stern, Felner & Sturtevant, "Meta-agent conflict-based search for optimal multi-agent path
 // finding", SoCS 2012 (where groups of robots are planned by it).
@@ -48,6 +55,12 @@ struct GroupMember {
     Tick most = never;  // greatest completion time
 };
 
+// A plan of some robots: only plans are looked for that cost less, or have fewer actions.
+struct KnownPlan {
+    Tick cost = never;
+    Tick actions = 0;  // drives, and waits: visits that last longer than work, turns and drive
+};
+
 // One object serves many searches.
 class JointSearch {
   public:
@@ -55,18 +68,20 @@ class JointSearch {
     JointSearch(const Problem& problem, const BookingTable& closures)
         : problem_(problem), closures_(closures) {}
 
-    // Whether the search knows the rules of a problem: not where points book edges that exclude
-    // each other, which they do before they are known to drive there.
-    static bool knows(const Problem& problem) {
-        return problem.rules().books_ahead || !problem.has_sizes();
-    }
+    // The largest fleet whose joint states are searched.
+    static constexpr std::size_t most_robots = 4;
+    // More actions are not told from a tick.
+    static constexpr Tick most_actions = 65'535;
 
-    // Found, proven none, or stopped after `most_nodes` nodes. Throws Stopped.
+    // Found, proven none, or stopped after `most_nodes` nodes. With a known plan, the plan found
+    // has the fewest actions among those of least cost. Throws Stopped.
     SearchEnd run(std::span<const GroupMember> members, std::int64_t most_nodes,
-                  const StopCondition& is_over);
+                  const StopCondition& is_over, const KnownPlan* known = nullptr);
 
     // No plan costs less, by the weights of the robots, surcharges included.
-    Tick bound() const { return bound_; }
+    Tick bound() const { return bound_ / parts_; }
+    // Of the plan found; only with a known plan.
+    Tick actions() const { return nodes_[index(goal_)].cost % parts_; }
     // The track of a member in the plan found.
     void track(std::size_t member, std::vector<Visit>& visits) const;
 
@@ -99,11 +114,11 @@ class JointSearch {
     struct Member {
         RobotId robot;
         const Trip* trip;
-        Tick weight;
+        Tick weight;  // parts of a tick
         Tick most;
         Tick stays_from;
         Tick ends_from;
-        std::vector<Closed> constraints;  // by row
+        std::vector<Closed> constraints;  // in order of rows
         std::vector<State> states;
         std::vector<Facts> facts;
         IndexTable known;
@@ -123,7 +138,7 @@ class JointSearch {
         Tick best;           // least cost of the nodes of this state; of the first node only
     };
 
-    void prepare(std::span<const GroupMember> members);
+    void prepare(std::span<const GroupMember> members, const KnownPlan* known);
     void start();
     void expand(std::int32_t node);
     void list_choices(std::size_t k, std::int32_t state, Tick now);
@@ -131,7 +146,8 @@ class JointSearch {
     void choose(std::size_t k);
     void stop_if_over();
     bool is_allowed(std::size_t k, const Choice& choice) const;
-    bool rotate() const;
+    bool is_circle_forbidden() const;
+    bool is_arrival_free() const;
     void step();
     void reach(Tick now, Tick cost);
     bool may_end(const Member& member, std::int32_t stage, Tick enter, Tick booked) const;
@@ -145,6 +161,10 @@ class JointSearch {
     template <class Use>
     void for_each_closed(const Member& member, std::int32_t row, const Use& use) const;
     bool is_free(const Member& member, std::int32_t row, Tick start, Tick end) const;
+    // Whether a robot is at its last vertex for ever, or nothing can keep it from being so.
+    bool has_ended(const State& state) const {
+        return state.ends && (problem_.rules().books_ahead || state.left == 0);
+    }
     bool drives_book_edges() const { return problem_.has_sizes() && problem_.edges_exclude(); }
     bool closes_edges() const { return closures_.n_rows() > problem_.n_vertices(); }
     bool closes(Tick now) const { return now < horizon_ || closes_for_ever_; }
@@ -162,6 +182,10 @@ class JointSearch {
     std::size_t size_ = 0;
     Tick horizon_ = 0;  // nothing closes or opens later
     bool closes_for_ever_ = false;
+    bool every_tick_ = false;     // each tick is a step
+    bool begins_drives_ = false;  // drives begin in steps; else they end in steps
+    Tick parts_ = 1;              // of a tick, in which costs count
+    Tick limit_ = never;          // nothing of this cost or more is looked for
     std::vector<Node> nodes_;
     std::vector<std::int32_t> states_;  // of all members, node after node
     std::vector<EdgeId> edges_;         // chosen in the step before the node
@@ -177,6 +201,7 @@ class JointSearch {
     std::vector<std::vector<Choice>> choices_;
     std::vector<Choice> chosen_;
     std::vector<std::int32_t> after_;
+    std::vector<EdgeId> entered_;  // by which each robot arrives at the end of the step
 };
 
 }  // namespace rightofway

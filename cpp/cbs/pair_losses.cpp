@@ -43,8 +43,7 @@ Tick PairLosses::least_loss(const Key& key, std::array<Tick, 2> costs,
         costs[side] =
             std::min(costs[side], tracks_.problem().weight(key.robots[side]) * options_.latest);
     }
-    if (end == SearchEnd::stopped && options_.joint_states > 0 &&
-        JointSearch::knows(tracks_.problem())) {
+    if (end == SearchEnd::stopped && options_.joint_states > 0) {
         const JointPlan joint =
             tracks_.together(key.robots, key.sets, costs, options_.joint_states, is_over);
         bound = std::max(bound, joint.bound);

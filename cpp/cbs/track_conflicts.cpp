@@ -5,11 +5,6 @@
 #include <unordered_map>
 
 namespace rightofway {
-namespace {
-
-// The constraint for a robot whose drive along an edge ends at `tick`, together with robots that
-// drive out of its head. It forbids the drive to end in [tick, tick + drive), and no other stay.
-//
 // Let robot k of a cycle of two or more enter at tick + x[k], 0 <= x[k] < drive[k]; each enters the
 // vertex that the next robot leaves as it enters its own next vertex. If all x are equal, this is
 // the swap or rotation itself. Otherwise some robot k enters before the next robot leaves, x[k] <
@@ -18,8 +13,6 @@ namespace {
 Constraint against_move(const Problem& problem, EdgeId edge, Tick tick) {
     return {problem.n_vertices() + edge, tick - 1, tick};
 }
-
-}  // namespace
 
 void ConflictFinder::take(RobotId robot, const ConstrainedTrack& track) {
     robot_ = robot;

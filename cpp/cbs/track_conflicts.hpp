@@ -21,6 +21,10 @@ struct TrackConflict {
     std::array<SetId, 2> set{-1, -1};
 };
 
+// The constraint for a robot whose drive along an edge ends at `tick`, together with robots that
+// drive out of its head. It forbids the drive to end in [tick, tick + drive), and no other stay.
+Constraint against_move(const Problem& problem, EdgeId edge, Tick tick);
+
 // What the tracks of other robots are compared with.
 class ConflictFinder {
   public:

@@ -62,6 +62,7 @@ class FleetSearch {
                          const StopCondition& pause);
     void retime(const StopCondition& interrupt);
 
+    const FleetPlan& plan() const { return plan_; }
     Tracks tracks() const { return plan_.tracks(); }
     Tick cost() const { return plan_.cost(); }
     Tick value() const { return plan_.worth().value; }

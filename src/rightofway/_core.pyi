@@ -900,6 +900,31 @@ class PriceAscent:
     def is_over(self) -> bool:
         """Whether more steps change nothing."""
 
+def fewest_actions(problem: Problem, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], enter: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], waits: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], latest: int, most_states: int, time_limit: float | None) -> tuple[bool, Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+    """
+    Take tracks of no higher cost with which robots wait and drive less often.
+
+    Parameters
+    ----------
+    problem : Problem
+        What the fleet has to do.
+    first_visit, vertices, enter : int32[R + 1], int32[N], int64[N]
+        Which visits each robot has, and where and when they begin; they keep the rules. [ticks]
+    waits : int64[R]
+        How many visits of each robot last longer than it needs.
+    latest : int
+        No robot completes later, NEVER for no limit. [ticks]
+    most_states : int
+        End each search after this number of states.
+    time_limit : float or None
+        When to stop; at once for 0 or less. [s]
+
+    Returns
+    -------
+    tuple of (bool, int32[R + 1], int32[N], int64[N])
+        Whether it is proven that no plan of no higher cost has fewer drives and waits; the tracks.
+    """
+
 class ConflictBasedSearch:
     """
     Conflict-based search for a plan of least cost, with its proof.

@@ -489,6 +489,10 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
         "time_limit": 0.2,
     },
     "ConflictBasedSearch.tracks": _always(),
+    "fewest_actions": lambda rng: {
+        "problem": _problem(rng), **TRACKS, "waits": int64(1, 0, 2),
+        "latest": rng.choice((_core.NEVER, 60)), "most_states": 500, "time_limit": 0.2,
+    },
     "ConflictBasedSearch.n_nodes": _always(),
     "ConflictBasedSearch.n_searches": _always(),
     "PriceAscent": lambda rng: {"problem": _problem(rng)},

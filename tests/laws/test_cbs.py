@@ -22,7 +22,11 @@ from rightofway.model import (
 )
 from rightofway.model.outcome import choose_objective
 from rightofway.planners.bounds import prove_bound
-from rightofway.search import ConflictBasedSearch, compute_least_completions
+from rightofway.search import (
+    ConflictBasedSearch,
+    compute_least_completions,
+    find_fewest_actions,
+)
 from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import planned
 from tests.builders.laws import law, leave, once
@@ -42,6 +46,9 @@ switches = st.fixed_dictionaries(
     }
 )
 
+PARTS = 1000
+"""Of a tick, of which a wait or a drive counts as one."""
+
 NODES = 300
 """Fleets without a plan may have trees without end."""
 
@@ -51,6 +58,14 @@ def _search(scenario: Scenario, **options: Any) -> ConflictBasedSearch:
     if alone is None or alone.min() < 0:
         leave("a robot cannot reach its places")
     return ConflictBasedSearch(scenario.problem, **options)
+
+
+def _is_optimal(plan: Plan) -> bool:
+    return plan.run.outcome is not None and plan.run.outcome.kind is OutcomeKind.OPTIMAL
+
+
+def _count_actions(plan: Plan) -> int:
+    return len(plan.waits) + sum(len(track) - 1 for track in plan.tracks)
 
 
 def _answer(scenario: Scenario, options: dict[str, Any]) -> Plan | NoPlanExists | GaveUp:
@@ -106,6 +121,34 @@ def test_a_search_that_is_continued_ends_as_one_that_is_not(
     if whole.is_proven and in_parts.is_proven:
         assert whole.bound == in_parts.bound
         assert (whole.tracks is None) == (in_parts.tracks is None)
+
+
+@law(st.sampled_from(sorted({*KINDS} - {"turning"})), seeds)
+def test_of_the_plans_of_least_cost_that_with_the_fewest_actions_is_taken(
+    kind: str, seed: int
+) -> None:
+    scenario = KINDS[kind](seed)
+    answer = _answer(scenario, {"nodes": NODES})
+    if not isinstance(answer, Plan) or not _is_optimal(answer):
+        leave("no optimum within the nodes")
+    assert check(answer).ok
+    is_proven, tracks = find_fewest_actions(scenario, answer.tracks)
+    plan = Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="cbs"))
+    assert _count_actions(plan) == _count_actions(answer)
+    least = joint_space.least_flowtime(scenario, parts=PARTS)
+    assert least is not None
+    assert least // PARTS == answer.flowtime
+    assert not is_proven or _count_actions(answer) == least % PARTS
+
+
+@law(any_fleet())
+def test_a_plan_with_fewer_actions_keeps_the_rules_and_costs_no_more(scenario: Scenario) -> None:
+    before = planned(scenario, "lns")
+    _, tracks = find_fewest_actions(scenario, before.tracks, states=300)
+    after = Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="cbs"))
+    assert check(after).ok
+    costs = [compute_cost(scenario, plan.tracks) for plan in (before, after)]
+    assert (costs[1], _count_actions(after)) <= (costs[0], _count_actions(before))
 
 
 @law(kinds, seeds)

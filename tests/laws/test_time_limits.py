@@ -34,6 +34,7 @@ from rightofway.search import (
     RoundTrip,
     compute_least_completions,
     find_earliest_track,
+    find_fewest_actions,
     plan_by_lacam,
 )
 from rightofway.site import VertexId
@@ -168,6 +169,10 @@ def least_sum(scenario: Scenario, limit: float) -> None:
     search.search_together(range(len(scenario.robots)), states=10**9, time_limit=limit)
 
 
+def act_less(_: Scenario, limit: float) -> None:
+    find_fewest_actions(plan().scenario, plan().tracks, states=10**9, time_limit=limit)
+
+
 def raise_prices(scenario: Scenario, limit: float) -> None:
     with suppress(NoPlanExists):
         PriceAscent(scenario.problem).run(time_limit=limit)
@@ -191,6 +196,7 @@ CALLS: dict[str, Callable[[Scenario, float], object]] = {
         Tick(10**6), time_limit=limit
     ),
     "earliest_track": track,
+    "fewest_actions": act_less,
     "plan_by_lacam": lacam,
 }
 

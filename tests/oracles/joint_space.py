@@ -30,6 +30,7 @@ class State(NamedTuple):
     stage: int = 0  # the first stage that is not served
     dwell: int = 0  # ticks left of serving the stage before
     trail: tuple[tuple[tuple[Shape, ...], int], ...] = ()  # what was left, and for how long booked
+    waits: bool = False  # it has stood at this vertex for longer than it needs; where that counts
 
 
 class _OneRobot(Protocol):
@@ -49,8 +50,9 @@ Action = tuple[State, Booked, int]
 class _Fleet:
     """What each robot can do in a tick, and whether two robots can do it together."""
 
-    def __init__(self, scenario: Scenario) -> None:
+    def __init__(self, scenario: Scenario, parts: int = 1) -> None:
         self.scenario = scenario
+        self.parts = parts
         self.books_ahead = scenario.rules.occupancy == "both"
         self.headway = int(scenario.problem.booking_rules.headway)
         self.stages = [itinerary.stages for itinerary in scenario.problem.itineraries]
@@ -110,7 +112,7 @@ class _Fleet:
         if state.is_done:
             yield state, here, 0
         elif state.dwell:
-            yield state._replace(dwell=state.dwell - 1), here, 1
+            yield state._replace(dwell=state.dwell - 1), here, self.parts
         elif state.left:
             left, edge = state.left - 1, (state.vertex, state.head)
             along, ahead = zones_with(roadmap, edge), zones_around(roadmap, state.head)
@@ -118,23 +120,28 @@ class _Fleet:
             booked: Booked = (*behind, *((-1 - zone,) for zone in ahead))
             booked += ((state.head,),) if self.books_ahead else ()
             if left:
-                yield state._replace(left=left), booked, 1
+                yield state._replace(left=left), booked, self.parts
                 return
             trail = (*state.trail, (behind, self.headway)) if self.headway else state.trail
-            yield State(state.head, stage=state.stage, trail=trail), booked, 1
+            yield State(state.head, stage=state.stage, trail=trail), booked, self.parts
         else:
             rest = stages[state.stage :]
             if all(stage.vertex == state.vertex for stage in rest):
-                yield state._replace(is_done=True), here, sum(int(stage.work) for stage in rest)
+                work = sum(int(stage.work) for stage in rest)
+                yield state._replace(is_done=True), here, work * self.parts
             if len(rest) > 1 and rest[0].vertex == state.vertex:
                 dwell = int(rest[0].work + rest[0].turn)
                 served = state._replace(stage=state.stage + 1, dwell=dwell)
                 yield from self._moves(robot, served)
-            yield state, here, 1
+            counts = self.parts > 1
+            yield state._replace(waits=counts), here, self.parts + (counts and not state.waits)
             first, end = roadmap.indptr[state.vertex : state.vertex + 2].tolist()
             for head in roadmap.heads[first:end].tolist():
                 ticks = int(drive(self.scenario, robot, state.vertex, head))
-                yield from self._moves(robot, state._replace(head=head, left=ticks))
+                for after, booked, cost in self._moves(
+                    robot, state._replace(head=head, left=ticks)
+                ):
+                    yield after, booked, cost + counts
 
 
 def costs_to_go(start: S, actions: Callable[[S], Iterable[tuple[S, Any, int]]]) -> dict[S, int]:
@@ -164,13 +171,15 @@ def costs_to_go(start: S, actions: Callable[[S], Iterable[tuple[S, Any, int]]]) 
     return costs
 
 
-def least_flowtime(scenario: Scenario, latest: int | None = None) -> int | None:
+def least_flowtime(scenario: Scenario, latest: int | None = None, *, parts: int = 1) -> int | None:
     """Return the least sum of completions by weight [ticks], None where there is no plan.
 
-    With ``latest``, of the plans that are complete at that tick. Joint states in the order of what
-    they cost and what each robot alone would cost from there.
+    With ``latest``, of the plans that are complete at that tick. With ``parts``, each tick counts
+    so many, and each drive and wait one: a wait is a visit that lasts longer than what the robot
+    does there. Joint states in the order of what they cost and what each robot alone would cost
+    from there.
     """
-    fleet = _Fleet(scenario)
+    fleet = _Fleet(scenario, parts)
     itineraries = scenario.problem.itineraries
     weights = [itinerary.weight for itinerary in itineraries]
     alone = [fleet.costs_alone(robot) for robot in range(len(itineraries))]

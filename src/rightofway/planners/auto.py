@@ -17,7 +17,7 @@ from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Objective, Proof, Tick
 from rightofway.phrases import Phrase, say_count
 from rightofway.planners.bounds import SHARE as SHARE_OF_NODES
-from rightofway.planners.bounds import compute_price_bound, explain_optimum
+from rightofway.planners.bounds import compute_price_bound, finish_optimum
 from rightofway.planners.features import refuse_with_swaps_left
 from rightofway.planners.impossible import find_blocking_set
 from rightofway.planners.lns import improve_best, lns
@@ -56,7 +56,7 @@ def auto(task: Task) -> Draft:
             raise InputError.at(("options", "swaps"), message)
         refuse_with_swaps_left(task.scenario.problem)
         return paper(task)
-    return explain_optimum(task, _best(task))
+    return finish_optimum(task, _best(task))
 
 
 def _best(task: Task) -> Draft:

@@ -19,16 +19,20 @@ from dataclasses import replace
 from rightofway.deadline import Deadline
 from rightofway.errors import NoPlanExists
 from rightofway.metrics import find_forced_losses
-from rightofway.model import Objective, Proof, Scenario, Tick
+from rightofway.model import Objective, Proof, Scenario, Tick, compute_completions
 from rightofway.model.outcome import choose_objective
+from rightofway.planners.objectives import find_objective, measure_worth
 from rightofway.planners.task import Draft, Task
-from rightofway.search import ConflictBasedSearch, PriceAscent
+from rightofway.search import ConflictBasedSearch, PriceAscent, find_fewest_actions
 
 SHARE = 0.3
 """The part of the time for conflict-based search."""
 
 PAIRS, STATES = 50, 1_000
 """Pairs of robots whose losses are looked for, and joint states of each."""
+
+STATES_OF_ACTIONS = 10_000
+"""Joint states of each search for a plan with fewer drives and waits."""
 
 
 def prove_bound(
@@ -57,7 +61,34 @@ def prove_bound(
     return Proof(bound=least, objective=choose_objective(scenario)), is_reached
 
 
-def explain_optimum(task: Task, draft: Draft) -> Draft:
+def finish_optimum(task: Task, draft: Draft) -> Draft:
+    """Return an optimal plan with few drives and waits, and the losses that force its flowtime.
+
+    Other plans as they are. A plan whose decisions are explained keeps its tracks.
+    """
+    return _explain(task, _act_less(task, draft))
+
+
+def _act_less(task: Task, draft: Draft) -> Draft:
+    objective, scenario = find_objective(task), task.scenario
+    states = task.options.get("joint_states", STATES_OF_ACTIONS)
+    is_optimal = draft.proof and measure_worth(task, draft.tracks)[0] == draft.proof.bound
+    if not is_optimal or draft.decisions or states == 0:
+        return draft
+    latest = None
+    if objective.has_makespan:
+        latest = max(compute_completions(scenario, draft.tracks))
+    _, tracks = find_fewest_actions(
+        scenario,
+        draft.tracks,
+        latest=latest,
+        states=states,
+        time_limit=task.deadline.measure_seconds_left(),
+    )
+    return replace(draft, tracks=tracks)
+
+
+def _explain(task: Task, draft: Draft) -> Draft:
     """Return a plan with the losses that force its flowtime, where it is proven to be optimal.
 
     A bounded number of steps finds them: without a time limit reached the same losses each time.

@@ -35,7 +35,7 @@ from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Proof, Tick, compute_cost
 from rightofway.model.outcome import Objective, choose_objective
 from rightofway.phrases import Phrase, say_count
-from rightofway.planners.bounds import explain_optimum
+from rightofway.planners.bounds import finish_optimum
 from rightofway.planners.impossible import find_blocking_set
 from rightofway.planners.lns import improve_best
 from rightofway.planners.makespan import MakespanSearch
@@ -56,8 +56,10 @@ def cbs(task: Task) -> Draft:
     has_makespan = find_objective(task).has_makespan
     first = _first_plan(task)
     if has_makespan:
-        return _with_makespan(task, first or _of_least_flowtime(task, None))
-    return explain_optimum(task, _of_least_flowtime(task, first))
+        draft = _with_makespan(task, first or _of_least_flowtime(task, None))
+    else:
+        draft = _of_least_flowtime(task, first)
+    return finish_optimum(task, draft)
 
 
 def _search(task: Task, **limits: Any) -> ConflictBasedSearch:

@@ -1,7 +1,7 @@
 """Shortest distances and searches for one robot, with and without others in the way."""
 
 from rightofway.search.bounds import PriceAscent
-from rightofway.search.cbs import ConflictBasedSearch
+from rightofway.search.cbs import ConflictBasedSearch, find_fewest_actions
 from rightofway.search.congestion import Congestion
 from rightofway.search.distances import Distances, Path
 from rightofway.search.fleet import FleetSearch, compute_least_completions
@@ -23,5 +23,6 @@ __all__ = [
     "RowsOfLaps",
     "compute_least_completions",
     "find_earliest_track",
+    "find_fewest_actions",
     "plan_by_lacam",
 ]

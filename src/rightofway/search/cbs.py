@@ -8,8 +8,12 @@ from fractions import Fraction
 import numpy as np
 
 from rightofway import _core
-from rightofway.model import NEVER, Problem, Tick, Track
+from rightofway.arguments import checks_arguments
+from rightofway.errors import InputError
+from rightofway.model import NEVER, Problem, Scenario, Tick, Track
+from rightofway.model.stays import find_stays
 from rightofway.native import bind_native, make_tracks
+from rightofway.search.fleet import list_visits
 
 FOUND, PROVEN = 0, 1
 
@@ -152,3 +156,53 @@ class ConflictBasedSearch:
     def n_searches(self) -> int:
         """The number of searches for the track of one robot."""
         return self._core.n_searches
+
+
+@checks_arguments
+def find_fewest_actions(
+    scenario: Scenario,
+    tracks: Sequence[Track],
+    *,
+    latest: int | None = None,
+    states: int = 10_000,
+    time_limit: float | None = None,
+) -> tuple[bool, tuple[Track, ...]]:
+    """Return tracks of no higher cost with which robots wait and drive less often.
+
+    A wait is a visit that lasts longer than the work, turns and drive that it is for. Waits and
+    drives count alike, so that nobody drives to and fro rather than wait.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    tracks
+        One for each robot; they keep the rules.
+    latest
+        No robot completes later [ticks]; None for no limit.
+    states
+        The number of states of each search at most.
+    time_limit
+        When to stop [s].
+
+    Returns
+    -------
+    tuple of (bool, tuple of Track)
+        Whether it is proven that no plan of no higher cost has fewer drives and waits, and
+        the tracks.
+
+    Notes
+    -----
+    The joint states of at most four robots are searched. Of more robots, or where that search does
+    not end, one robot after the other that waits takes a track with fewer of them among the
+    bookings of all others, until none has one. Deterministic without a time limit.
+    """
+    visits, count = list_visits(tracks), len(scenario.robots)
+    if len(tracks) != count:
+        raise InputError.at("tracks", f"{len(tracks)} tracks, but {count} robots (give one each)")
+    waits = [int((stay.waits > 0).sum()) for stay in find_stays(scenario, tracks)]
+    is_proven, first_visit, vertices, enter = _core.fewest_actions(
+        bind_native(scenario.problem), *visits, np.array(waits, np.int64),
+        NEVER if latest is None else latest, states, time_limit,
+    )  # fmt: skip
+    return is_proven, tuple(make_tracks(first_visit, vertices, enter))

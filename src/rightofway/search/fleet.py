@@ -144,14 +144,14 @@ class FleetSearch:
 
         A ``ValueError`` refuses tracks that break the rules.
         """
-        self._core.start(*_arrays(tracks))
+        self._core.start(*list_visits(tracks))
 
     def restore(self, tracks: Sequence[Track]) -> int:
         """Give robots these tracks where that costs nothing; return how many have theirs.
 
         Large neighbourhood search accepts tracks of equal cost. This restores earlier ones.
         """
-        return self._core.restore(*_arrays(tracks))
+        return self._core.restore(*list_visits(tracks))
 
     def repair(self, order: Sequence[int], *, searches: int, time_limit: float | None) -> bool:
         """Give tracks to the robots without one; tell whether all robots have one.
@@ -204,7 +204,7 @@ class FleetSearch:
         return tuple(make_tracks(*self._core.tracks()))
 
 
-def _arrays(
+def list_visits(
     tracks: Sequence[Track | None],
 ) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int64]]:
     """Return where each robot's visits begin, their vertices, and when they begin."""
