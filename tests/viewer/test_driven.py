@@ -12,8 +12,14 @@ from urllib.request import Request, urlopen
 
 import pytest
 
+from rightofway.control import RobotState
 from rightofway.control.commands import Commands
 from rightofway.control.demo import drive_demo
+from rightofway.control.journal import SqliteJournal
+from rightofway.control.notices import Notices
+from rightofway.control.operator import OPERATIONS
+from rightofway.control.proofs import say_stray, take_fault
+from rightofway.phrases import Phrase
 from tests.builders.accessibility import serious
 from tests.builders.browsers import expect
 from tests.builders.drives import driven, watched
@@ -277,6 +283,55 @@ def test_a_robot_that_was_taken_off_the_floor_is_placed_by_a_person(
     is_asked(viewer, journal)
     drive.let(6)
     expect(viewer.page.get_by_text("no vertex is named 'N99'")).to_be_visible()
+    assert viewer.complaints == []
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        ("clear", "R1 is where it is shown", "Is R1 at the place where it is shown?", "done"),
+        ("remove", "R1 is off the floor", "Is R1 off the floor?", "off the floor"),
+    ],
+)
+def test_a_person_is_alarmed_and_says_what_has_become_of_a_robot_with_a_fault(
+    browser: Browser, stack: ExitStack, tmp_path: Path, case: tuple[str, str, str, str]
+) -> None:
+    """The control is this test: it writes the journal of robots that are home, and answers."""
+    command, button, question, then = case
+    path = tmp_path / "demo.journal"
+    drive_demo(door(), journal=path)
+    journal = stack.enter_context(closing(SqliteJournal(path, lambda: 12.0)))
+    commands = stack.enter_context(closing(Commands(path)))
+    viewer = opened(browser, stack, stack.enter_context(watched(door(), path)))
+    alarms = viewer.page.get_by_role("region", name="Alarms")
+    notices = Notices(["R1", "R2"], lambda _: None, keep=lambda entry: journal.commit([entry]))
+    notices.report_on(1, Phrase("is not connected"), "lost")
+    expect(alarms).to_contain_text("R2 is not connected")
+    stray = RobotState(order_id="", update_id=0, last_place="N4", last_sequence_id=0)
+    journal.commit([take_fault(0, say_stray(stray), stray, notices.report_on)])
+    expect(alarms).to_contain_text(
+        "R1 is faulty: it stands at N4, which it does not hold; a person has to look after it"
+    )
+    expect(row_of(viewer, "R1")).to_contain_text("alarm")
+    row_of(viewer, "R2").click()
+    expect(viewer.page.get_by_role("button", name="Hold R2")).to_be_visible()
+    expect(viewer.page.get_by_role("button", name=button)).to_be_hidden()
+    row_of(viewer, "R1").click()
+    viewer.page.get_by_role("button", name=button, exact=True).click()
+    dialog = viewer.page.get_by_role("dialog")
+    expect(dialog).to_contain_text(question)
+    dialog.get_by_role("button", name="Yes").click()
+    is_asked(viewer, path)
+    ((number, asked),) = commands.list_unanswered()
+    assert asked == {"kind": command, "name": "R1"}
+    journal.commit([{**OPERATIONS[command], "robot": 0}])
+    commands.answer(number, {"done": True, "text": f"R1: {command}"})
+    expect(viewer.page.get_by_text("carried out")).to_be_visible()
+    expect(row_of(viewer, "R1")).to_contain_text(then)
+    expect(alarms).not_to_contain_text("R1")
+    expect(row_of(viewer, "R2")).to_contain_text("alarm")
+    notices.report_on(1, "", "lost", is_over=True)
+    expect(alarms).to_be_hidden()
     assert viewer.complaints == []
 
 

@@ -265,7 +265,7 @@ class Recording:
         if own.is_off != known.is_off:
             known.is_off = own.is_off
             self._rows.append((tick, robot, "off", own.is_off))
-        if own.fault is None:
+        if own.fault is None or own.is_off:  # a person has looked after it
             self._alarm(robot, "fault", None, tick)
         if not own.failed:
             self._alarm(robot, "failed", None, tick)

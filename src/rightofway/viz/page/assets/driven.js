@@ -370,12 +370,12 @@ export class Driven {
   }
 
   /**
-   * The trouble that there is at a tick.
+   * The trouble that there is at a tick; at Infinity, all that has not ended.
    *
    * @param {number} tick
    */
   alarmsAt(tick) {
-    return this.alarms.filter(({ from, to }) => from <= tick && tick < to);
+    return this.alarms.filter(({ from, to }) => from <= tick && (tick < to || to === Infinity));
   }
 
   /**

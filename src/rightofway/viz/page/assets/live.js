@@ -131,13 +131,16 @@ export class Live {
     this.box.hidden = !alarms.length;
     const list = this.root.part("alarm-list");
     list.replaceChildren(
-      ...alarms.slice(-20).map(({ from, robot, text }) => {
-        const line = goTo(this.words.time(from), said(text), () =>
-          chooseAt(this.clock, from, () => this.choice.chooseRobot(robot)),
-        );
-        line.lang = languageOf(text);
-        return line;
-      }),
+      ...alarms
+        .slice(-20)
+        .reverse()
+        .map(({ from, robot, text }) => {
+          const line = goTo(this.words.time(from), said(text), () =>
+            chooseAt(this.clock, from, () => this.choice.chooseRobot(robot)),
+          );
+          line.lang = languageOf(text);
+          return line;
+        }),
     );
   }
 
@@ -168,7 +171,7 @@ export class Live {
   }
 
   /**
-   * What a robot does, where that is more than what it does by itself: it waits for others, is held, is off.
+   * What a robot does, where that is more than what it does by itself: it is in trouble, waits for others, is held, is off.
    *
    * @param {number} robot
    */
@@ -176,10 +179,22 @@ export class Live {
     const { driven, clock, words } = this;
     const tick = clock.tick;
     if (driven.isOff(robot, tick)) return texts.driven.off;
+    if (this.isInTrouble(robot)) return texts.driven.alarmed;
     const wait = driven.waitAt(robot, tick);
     const names = wait?.others.map((other) => words.robot(other)).join(", ");
     if (names) return texts.driven.waitsFor(names);
     return driven.isHeld(robot, tick) ? texts.driven.held : "";
+  }
+
+  /**
+   * Whether there is an alarm of a robot at the moment shown.
+   *
+   * @param {number} robot
+   */
+  isInTrouble(robot) {
+    const { driven, clock } = this;
+    if (driven.isOff(robot, clock.tick)) return false;
+    return driven.alarmsAt(clock.tick).some((alarm) => alarm.robot === robot);
   }
 
   /**

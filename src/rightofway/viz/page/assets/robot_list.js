@@ -81,6 +81,7 @@ export class RobotList {
     const state = this.#state(robot);
     if (row.filled !== robot) this.#make(row, robot);
     if (row.state && row.state.textContent !== state) row.state.textContent = state;
+    row.state?.classList.toggle("wrong", this.live?.isInTrouble(robot.index) ?? false);
     const now = this.#now(robot);
     if (row.late && now !== null && row.late.textContent !== now) row.late.textContent = now;
   }

@@ -243,6 +243,7 @@ export const GERMAN = {
     nothing: "nichts",
     operator: "Bediener",
     alarm: "Störung",
+    alarmed: "Störung",
     notYet: "kommt noch",
     holdOne: (name) => `${name} halten`,
     goOne: (name) => `${name} fahren lassen`,

@@ -290,6 +290,7 @@ export const ENGLISH = {
     nothing: "nothing",
     operator: "Operator",
     alarm: "Alarm",
+    alarmed: "alarm",
     notYet: "to come",
     /** @param {string} name */
     holdOne: (name) => `Hold ${name}`,
