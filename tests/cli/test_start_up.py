@@ -8,7 +8,10 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
+
+import pytest
 
 HEAVY = {
     "PIL",
@@ -22,6 +25,26 @@ HEAVY = {
     "uvicorn",
     "xml.sax",
 }
+OF_OTHER_WORK = {
+    "io.fields",
+    "io.layouts",
+    "io.scenario.curves",
+    "io.scenario.shape",
+    "io.tables",
+    "metrics.changes",
+    "metrics.comparison",
+    "metrics.inspection",
+    "metrics.site",
+    "precedence.period_curve",
+    "precedence.sensitivity",
+    "precedence.timed_event_graph",
+    "search.cbs",
+    "search.periodic_bookings",
+    "site.layout",
+    "site.quadtree",
+}
+"""Modules of rooms that a first plan of a classic fleet has no use for."""
+
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
@@ -57,7 +80,23 @@ def test_a_classic_plan_needs_no_library_that_reads_documents(tmp_path: Path) ->
     plan = str(tmp_path / "plan.json")
     loaded = imported_by("plan", scen, "-k", "4", "--planner", "lacam", "-o", plan)
     assert not loaded & {*HEAVY, "pydantic", "yaml", "email", "urllib.request", "zipfile"}
-    assert not loaded & {"rightofway.io.scenario.shape", "rightofway.io.fields"}
+    assert not loaded & {f"rightofway.{module}" for module in OF_OTHER_WORK}
+
+
+@pytest.mark.parametrize("room", ["io", "io.layouts", "metrics", "precedence", "search", "viz"])
+def test_a_room_gives_all_its_names_and_those_that_it_imports_later_once(room: str) -> None:
+    package = import_module(f"rightofway.{room}")
+    later = [name for names in package._MODULES.values() for name in names]
+    assert set(later) <= set(package.__all__)
+    assert len(later) == len(set(later))
+    assert not set(later) & set(package._MODULES), "an imported module would hide the name"
+    for name in package.__all__:
+        assert getattr(package, name) is not None
+    for module, names in package._MODULES.items():
+        for name in names:
+            assert getattr(package, name) is getattr(
+                import_module(f"rightofway.{room}.{module}"), name
+            )
 
 
 def test_a_package_that_is_imported_imports_its_rooms_when_they_are_used() -> None:

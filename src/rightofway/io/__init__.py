@@ -8,8 +8,9 @@ the first such file is.
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from rightofway.provision import import_later
 
 if TYPE_CHECKING:
     from rightofway.io.foreign import FOREIGN_FORMATS, format_foreign, is_foreign
@@ -86,9 +87,4 @@ __all__ = [
     "write_scenario",
 ]
 
-
-def __getattr__(name: str) -> Any:
-    for module, names in _MODULES.items():
-        if name in names:
-            return getattr(import_module(f"{__name__}.{module}"), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+__getattr__ = import_later(__name__, _MODULES)

@@ -1,27 +1,71 @@
 """What a plan costs and must cost at least, what robots lose and where, what hurts on a site."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 from rightofway.metrics.alone import compute_alone_completions
-from rightofway.metrics.changes import Change, find_changes
-from rightofway.metrics.collisions import (
-    Collision,
-    NamedCollision,
-    NearMiss,
-    Swap,
-    find_collisions,
-    find_near_misses,
-    find_swaps,
-    free_running,
-    name_collisions,
-)
-from rightofway.metrics.comparison import MAX_COMPARED, Comparison, compare
-from rightofway.metrics.events import Event, list_events, make_event_columns
-from rightofway.metrics.forced_losses import find_forced_losses
-from rightofway.metrics.inspection import inspect
 from rightofway.metrics.lost_time import compute_lost_time, join_waits
 from rightofway.metrics.measure import Metrics, measure
 from rightofway.metrics.outcome import derive_outcome
-from rightofway.metrics.site import HEADINGS, Finding, Inspection, Site, describe_site
 from rightofway.metrics.waits import waits
+from rightofway.provision import import_later
+
+if TYPE_CHECKING:
+    from rightofway.metrics.changes import Change, find_changes
+    from rightofway.metrics.collisions import (
+        Collision,
+        NamedCollision,
+        NearMiss,
+        Swap,
+        find_collisions,
+        find_near_misses,
+        find_swaps,
+        free_running,
+        name_collisions,
+    )
+    from rightofway.metrics.comparison import MAX_COMPARED, Comparison, compare
+    from rightofway.metrics.events import Event, list_events, make_event_columns
+    from rightofway.metrics.forced_losses import find_forced_losses
+    from rightofway.metrics.inspection import inspect
+    from rightofway.metrics.site import HEADINGS, Finding, Inspection, Site, describe_site
+
+_MODULES = {
+    "changes": (
+        "Change",
+        "find_changes",
+    ),
+    "collisions": (
+        "Collision",
+        "NamedCollision",
+        "NearMiss",
+        "Swap",
+        "find_collisions",
+        "find_near_misses",
+        "find_swaps",
+        "free_running",
+        "name_collisions",
+    ),
+    "comparison": (
+        "MAX_COMPARED",
+        "Comparison",
+        "compare",
+    ),
+    "events": (
+        "Event",
+        "list_events",
+        "make_event_columns",
+    ),
+    "forced_losses": ("find_forced_losses",),
+    "inspection": ("inspect",),
+    "site": (
+        "HEADINGS",
+        "Finding",
+        "Inspection",
+        "Site",
+        "describe_site",
+    ),
+}
 
 __all__ = [
     "HEADINGS",
@@ -56,3 +100,5 @@ __all__ = [
     "name_collisions",
     "waits",
 ]
+
+__getattr__ = import_later(__name__, _MODULES)

@@ -1,36 +1,89 @@
 """Rights of way between visits, and the earliest timetable that keeps them."""
 
-from rightofway.precedence.adg import (
-    ActionDependencyGraph,
-    DelayModel,
-    DelaySample,
-    Execution,
-    RunBatch,
-    Stoppage,
-    order_of,
-)
-from rightofway.precedence.graph import (
-    Meeting,
-    PrecedenceGraph,
-    build_graph,
-    build_graph_of_plan,
-)
-from rightofway.precedence.period_curve import Growth, PeriodPiece, compute_period_curve
-from rightofway.precedence.release_graph import Arrival, Part, ReleaseGraph
-from rightofway.precedence.segments import Segment, find_shared_segment, make_crossing
-from rightofway.precedence.sensitivity import (
-    Sensitivity,
-    compute_sensitivity,
-    find_critical_circuit_without,
-    find_tight_arcs,
-)
-from rightofway.precedence.timed_event_graph import (
-    Arcs,
-    Circuit,
-    CyclicSchedule,
-    TimedEventGraph,
-    unroll_schedule,
-)
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rightofway.provision import import_later
+
+if TYPE_CHECKING:
+    from rightofway.precedence.adg import (
+        ActionDependencyGraph,
+        DelayModel,
+        DelaySample,
+        Execution,
+        RunBatch,
+        Stoppage,
+        order_of,
+    )
+    from rightofway.precedence.graph import (
+        Meeting,
+        PrecedenceGraph,
+        build_graph,
+        build_graph_of_plan,
+    )
+    from rightofway.precedence.period_curve import Growth, PeriodPiece, compute_period_curve
+    from rightofway.precedence.release_graph import Arrival, Part, ReleaseGraph
+    from rightofway.precedence.segments import Segment, find_shared_segment, make_crossing
+    from rightofway.precedence.sensitivity import (
+        Sensitivity,
+        compute_sensitivity,
+        find_critical_circuit_without,
+        find_tight_arcs,
+    )
+    from rightofway.precedence.timed_event_graph import (
+        Arcs,
+        Circuit,
+        CyclicSchedule,
+        TimedEventGraph,
+        unroll_schedule,
+    )
+
+_MODULES = {
+    "adg": (
+        "ActionDependencyGraph",
+        "DelayModel",
+        "DelaySample",
+        "Execution",
+        "RunBatch",
+        "Stoppage",
+        "order_of",
+    ),
+    "graph": (
+        "Meeting",
+        "PrecedenceGraph",
+        "build_graph",
+        "build_graph_of_plan",
+    ),
+    "period_curve": (
+        "Growth",
+        "PeriodPiece",
+        "compute_period_curve",
+    ),
+    "release_graph": (
+        "Arrival",
+        "Part",
+        "ReleaseGraph",
+    ),
+    "segments": (
+        "Segment",
+        "find_shared_segment",
+        "make_crossing",
+    ),
+    "sensitivity": (
+        "Sensitivity",
+        "compute_sensitivity",
+        "find_critical_circuit_without",
+        "find_tight_arcs",
+    ),
+    "timed_event_graph": (
+        "Arcs",
+        "Circuit",
+        "CyclicSchedule",
+        "TimedEventGraph",
+        "unroll_schedule",
+    ),
+}
 
 __all__ = [
     "ActionDependencyGraph",
@@ -63,3 +116,5 @@ __all__ = [
     "order_of",
     "unroll_schedule",
 ]
+
+__getattr__ = import_later(__name__, _MODULES)

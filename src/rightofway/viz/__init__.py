@@ -6,10 +6,9 @@ Page and pictures share `palette` (colours), `placement` (where vertices are dra
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from rightofway.provision import warn_of_rename
+from rightofway.provision import import_later, warn_of_rename
 
 if TYPE_CHECKING:
     from rightofway.viz.notebook import make_scenario_html
@@ -66,12 +65,11 @@ _EARLIER = {
 }
 """Earlier names, which work and warn (docs/promises.md)."""
 
+_get_later = import_later(__name__, _MODULES)
 
-def __getattr__(name: str) -> Any:
+
+def __getattr__(name: str) -> object:
     if name in _EARLIER:
         warn_of_rename(__name__, name, _EARLIER[name])
         name = _EARLIER[name]
-    for module, names in _MODULES.items():
-        if name in names:
-            return getattr(import_module(f"{__name__}.{module}"), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return _get_later(name)

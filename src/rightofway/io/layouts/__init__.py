@@ -5,8 +5,9 @@ Each part is imported when it is first used: `scenario` documents need the curve
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from rightofway.provision import import_later
 
 if TYPE_CHECKING:
     from rightofway.io.layouts.formats import (
@@ -45,9 +46,4 @@ __all__ = [
     "refuse_layout",
 ]
 
-
-def __getattr__(name: str) -> Any:
-    for module, names in _MODULES.items():
-        if name in names:
-            return getattr(import_module(f"{__name__}.{module}"), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+__getattr__ = import_later(__name__, _MODULES)

@@ -29,7 +29,6 @@ from rightofway.io.faults import Faults, list_keys, validate
 from rightofway.io.movingai import ScenRow, load_scen
 from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap
 from rightofway.io.scenario.maps import find_file_beside
-from rightofway.io.tables import CellDocument, read_robots_of_csv
 from rightofway.model import Robot, Stop
 from rightofway.model.robot import ROBOT_ATTRIBUTES
 from rightofway.site import VertexId
@@ -38,6 +37,7 @@ from rightofway.site.places import as_place, list_kinds_of_places
 if TYPE_CHECKING:
     from rightofway.io.fields import Document
     from rightofway.io.scenario.shape import RobotDocument
+    from rightofway.io.tables import CellDocument
 
 DEFAULT_SPEED, NO_WORK = Fraction(1), Fraction(0)
 
@@ -47,6 +47,7 @@ HOME = f"the place it starts from: {list_kinds_of_places(None)}"
 def read_robots_in_table(data: dict[str, Any], base: Path | None) -> CellDocument:
     """Return the robots of a CSV file that the document names."""
     from rightofway.io.scenario.shape import RobotDocument, RobotTableDocument
+    from rightofway.io.tables import read_robots_of_csv
 
     with locate_faults("robots"):
         name = validate(RobotTableDocument, data).table

@@ -13,7 +13,6 @@ from rightofway.deadline import READING, limit_loop
 from rightofway.errors import InputError, find_nearest, locate_faults, name_file, quote
 from rightofway.io.faults import Faults
 from rightofway.io.movingai import load_map
-from rightofway.io.scenario.curves import LaneCurve, make_lane_curve, make_points_along
 from rightofway.io.scenario.loaded_map import (
     FleetTraits,
     LoadedMap,
@@ -42,11 +41,11 @@ from rightofway.site import (
 )
 from rightofway.site.clustering import MAX_CELLS, free_cells
 from rightofway.site.drawing import Drawing
-from rightofway.site.quadtree import MAX_SMALLEST, build_roadmap_of_squares
 from rightofway.site.spacing import SplitLanes, find_pieces, refuse_many_pieces, split_lanes
 from rightofway.site.zones import NamedZone
 
 if TYPE_CHECKING:
+    from rightofway.io.scenario.curves import LaneCurve
     from rightofway.io.scenario.shape import (
         EdgeDocument,
         FloorDocument,
@@ -175,6 +174,8 @@ def _map_of_squares(
     The smallest are as wide as the largest robot; where no robot has a size, as node clustering
     has it.
     """
+    from rightofway.site.quadtree import MAX_SMALLEST, build_roadmap_of_squares
+
     smallest = document.smallest or 2 * radius
     if not smallest:
         if not speeds:
@@ -221,7 +222,7 @@ def _map_of_roadmap(
     Robots with a size drive along the straight pieces of a curve.
     """
     faults, edges, first = Faults(), list[Edge](), dict[tuple[str, str], int]()
-    curves = dict[tuple[str, str], LaneCurve]()
+    curves: dict[tuple[str, str], LaneCurve] = {}
     positions = {name: vertex.at for name, vertex in document.vertices.items()}
     lengths = list[Fraction | None]()
     squares = {
@@ -322,6 +323,8 @@ def _shapes(
     """Return the points at which curves are cut; for robots without a size by spacing alone."""
     if has_sizes or spacing is None:
         return {ends: curve.points for ends, curve in curves.items()}
+    from rightofway.io.scenario.curves import make_points_along
+
     refuse_many_pieces((curve.length for curve in curves.values()), spacing)
     return {
         (tail, head): make_points_along(curve, positions[tail], positions[head], spacing)
@@ -386,6 +389,8 @@ def _length(
     faults.stop()
     if edge.curve is None:
         return edge.length or measure_straight_length(square or Fraction(0), step), None
+    from rightofway.io.scenario.curves import make_lane_curve
+
     with locate_faults("curve"):
         curve = make_lane_curve(positions[edge.tail], edge.curve, positions[edge.head])
     return edge.length or curve.length, curve
