@@ -112,15 +112,15 @@ FIRST_WORDS = """
     count create cut deal decide declare defer delay delete derive descend describe do download draw
     drive dump empty end enter enters escape evict exclude execute explain export extend extract
     fade fail fill find finish finishes flip flush follow forget format free get give glance go goes
-    group handle hang happens has have hold holds improve inline insert inspect is join judge keep
-    keeps kill lay limit link list listen load locate make map may measure mix name need nest note
-    number obey operate open order owns pack parse pass pause perturb place plan prepare prioritize
-    prove put quote rank reach reaches read receive recognizes refuse release relocate remind remove
-    rename reorder repair repeat replan replay report require reroute reset resolve restore resume
-    retime retry reverse rollback round run save say scale search select send serve set sets settle
-    share shorten show simulate skip solve sort speak splice split spread start stay step stop
-    stream stretch submit summarize survey switch tabulate take tell to trace translate turn unroll
-    upload validate wait waits warn widen withdraw work write zip
+    group handle hang happens has have hold holds import improve inline insert inspect is join judge
+    keep keeps kill lay limit link list listen load locate make map may measure mix name need nest
+    note number obey open operate order owns pack parse pass pause perturb place plan prepare
+    prioritize prove put quote rank reach reaches read receive recognizes refuse release relocate
+    remind remove rename reorder repair repeat replan replay report require reroute reset resolve
+    restore resume retime retry reverse rollback round run save say scale search select send serve
+    set sets settle share shorten show simulate skip solve sort speak splice split spread start stay
+    step stop stream stretch submit summarize survey switch tabulate take tell to trace translate
+    turn unroll upload validate wait waits warn widen withdraw work write zip
 """
 VERBS = frozenset(FIRST_WORDS.split())
 """First words of functions: verbs, claims (``is_empty``), ``as_``, ``to_``; add what is missing."""

@@ -19,7 +19,17 @@ from dataclasses import dataclass
 from itertools import chain
 from numbers import Integral, Real
 from pathlib import Path
-from typing import Any, Literal, ParamSpec, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import (
+    Any,
+    Literal,
+    ParamSpec,
+    TypeGuard,
+    TypeVar,
+    Union,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 from warnings import warn
 
 import numpy as np
@@ -115,9 +125,14 @@ class ArgumentKind:
         return next(filter(None, faults), None)
 
 
-def _is_whole(value: object) -> bool:
-    is_integer = isinstance(value, Integral) and not isinstance(value, bool)
-    return is_integer and -LARGEST <= int(value) <= LARGEST  # type: ignore[call-overload]
+def is_whole(value: object) -> TypeGuard[int]:
+    """Return whether a value is a whole number, of Python or of NumPy; a truth value is none."""
+    # Asking for the type first spares a search of the registry of `Integral` for each int.
+    return type(value) is int or (isinstance(value, Integral) and not isinstance(value, bool))
+
+
+def _is_whole_in_range(value: object) -> bool:
+    return is_whole(value) and -LARGEST <= value <= LARGEST
 
 
 def _is_real(value: object) -> bool:
@@ -136,7 +151,7 @@ PLAIN: dict[object, ArgumentKind] = {
     object: ANYTHING,
     type(None): ArgumentKind(lambda value: value is None, "None"),
     bool: ArgumentKind(lambda value: isinstance(value, bool | np.bool_), "True or False"),
-    int: ArgumentKind(_is_whole, "a whole number"),
+    int: ArgumentKind(_is_whole_in_range, "a whole number"),
     float: ArgumentKind(_is_real, "a number"),
     str: ArgumentKind(lambda value: isinstance(value, str), "text"),
     Path: ArgumentKind(lambda value: isinstance(value, Path), "a path"),

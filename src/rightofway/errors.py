@@ -13,7 +13,6 @@ A message says where, what (with the value) and what to do.
 
 from __future__ import annotations
 
-import difflib
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from decimal import Decimal
@@ -487,4 +486,6 @@ def find_nearest(word: object, known: Collection[str]) -> str | None:
     text = str(word)
     if len(text) > LONGEST or len(known) > MANY:
         return None
+    import difflib
+
     return next(iter(difflib.get_close_matches(text, known, n=1)), None)

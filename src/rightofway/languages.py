@@ -10,7 +10,6 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from functools import cache
-from importlib.resources import files
 from typing import Any
 
 from rightofway.phrases import Phrase
@@ -24,6 +23,8 @@ ENGLISH = "en"
 @cache
 def find_languages() -> Mapping[str, Mapping[str, Any]]:
     """Return the files of languages other than English by their codes."""
+    from importlib.resources import files
+
     folder = files("rightofway").joinpath("texts")
     names = sorted(file.name for file in folder.iterdir() if file.name.endswith(".json"))
     return {

@@ -6,9 +6,10 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
-from numbers import Integral, Rational, Real
+from numbers import Rational, Real
 from typing import Any, Literal, TypeVar
 
+from rightofway.arguments import is_whole
 from rightofway.errors import InputError, InputFault, Where, quote
 
 T = TypeVar("T")
@@ -101,7 +102,7 @@ def allow_none(read: Callable[[object], T]) -> Callable[[object], T | None]:
 
 def read_vertex(value: object) -> int:
     """Return a vertex; a name is refused."""
-    if isinstance(value, Integral) and not isinstance(value, bool):
+    if is_whole(value):
         return int(value)
     raise ValueError(
         f"{quote(value)} is no vertex number"
@@ -126,7 +127,7 @@ def read_turning(value: object) -> Literal["cell"] | Fraction:
 
 def read_whole_number(value: object) -> int:
     """Return a whole number."""
-    if isinstance(value, Integral) and not isinstance(value, bool):
+    if is_whole(value):
         return int(value)
     raise ValueError(f"{quote(value)} is no whole number (give 1 or more)")
 

@@ -147,7 +147,7 @@ def test_every_example_is_planned_checked_and_shown(cli: Cli, example: str) -> N
 )
 def test_the_same_input_gives_the_same_bytes(cli: Cli, more: list[str]) -> None:
     for name in ("a", "b"):
-        written = ["-o", f"{name}.json", "--page", f"{name}.html"]
+        written = ["-o", f"{name}.json", "--page", f"{name}.html", "--time-limit", "100"]
         cli("plan", EXAMPLES / "warehouse.yaml", *written, *more)
     for suffix in (".json", ".html"):
         assert Path(f"a{suffix}").read_bytes() == Path(f"b{suffix}").read_bytes()

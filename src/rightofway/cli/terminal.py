@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-import shutil
 import sys
 import threading
 import time
@@ -182,6 +181,8 @@ def show_progress(
 
 def measure_width() -> int:
     """Return the columns of the terminal, 80 where there is none."""
+    import shutil
+
     return shutil.get_terminal_size().columns
 
 

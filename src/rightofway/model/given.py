@@ -6,6 +6,7 @@ from collections.abc import Callable
 from numbers import Integral
 from typing import Any
 
+from rightofway.arguments import is_whole
 from rightofway.errors import InputError, Where, quote
 from rightofway.model.plan import Plan
 from rightofway.model.scenario import Scenario
@@ -65,8 +66,7 @@ def require_number(place: Where, value: int, least: int, most: int, fault: str =
     InputError
         If it is none.
     """
-    is_whole = isinstance(value, Integral) and not isinstance(value, bool)
-    if not is_whole or not least <= value <= most:
+    if not is_whole(value) or not least <= value <= most:
         remedy = f"give a whole number from {least} to {most}"
         raise InputError.at(place, f"{quote(value)} {fault or 'is out of range'} ({remedy})")
     return int(value)

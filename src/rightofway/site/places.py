@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from numbers import Integral
 from typing import TypeGuard
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.arguments import is_whole
 from rightofway.errors import InputError, InputFault, is_printable, quote
 from rightofway.quantities import Units, format_decimal
 from rightofway.site.geometry import Point, VertexId, measure_squared_distance
@@ -65,11 +65,7 @@ def as_place(value: object, roadmap: Roadmap | None = None) -> Place:
 
 def is_cell(value: object) -> TypeGuard[tuple[int, int]]:
     """Return whether a value is a pair of whole numbers: row and column."""
-    return isinstance(value, list | tuple) and len(value) == 2 and all(map(_is_whole, value))  # noqa: PLR2004
-
-
-def _is_whole(value: object) -> bool:
-    return isinstance(value, Integral) and not isinstance(value, bool)
+    return isinstance(value, list | tuple) and len(value) == 2 and all(map(is_whole, value))  # noqa: PLR2004
 
 
 def _spot(value: Mapping[object, object]) -> Spot:
@@ -95,9 +91,9 @@ def _spot(value: Mapping[object, object]) -> Spot:
 def _meant(value: object, roadmap: Roadmap | None) -> str:
     """Return what the user may have meant by a value that is not a place."""
     labels = roadmap.labels if roadmap else None
-    if _is_whole(value) and str(value) in (labels or ()):
+    if is_whole(value) and str(value) in (labels or ()):
         return f"did you mean the vertex '{value}'? write it in quotes"
-    if _is_whole(value) and labels is None and not str(value).startswith("-"):
+    if is_whole(value) and labels is None and not str(value).startswith("-"):
         return f"did you mean N{value}?"
     if isinstance(value, list | tuple) and len(value) == 2:  # noqa: PLR2004 - x and y
         try:
