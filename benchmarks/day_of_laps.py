@@ -7,6 +7,7 @@ time is that of the robots; nobody waits for it.
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 import tempfile
 import time
@@ -30,10 +31,11 @@ def main() -> None:
     parser.add_argument("--robots", type=int, default=20)
     parser.add_argument("--hours", type=float, default=24)
     parser.add_argument("--every", type=float, default=1, help="hours between two lines")
+    parser.add_argument("--seconds", type=float, default=math.inf, help="end then")
     given = parser.parse_args()
     plan = warehouse(given.robots)
     clock, largest, due = plan.scenario.problem.clock, 0, 0.0
-    began = time.process_time()
+    began, ends = time.process_time(), time.monotonic() + given.seconds
     with tempfile.TemporaryDirectory() as name:
         path = Path(name) / "plan.journal"
         journal = BatchedJournal(SqliteJournal(path))
@@ -47,7 +49,8 @@ def main() -> None:
             nonlocal largest, due
             journal.flush()
             hours = float(clock.convert_to_time(tick)) / 3600
-            if hours < due:
+            is_over = hours >= given.hours or time.monotonic() > ends
+            if hours < due and not is_over:
                 return
             kilobytes = sum(file.stat().st_size for file in Path(name).iterdir()) / 1e3
             cpu = time.process_time() - began
@@ -55,7 +58,7 @@ def main() -> None:
             sys.stdout.write(f"{line}  largest message {largest} bytes  {cpu:.0f} s of CPU\n")
             sys.stdout.flush()
             largest, due = 0, due + given.every
-            if hours >= given.hours:
+            if is_over:
                 raise KeyboardInterrupt
 
         result = demo.drive_demo(plan, laps=0, wait_until=take_down, watch=watch)

@@ -9,6 +9,7 @@ that does not end.
 from __future__ import annotations
 
 import argparse
+import math
 import random
 import sys
 import tempfile
@@ -114,6 +115,7 @@ def main() -> int:
     parser.add_argument("count", type=int, help="runs to make; 0 for no end")
     parser.add_argument("--seed", type=int, default=SystemRandom().randrange(10**9))
     parser.add_argument("--at-once", type=int, default=2, help="runs beside each other")
+    parser.add_argument("--seconds", type=float, default=math.inf, help="begin no run after them")
     given = parser.parse_args()
     _say(f"chaos-broker {given.count} --seed {given.seed}")
     began, total, faults = time.perf_counter(), Counter[str](), 0
@@ -121,7 +123,11 @@ def main() -> int:
     with ThreadPoolExecutor(given.at_once) as pool:
         running: dict[Future[Counter[str]], int] = {}
         while True:
-            while len(running) < given.at_once and (seed := next(seeds, None)) is not None:
+            while (
+                len(running) < given.at_once
+                and time.perf_counter() - began < given.seconds
+                and (seed := next(seeds, None)) is not None
+            ):
                 running[pool.submit(partial(run_chaos_at_a_broker, seed))] = seed
             if not running:
                 break
@@ -132,11 +138,10 @@ def main() -> int:
                     _say(f"--seed {seed}: {''.join(traceback.format_exception(error))}")
                 else:
                     total += ended.result()
-                    if total["runs"] % 10 == 0:
-                        _say(f"{total['runs']} runs without a fault, {faults} with one")
+                _say(f"… {total['runs']} runs without a fault, {faults} with one, after {seed}")
     seconds = time.perf_counter() - began
     _say(", ".join(f"{total[name]} {name}" for name in sorted(total)))
-    _say(f"chaos-broker: {given.count} runs, {faults} faults, {seconds:.0f} s")
+    _say(f"chaos-broker: {total['runs'] + faults} runs, {faults} faults, {seconds:.0f} s")
     return 1 if faults else 0
 
 

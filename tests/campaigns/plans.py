@@ -7,13 +7,14 @@ to ``build/campaigns``, one plan file for each finding, and the exit code is 1.
 from __future__ import annotations
 
 import argparse
+import math
 import multiprocessing
 import random
 import sys
 import time
 import traceback
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -34,8 +35,8 @@ from tests.builders.chaos import KINDS, Fault, run_chaos
 from tests.builders.chaos import knows as can_be_driven
 from tests.builders.executions import any_delays, wrong_in
 
-FLEETS = 20
-"""Fleets of a round; each round has a seed of its own."""
+FLEETS = {"judge": 20, "delay": 20, "chaos": 10, "bound": 20}
+"""Fleets of a round, which takes at most a minute; each round has a seed of its own."""
 
 BROKEN = 20
 """Broken plans made of a plan without fault."""
@@ -262,13 +263,13 @@ COUNTS = {
 """What a campaign reports even where there is none."""
 
 
-def one_round(case: Case, session: int, number: int) -> tuple[int, Round]:
+def one_round(campaign: str, session: int, number: int) -> tuple[int, Round]:
     """Return the number of a round, and what became of its cases."""
     into, draw = Round(), random.Random(f"{session} {number}")  # noqa: S311
 
     @seed(draw.getrandbits(64))
     @settings(
-        max_examples=FLEETS,
+        max_examples=FLEETS[campaign],
         deadline=None,
         database=None,
         phases=(Phase.generate,),
@@ -277,10 +278,24 @@ def one_round(case: Case, session: int, number: int) -> tuple[int, Round]:
     @given(any_fleet())
     def cases(scenario: Scenario) -> None:
         into.counts["fleets"] += 1
-        case(scenario, draw.getrandbits(32), into)
+        CAMPAIGNS[campaign](scenario, draw.getrandbits(32), into)
 
     cases()
     return number, into
+
+
+def rounds_until(
+    seconds: float, play: Callable[[int], tuple[int, Round]], numbers: Sequence[int]
+) -> Iterator[tuple[int, Round]]:
+    """Yield rounds of all cores as they end, until time is over; those under way then are lost."""
+    ends = time.perf_counter() + seconds
+    with multiprocessing.Pool() as pool:
+        rounds = pool.imap_unordered(play, numbers)
+        while (left := ends - time.perf_counter()) > 0:
+            try:
+                yield rounds.next(None if math.isinf(left) else left)
+            except (StopIteration, multiprocessing.TimeoutError):
+                return
 
 
 def _say(line: str) -> None:
@@ -295,26 +310,25 @@ def main() -> int:
     parser.add_argument("count", type=int, help="plans to judge, or delayed runs to make")
     parser.add_argument("--seed", type=int, default=SystemRandom().randrange(10**9))
     parser.add_argument("--round", type=int, help="make only this round of the seed")
+    parser.add_argument("--seconds", type=float, default=math.inf, help="end then, with all counts")
     given_ = parser.parse_args()
     began, found = time.perf_counter(), 0
     names = COUNTS[given_.campaign]
     total = Counter(dict.fromkeys(names, 0))
-    play = partial(one_round, CAMPAIGNS[given_.campaign], given_.seed)
+    play = partial(one_round, given_.campaign, given_.seed)
     rounds = range(10**9) if given_.round is None else [given_.round]
     _say(f"{given_.campaign} {given_.count} --seed {given_.seed}")
-    with multiprocessing.Pool() as pool:
-        for number, made in pool.imap_unordered(play, rounds):
-            total += made.counts
-            for what, ending, text in made.findings:
-                found += 1
-                FOUND.mkdir(parents=True, exist_ok=True)
-                path = FOUND / f"{given_.campaign}-{given_.seed}-{number}-{found}.{ending}"
-                path.write_text(text, encoding="utf-8")
-                _say(f"{path}: round {number}: {what}")
-            if total["judged"] >= given_.count:
-                break
-            _say(f"… {total['judged']} judged, {found} findings, after round {number}")
-        pool.terminate()
+    for number, made in rounds_until(given_.seconds, play, rounds):
+        total += made.counts
+        for what, ending, text in made.findings:
+            found += 1
+            FOUND.mkdir(parents=True, exist_ok=True)
+            path = FOUND / f"{given_.campaign}-{given_.seed}-{number}-{found}.{ending}"
+            path.write_text(text, encoding="utf-8")
+            _say(f"{path}: round {number}: {what}")
+        if total["judged"] >= given_.count:
+            break
+        _say(f"… {total['judged']} judged, {found} findings, after round {number}")
     seconds = time.perf_counter() - began
     _say(", ".join(f"{total[name]} {name}" for name in sorted(total)))
     _say(

@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
+import threading
+from pathlib import Path
 from typing import Any
 
 import httpx
 import pytest
 from pydantic import TypeAdapter
 
+from rightofway.control.demo import drive_demo
+from rightofway.studio import watching
 from rightofway.studio.driving import MAX_DRIVES
 from rightofway.studio.routes.answers import ANSWERS
+from rightofway.viz.page.payload import make_payload
+from tests.builders.plans import door
 from tests.builders.studios import Client, planned
 from tests.builders.suites import soon
 
@@ -120,3 +127,25 @@ def test_a_drive_whose_process_is_killed_has_failed(site: Client) -> None:
     assert soon(lambda: state(site, drive) == "failed")
     error = site.get(f"/drives/{drive['number']}").json()["error"]
     assert error["kind"] == "died"
+
+
+def test_what_pages_know_of_the_plan_is_made_once_and_never_by_the_loop_that_serves(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drive_demo(door(), journal=tmp_path / "door.journal")
+    makers = list[threading.Thread]()
+
+    def note(*given: Any, **named: Any) -> Any:
+        makers.append(threading.current_thread())
+        return make_payload(*given, **named)
+
+    monkeypatch.setattr(watching, "make_payload", note)
+    watched = watching.Watched(door(), tmp_path / "door.journal", title="door", takes_orders=True)
+
+    async def ask() -> list[str]:
+        return [await watched.make_page_aside() for _ in range(2)]
+
+    first, second = asyncio.run(ask())
+    assert first == second == watched.make_page()
+    assert len(makers) == 1
+    assert makers[0] is not threading.main_thread()

@@ -10,6 +10,7 @@ import asyncio
 import json
 import secrets
 from collections.abc import AsyncGenerator, Mapping
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +23,7 @@ from rightofway.model import Plan
 from rightofway.studio.errors import Busy, Refused
 from rightofway.viz.page.document import as_compact_json, make_document
 from rightofway.viz.page.payload import make_payload
-from rightofway.viz.page.schema import FeedData
+from rightofway.viz.page.schema import FeedData, Payload
 from rightofway.viz.page.translations import find_translations
 
 __all__ = ["ORDERS", "Watched"]
@@ -82,6 +83,14 @@ class Watched:
         is_whole
             Whether it has all that has happened, and asks for no more.
         """
+        return self._write_page(self._make_feed(is_whole=is_whole), is_whole=is_whole)
+
+    async def make_page_aside(self) -> str:
+        """Return the page, written in a thread: of a large fleet that takes a while."""
+        return await asyncio.to_thread(self._write_page, self._make_feed(is_whole=False))
+
+    def _make_feed(self, *, is_whole: bool) -> FeedData:
+        """Return what has happened, or where it comes from."""
         self._recording.read_on()
         feed: FeedData = {"frame": self._recording.take_frame()}
         if not is_whole:
@@ -89,13 +98,24 @@ class Watched:
             feed["stream"] = f"{self._address}stream"
             if self._takes_orders:
                 feed["orders"] = f"{self._address}orders"
-        payload = make_payload(self._plan, title=self._title)
-        payload["driven"] = feed
+        return feed
+
+    def _write_page(self, feed: FeedData, *, is_whole: bool = False) -> str:
+        """Return the page of the plan with a feed."""
         said = find_translations(feed["frame"]["rows"]) if is_whole else read_tables()
-        for language, own in said.items():
-            payload["translations"][language] |= own
+        payload = self._payload.copy()
+        payload["driven"] = feed
+        payload["translations"] = {
+            language: {**own, **said.get(language, {})}
+            for language, own in payload["translations"].items()
+        }
         about = f"{self._title}: {len(self._plan.scenario.robots)} robots"
         return make_document(about, payload, "watch_main", connects=not is_whole)
+
+    @cached_property
+    def _payload(self) -> Payload:
+        """What pages know of the plan, the same for all of them."""
+        return make_payload(self._plan, title=self._title)
 
     async def stream_frames(self, known: str) -> AsyncGenerator[str]:
         """Yield what happens as server-sent events.

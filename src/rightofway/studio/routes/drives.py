@@ -63,7 +63,7 @@ def _watched(request: Request, number: int) -> Watched:
 @router.get("/drives/{number}/")
 async def get_page(request: Request, number: int) -> HTMLResponse:
     """Return the page of a fleet."""
-    page = _watched(request, number).make_page()
+    page = await _watched(request, number).make_page_aside()
     policy = page.partition('http-equiv="Content-Security-Policy" content="')[2].partition('"')[0]
     return HTMLResponse(page, headers={"content-security-policy": policy})
 
