@@ -262,24 +262,45 @@ def least_value(objective: Objective, scenario: Scenario) -> int | None:
 def least_makespan(scenario: Scenario) -> int | None:
     """Return the least time [ticks] at which all robots have completed, None for no plan.
 
-    All joint states tick by tick, each with the least latest completion of robots that are done;
-    only without closures.
+    Only without closures. First of the plans that are complete hardly later than any robot alone
+    could be, and then of more and more.
     """
+    if least_flowtime(scenario) is None:
+        return None
     fleet = _Fleet(scenario)
-    states = {tuple(State(itinerary.home) for itinerary in scenario.problem.itineraries): 0}
-    reached, tick, best = set(states), 0, None
-    known = dict(states)
-    while reached and (best is None or tick < best):
+    start = tuple(State(itinerary.home) for itinerary in scenario.problem.itineraries)
+    alone = [fleet.costs_alone(robot) for robot in range(len(start))]
+    least = max(costs[state] for costs, state in zip(alone, start, strict=True))
+    later, makespan = 0, None
+    while makespan is None:
+        makespan = _least_until(fleet, alone, start, least + later)
+        later = 2 * later + 1
+    return makespan
+
+
+def _least_until(
+    fleet: _Fleet, alone: Sequence[dict[State, int]], start: tuple[State, ...], limit: int
+) -> int | None:
+    """Return the least makespan that is not above a limit, None where there is none.
+
+    All joint states tick by tick, each with the least latest completion of robots that are done.
+    """
+    reached, known = {start}, {start: 0}
+    best: int | None = None
+    for tick in range(limit + 2):
+        if not reached or (best is not None and tick >= best):
+            break
         after: dict[tuple[State, ...], int] = {}
         for robots in reached:
             for chosen in fleet.together(robots, tick):
+                if _is_late(alone, robots, chosen, tick, limit):
+                    continue
                 latest = known[robots]
                 for before, action in zip(robots, chosen, strict=True):
                     if action[0].is_done and not before.is_done:
                         latest = max(latest, tick + action[2])
                 then = tuple(action[0] for action in chosen)
                 after[then] = min(latest, after.get(then, latest))
-        tick += 1
         reached = {then for then, latest in after.items() if latest < known.get(then, latest + 1)}
         known.update((then, after[then]) for then in reached)
         ends = [known[then] for then in reached if all(robot.is_done for robot in then)]
