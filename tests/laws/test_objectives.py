@@ -24,6 +24,9 @@ LIMITS = {
     "auto": {"iterations": 50, "nodes": 300},
     "cbs": {"nodes": 300},
     "lns": {"iterations": 50},
+    "local-search": {"rounds": 5},
+    "priority-search": {"rounds": 5},
+    "random-priority": {"restarts": 5},
     "two-level": {},
 }
 
@@ -89,7 +92,7 @@ def test_planners_that_prove_plans_find_the_optimum_of_any_objective(
     assert OF[name].compute_cost(answer.scenario, answer.tracks) == least
 
 
-@law(any_fleet(), st.sampled_from(["auto", "lns"]), names, st.integers(0, 3))
+@law(any_fleet(), st.sampled_from(["auto", "lns", "local-search"]), names, st.integers(0, 3))
 def test_a_plan_does_not_get_worse_by_the_objective_of_its_improvement(
     scenario: Scenario, planner: str, name: str, seed: int
 ) -> None:

@@ -3,8 +3,9 @@
 A plan is routes and rights of way. What a robot loses, it loses on its critical path: the rights of
 way that its completion time depends on. The search flips one of these, for the whole segment that
 both robots share, resolves the conflicts that follow by the choice that costs least, and keeps the
-result if the flowtime is less. Where no flip helps any more, a few robots get the right of way, or
-lose it, wherever they have a conflict, and the search goes on from there, round after round.
+result if the plan is better by the objective. Where no flip helps any more, a few robots get the
+right of way, or lose it, wherever they have a conflict, and the search goes on from there, round
+after round.
 
 References
 ----------
@@ -26,9 +27,10 @@ from itertools import chain
 from typing import NamedTuple
 
 from rightofway.errors import GaveUp
-from rightofway.model import Improvement, Tick
+from rightofway.model import Improvement, Objective, Tick
 from rightofway.phrases import Phrase, chain_items
 from rightofway.planners.conflict_resolution import list_rights_if_waits
+from rightofway.planners.objectives import compute_value, find_objective, list_weights
 from rightofway.planners.task import Draft, Task, make_planning_problem
 from rightofway.planners.two_level import two_level
 from rightofway.precedence import Meeting, PrecedenceGraph, build_graph_of_plan
@@ -38,6 +40,10 @@ MOST_FAVOURS = 3
 
 MOST_MEETINGS = 100
 """How many conflicts one change may lead to, per robot of the fleet, before it is undone."""
+
+
+Value = tuple[int, int]
+"""The value of the objective, and the cost, which decides between plans of equal value [ticks]."""
 
 
 class _Preference(NamedTuple):
@@ -57,21 +63,22 @@ def local_search(task: Task) -> Draft:
     task.better(lambda: first.tracks)
     before = build_graph_of_plan(task.scenario.problem, first.tracks)
     graph = build_graph_of_plan(make_planning_problem(task.scenario), first.tracks)
-    LocalSearch(task, graph).run(rounds=int(task.options["rounds"]))
-    if (
-        graph.compute_flowtime() > before.compute_flowtime()
-    ):  # the headway of planning costs more than flips gain
-        graph = before
+    search, old = LocalSearch(task, graph), LocalSearch(task, before).measure()
+    search.run(rounds=int(task.options["rounds"]))
+    new = search.measure()
+    if new > old:  # the headway of planning costs more than flips gain
+        graph, new = before, old
     gain = Phrase(
-        "flips took the flowtime from {before} to {after} ticks",
-        before=str(before.compute_flowtime()),
-        after=str(graph.compute_flowtime()),
+        "flips took the {objective} from {before} to {after} ticks",
+        objective=Phrase(find_objective(task).value),
+        before=str(old[0]),
+        after=str(new[0]),
     )
     return Draft(
         tracks=tuple(graph.build_tracks()),
         status=chain_items([*filter(None, [first.status]), gain], "{first}; {second}"),
         reroutes=first.reroutes,
-        improvement=Improvement(saved=Tick(before.compute_flowtime() - graph.compute_flowtime())),
+        improvement=Improvement(saved=Tick(old[0] - new[0])),
     )
 
 
@@ -92,6 +99,15 @@ class LocalSearch:
         self.may_wait = may_wait
         self.draw = random.Random(task.seed)  # noqa: S311 (no secret depends on it)
         self.alone = [sum(map(route.compute_least, range(len(route)))) for route in graph.routes]
+        self._objective, self._weights = find_objective(task), list_weights(task.scenario)
+
+    def measure(self) -> Value:
+        """Return how good the plan is: less is better. More rights of way never make it less."""
+        if self._objective is Objective.FLOWTIME:
+            flowtime = self.graph.compute_flowtime()
+            return flowtime, flowtime
+        ends = [self.graph.get_completion(robot) for robot in range(len(self.alone))]
+        return compute_value(self._objective, self._weights, ends)
 
     def run(self, rounds: int) -> None:
         """Descend, then change some robots' luck and descend again, until no robot is late."""
@@ -99,17 +115,17 @@ class LocalSearch:
             self.descend()
             self.task.better(self.graph.build_tracks)
             for _ in range(rounds):
-                if self.graph.compute_flowtime() == sum(self.alone):
+                if self.graph.compute_flowtime() == sum(self.alone):  # nobody is late
                     return
-                mark, before = self.graph.checkpoint(), self.graph.compute_flowtime()
+                mark, before = self.graph.checkpoint(), self.measure()
                 try:
                     for _ in range(self.draw.randint(1, MOST_FAVOURS)):
                         self.perturb()
                     self.descend()
                 finally:
-                    if self.graph.compute_flowtime() > before:
+                    if self.measure() > before:
                         self.graph.rollback(mark)
-                if self.graph.compute_flowtime() < before:
+                if self.measure() < before:
                     self.task.better(self.graph.build_tracks)
         except GaveUp:
             return
@@ -128,7 +144,7 @@ class LocalSearch:
             graph.rollback(mark)
 
     def descend(self) -> None:
-        """Flip whatever makes the flowtime less, until nothing does."""
+        """Flip whatever makes the plan better, until nothing does."""
         improved = True
         while improved:
             improved = False
@@ -147,9 +163,9 @@ class LocalSearch:
     def flip(self, first: int, second: int) -> bool:
         """Flip a right of way in its whole segment, and resolve the conflicts that follow.
 
-        False, with nothing changed, if that is impossible or the flowtime does not get less.
+        False, with nothing changed, if that is impossible or the plan does not get better.
         """
-        mark, before = self.graph.checkpoint(), self.graph.compute_flowtime()
+        mark, before = self.graph.checkpoint(), self.measure()
         if self.reverse(first, second) and self.resolve(below=before):
             return True
         self.graph.rollback(mark)
@@ -173,11 +189,11 @@ class LocalSearch:
         """Give several rights of way; false, with nothing changed, if that is impossible."""
         return all(self.may_wait(second) for _, second in rights) and self.graph.give_all(rights)
 
-    def resolve(self, *, below: Tick | None = None, preference: _Preference | None = None) -> bool:
-        """Resolve all conflicts; false if that is impossible or the flowtime not below."""
+    def resolve(self, *, below: Value | None = None, preference: _Preference | None = None) -> bool:
+        """Resolve all conflicts; false if that is impossible or the plan not better."""
         for _ in range(MOST_MEETINGS * len(self.alone)):
-            if below is not None and self.graph.compute_flowtime() >= below:
-                return False  # more rights of way never make it less
+            if below is not None and self.measure() >= below:
+                return False
             meeting = self.graph.find_next_meeting()
             if meeting is None:
                 return True
@@ -197,7 +213,7 @@ class LocalSearch:
                 against = is_waiting == preference.goes_first
             rights = list_rights_if_waits(graph, meeting, segment, waits)
             if self.give_all(rights):
-                cost = (against, graph.compute_flowtime(), graph.count_conflicts(), waits)
+                cost = (against, self.measure(), graph.count_conflicts(), waits)
                 choices.append((cost, rights))
             graph.rollback(mark)
         return bool(choices) and self.give_all(min(choices)[1])

@@ -233,6 +233,7 @@ class LacamOptions(PlannerOptions):
 class LocalSearchOptions(PlannerOptions):
     """Options of ``local-search``."""
 
+    objective: ObjectiveOption = "flowtime"
     routes: Routes = "clear"
     rounds: Annotated[int, "Number of restarts, each with some robots favoured."] = 100
 
@@ -248,6 +249,7 @@ class PriorityOptions(PlannerOptions):
 class RandomPriorityOptions(PlannerOptions):
     """Options of ``random-priority``."""
 
+    objective: ObjectiveOption = "flowtime"
     restarts: Annotated[int, Least(1), "Number of random orders to try."] = 20
     routes: Routes = "clear"
 
@@ -256,6 +258,7 @@ class RandomPriorityOptions(PlannerOptions):
 class PrioritySearchOptions(PlannerOptions):
     """Options of ``priority-search``."""
 
+    objective: ObjectiveOption = "flowtime"
     rounds: Annotated[int, Least(1), "Number of orders to try in each climb."] = 10
     restarts: Annotated[int, Least(1), "Number of climbs, each from another order."] = 2
     routes: Routes = "clear"

@@ -36,7 +36,7 @@ from dataclasses import replace
 from typing import Literal
 
 from rightofway.errors import GaveUp
-from rightofway.model import Tick, compute_flowtime
+from rightofway.model import Tick
 from rightofway.phrases import Phrase
 from rightofway.planners.conflict_resolution import (
     PartialPlan,
@@ -45,9 +45,13 @@ from rightofway.planners.conflict_resolution import (
     list_rights_if_waits,
     plan_by_rule,
 )
+from rightofway.planners.objectives import find_objective, measure_worth
 from rightofway.planners.routing import choose_routes
 from rightofway.planners.task import Draft, Task
 from rightofway.precedence import Meeting
+
+Worth = tuple[Tick, Tick]
+"""The value of a plan, and its cost, as `measure_worth` returns them [ticks]."""
 
 Order = Sequence[int]
 """The robots, that of highest priority first."""
@@ -62,9 +66,9 @@ def fixed_priority(task: Task) -> Draft:
 def random_priority(task: Task) -> Draft:
     """Plan with random priorities, several times, and keep the best plan."""
 
-    def search(flowtime: Callable[[Order], int], listed: range, draw: random.Random) -> None:
+    def search(plan: Callable[[Order], Worth], listed: range, draw: random.Random) -> None:
         for _ in range(task.options["restarts"]):
-            flowtime(draw.sample(listed, len(listed)))
+            plan(draw.sample(listed, len(listed)))
 
     return _best_of(task, search)
 
@@ -76,18 +80,18 @@ def priority_search(task: Task) -> Draft:
     the order of the scenario.
     """
 
-    def search(flowtime: Callable[[Order], int], listed: range, draw: random.Random) -> None:
+    def search(plan: Callable[[Order], Worth], listed: range, draw: random.Random) -> None:
         for climb in range(task.options["restarts"]):
             order: Order = draw.sample(listed, len(listed)) if climb else listed
-            cost = flowtime(order)
+            worth = plan(order)
             for _ in range(task.options["rounds"] - 1):
                 other = list(order)
                 if len(other) > 1:
                     first, another = draw.sample(listed, 2)
                     other[first], other[another] = other[another], other[first]
-                other_cost = flowtime(other)
-                if other_cost <= cost:
-                    order, cost = other, other_cost
+                other_worth = plan(other)
+                if other_worth <= worth:
+                    order, worth = other, other_worth
 
     return _best_of(task, search)
 
@@ -122,32 +126,35 @@ def _if_waits(
 
 
 def _best_of(
-    task: Task, search: Callable[[Callable[[Order], int], range, random.Random], None]
+    task: Task, search: Callable[[Callable[[Order], Worth], range, random.Random], None]
 ) -> Draft:
     """Let a search try orders until it ends or time is over, and return the best plan.
 
-    The search gets the function that plans by an order and returns the flowtime [ticks], the robots
+    The search gets the function that plans by an order and returns how good the plan is, the robots
     in the order of the scenario, and a source of random numbers.
     """
     distances, routes = choose_routes(task)
-    tried, best, least = 0, None, 0
+    tried, best, least = 0, None, (Tick(0), Tick(0))
 
-    def flowtime(order: Order) -> int:
+    def plan(order: Order) -> Worth:
         nonlocal tried, best, least
         task.deadline.check("trying orders of the robots")
         draft = plan_by_rule(task, distances, routes, plan_by_priority(order))
-        reached = compute_flowtime(task.scenario, draft.tracks)
+        reached = measure_worth(task, draft.tracks)
         tried += 1
         if best is None or reached < least:
             best, least = draft, reached
             task.better(lambda: draft.tracks)
-            flowtime = task.scenario.quantities.format_duration(reached)
-            values = {"number": str(tried), "flowtime": str(flowtime)}
-            task.report(Phrase("order {number}: flowtime {flowtime}", **values))
+            value = task.scenario.quantities.format_duration(reached[0])
+            values = {"number": str(tried), "value": str(value)}
+            objective = Phrase(find_objective(task).value)
+            task.report(
+                Phrase("order {number}: {objective} {value}", objective=objective, **values)
+            )
         return reached
 
     try:
-        search(flowtime, range(len(routes)), random.Random(task.seed))  # noqa: S311 (no secret)
+        search(plan, range(len(routes)), random.Random(task.seed))  # noqa: S311 (no secret)
     except GaveUp:
         if best is None:
             raise
