@@ -7,7 +7,7 @@ space costs is at most the ratio less 1. *Rows* are the lists of excluded rows t
 all there are.
 
 ``python -m benchmarks.sizes rules`` plans on such graphs with other rules for pieces, each by 1000
-neighbourhoods, without a clock: the figures of decision 41.
+neighbourhoods, without a clock: the figures of `docs/space.md`.
 
 ``python -m benchmarks.sizes ccbs FOLDER [ROBOTS ...]`` plans tasks of Continuous-CBS (Andreychuk et
 al., 2019), whose roadmaps are at github.com/PathPlanning/Continuous-CBS: a folder with map.xml and
@@ -48,7 +48,7 @@ from rightofway.model.problem import bind_problem
 from rightofway.native import bind_lists
 from rightofway.planners import make_planning_problem
 from rightofway.search import FleetSearch, plan_by_lacam
-from rightofway.site import VertexId, crossings
+from rightofway.site import VertexId
 from rightofway.site import spacing as spacings
 
 MAP, ROBOTS, RADIUS = "warehouse-10-20-10-2-1", 1000, Fraction("0.45")
@@ -295,7 +295,6 @@ RULES: dict[str, tuple[str, int, int]] = {
     "2 D": ("auto", 2, 8),
     "4 D": ("auto", 4, 8),
     "at most 4": ("auto", 3, 4),
-    "every lane above 3 D": ("3", 3, 8),
 }
 """Spacing, length of pieces in least distances of two robots, and pieces of a lane at most."""
 
@@ -310,8 +309,7 @@ def by_rules() -> str:
         ratios, lanes = list[str](), 0
         for spacing, distances, most in RULES.values():
             with (
-                patch.object(crossings, "PIECE_IN_DISTANCES", distances),
-                patch.object(crossings, "MOST_PIECES", most),
+                patch.object(spacings, "PIECE_IN_DISTANCES", distances),
                 patch.object(spacings, "MOST_PIECES", most),
             ):
                 documents = [document_of(graph, seed, spacing) for seed in RULE_SEEDS]

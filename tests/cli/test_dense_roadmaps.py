@@ -87,7 +87,6 @@ def graphml_of(dense: Path) -> Path:
 
 
 READING = "reading the map"
-CROSSING = "finding lanes that cross"
 SPLITTING = "splitting lanes into pieces"
 DERIVING = "working out how long robots drive"
 
@@ -96,8 +95,8 @@ DERIVING = "working out how long robots drive"
 @pytest.mark.parametrize(
     ("kind", "stages"),
     [
-        ("roadmap", [READING, CROSSING, SPLITTING, READING, DERIVING]),
-        ("GraphML", [READING, CROSSING, SPLITTING, READING, DERIVING]),
+        ("roadmap", [READING, SPLITTING, DERIVING]),
+        ("GraphML", [READING, SPLITTING, DERIVING]),
     ],
 )
 def test_each_stage_asks_for_the_time_and_ends_when_it_is_over(

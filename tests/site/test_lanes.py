@@ -18,7 +18,7 @@ from rightofway.io import dump_scenario, parse_scenario
 from rightofway.model import Scenario
 from rightofway.planners import Feature, find_all
 from rightofway.site import Edge, Roadmap
-from rightofway.site.spacing import SplitLanes, split_lanes
+from rightofway.site.spacing import split_lanes
 
 
 def limited() -> Scenario:
@@ -165,7 +165,8 @@ def test_vertices_are_along_one_lane_if_one_of_them_is_between_its_pieces(
 def test_a_lane_that_is_short_enough_stays_whole() -> None:
     at = {"A": (Fraction(0), Fraction(0)), "B": (Fraction(2), Fraction(0))}
     edges = [Edge(tail="A", head="B", length=Fraction(2))]
-    assert split_lanes(at, edges, Fraction(2)) == SplitLanes(at, edges, {})
+    split = split_lanes(at, edges, Fraction(2))
+    assert (split.positions, list(split.edges), split.pieces) == (at, edges, {})
 
 
 def test_the_name_of_a_piece_may_not_be_taken() -> None:

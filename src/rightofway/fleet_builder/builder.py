@@ -65,8 +65,8 @@ class FleetBuilder:
         What lengths and times are measured in, for reports: ``{"length": "m", "time": "s"}``.
     spacing
         Edges that are longer are split into pieces of at most that length [length unit]. By
-        default, ``"auto"``, edges are split that others cross, where robots have a size;
-        ``"whole"`` splits none.
+        default, ``"auto"``, edges are split that are longer than three times the least distance
+        of two robots, where robots have a size; ``"whole"`` splits none.
     rules
         Rules of the fleet by name, as `Rules` takes them: ``occupancy``, ``headway``, ``turn``,
         ``ends`` (``return`` in files), ``laps``, ``rotations``, ``clearance``, ``turn_rate``; or
@@ -128,8 +128,8 @@ class FleetBuilder:
                 "level" if level else "vehicle_type", "is for a layout (take it out)"
             )
         word = spacing if isinstance(spacing, str) else None
-        self._splits_crossed = spacing is None or word == "auto"
-        is_length = not self._splits_crossed and word != "whole"
+        self._chooses_spacing = spacing is None or word == "auto"
+        is_length = not self._chooses_spacing and word != "whole"
         self._spacing = exact_length(spacing, "spacing") if is_length else None
         self._drawn = DrawnLanes()
         self._closures: list[Closure] = []
@@ -420,7 +420,7 @@ class FleetBuilder:
             raise InputError.at("turn_rate", f"needs positions, and the graph has none ({remedy})")
         roadmap, rules = self.build_roadmap(), self._rules
         radius = max((robot.radius for robot in self._robots), default=Fraction(0))
-        distance = 2 * radius + rules.clearance if radius > 0 and self._splits_crossed else 0
+        distance = 2 * radius + rules.clearance if radius > 0 and self._chooses_spacing else 0
         if self._level and radius > 0:
             cut = self._level(cuts_curves=True, distance=Fraction(distance))
             roadmap = cut.roadmap

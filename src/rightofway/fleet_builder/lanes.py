@@ -14,11 +14,11 @@ from rightofway.site import (
     Point,
     Roadmap,
     choose_rounding_step,
-    make_roadmap,
     measure_squared_distance,
     measure_straight_length,
 )
-from rightofway.site.spacing import SplitLanes, split_lanes
+from rightofway.site.edges import make_roadmap_of_table
+from rightofway.site.spacing import split_lanes
 from rightofway.site.zones import NamedZone
 from rightofway.values import Number
 from rightofway.values import read_length as exact_length
@@ -101,8 +101,8 @@ class DrawnLanes:
     ) -> Roadmap:
         """Return the roadmap; longer edges are split into pieces of at most ``spacing``.
 
-        Without a spacing, edges that others cross are split for robots that have to keep a distance
-        above 0. The vertices that were added come first, whatever is split.
+        Without a spacing, one is chosen for robots that have to keep a distance above 0. The
+        vertices that were added come first, whatever is split.
         """
         squares = [self._square(tail, head) for tail, head, given, _ in self.edges if given is None]
         step = choose_rounding_step(squares)
@@ -115,12 +115,10 @@ class DrawnLanes:
             )
             for tail, head, given, more in self.edges
         ]
-        split = SplitLanes(self.positions, edges, {})
-        if spacing is not None or distance > 0:
-            split = split_lanes(
-                self.positions, edges, spacing, distance=distance, is_drawn=self.is_drawn
-            )
-        return make_roadmap(
+        split = split_lanes(
+            self.positions, edges, spacing, distance=distance, is_drawn=self.is_drawn
+        )
+        return make_roadmap_of_table(
             {name: (float(x), float(y)) for name, (x, y) in split.positions.items()},
             split.edges,
             y_up=y_up,

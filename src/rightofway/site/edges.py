@@ -1,12 +1,19 @@
-"""Roadmaps of named vertices and directed edges."""
+"""Roadmaps of named vertices and directed edges.
+
+A roadmap may have a million edges. So readers hand them on as the columns of an `EdgeTable`, and an
+edge is an object only where somebody asks for it.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import groupby
+from typing import overload
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
 from rightofway.deadline import READING, limit_loop
@@ -62,6 +69,103 @@ class Edge:
         return piece
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class EdgeTable(Sequence[Edge]):
+    """Directed edges as columns.
+
+    Attributes
+    ----------
+    names
+        Names of the vertices, by id.
+    tails, heads
+        The vertices that each edge leaves and enters; int32, shape (E,).
+    kinds
+        Index into `classes` of each edge; int32, shape (E,).
+    classes
+        What edges have in common, in any order; some may be equal.
+    """
+
+    names: tuple[str, ...]
+    tails: NDArray[np.int32]
+    heads: NDArray[np.int32]
+    kinds: NDArray[np.int32]
+    classes: Sequence[EdgeClass]
+
+    def __len__(self) -> int:
+        return len(self.tails)
+
+    @overload
+    def __getitem__(self, index: int) -> Edge: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[Edge]: ...
+    def __getitem__(self, index: int | slice) -> Edge | list[Edge]:
+        if isinstance(index, slice):
+            return [self[k] for k in range(*index.indices(len(self)))]
+        edge_class = self.classes[self.kinds[index]]
+        return Edge(
+            tail=self.names[self.tails[index]],
+            head=self.names[self.heads[index]],
+            length=edge_class.length,
+            max_speed=edge_class.max_speed,
+            barred=edge_class.barred,
+            surcharge=edge_class.surcharge,
+        )
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Sequence) and list(self) == list(other)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def find_repeated(self) -> NDArray[np.bool_]:
+        """Return which edges have the tail and the head of an earlier one."""
+        ends = self.tails.astype(np.int64) * len(self.names) + self.heads
+        is_repeated = np.ones(len(self), bool)
+        is_repeated[np.unique(ends, return_index=True)[1]] = False
+        return is_repeated
+
+
+def tabulate_edges(positions: Mapping[str, object], edges: Sequence[Edge]) -> EdgeTable:
+    """Return edges as columns; a table with these vertices is returned as it is.
+
+    Raises
+    ------
+    InputError
+        For an edge from or to a vertex that has no position.
+    """
+    names = tuple(positions)
+    if isinstance(edges, EdgeTable):
+        if edges.names == names:
+            return edges
+        edges = list(edges)
+    ids = {name: vertex for vertex, name in enumerate(names)}
+    # Fractions are slow to hash: edges often share theirs, and are told apart by identity.
+    kinds = dict[tuple[int, ...], int]()
+    classes, kind_of_edge, ends = list[EdgeClass](), list[int](), list[int]()
+    for index, edge in enumerate(limit_loop(edges, READING)):
+        for end in (edge.tail, edge.head):
+            vertex = ids.get(end)
+            if vertex is None:
+                message = f"no vertex is named {end!r} (name one of the {len(ids)} vertices)"
+                raise InputError.at(("edges", index), message)
+            ends.append(vertex)
+        numbers = (id(edge.length), id(edge.max_speed), id(edge.barred), id(edge.surcharge))
+        kind = kinds.get(numbers)
+        if kind is None:
+            kind = kinds[numbers] = len(classes)
+            classes.append(
+                EdgeClass(
+                    length=edge.length,
+                    max_speed=edge.max_speed,
+                    barred=edge.barred,
+                    surcharge=edge.surcharge,
+                )
+            )
+        kind_of_edge.append(kind)
+    tails, heads = np.array(ends, np.int32).reshape(-1, 2).T
+    kind_column = np.array(kind_of_edge, np.int32)
+    return EdgeTable(names=names, tails=tails, heads=heads, kinds=kind_column, classes=classes)
+
+
 @checks_arguments
 def make_roadmap(
     positions: Mapping[str, tuple[float, float]],
@@ -105,66 +209,121 @@ def make_roadmap(
         For no vertex, an edge from or to nowhere, to itself, of no length, or given twice; and for
         zones of vertices and edges that the roadmap does not have.
     """
-    ids = {name: vertex for vertex, name in enumerate(positions)}
-    _check_edges(ids, edges)
-    barred, surcharges = dict(barred or {}), dict(surcharges or {})
-    if barred or surcharges:
-        edges = [
-            replace(
-                edge,
-                barred=edge.barred.union(barred.get(edge.head, ())),
-                surcharge=edge.surcharge + surcharges.get(edge.head, 0),
-            )
-            for edge in edges
-        ]
-    # Fractions are slow to hash: edges often share theirs, and are told apart by identity.
-    numbers = [
-        (id(edge.length), id(edge.max_speed), id(edge.barred), id(edge.surcharge)) for edge in edges
-    ]
-    edge_of_numbers = dict(zip(numbers, edges, strict=True))
-    # Floats first: fractions are slow to compare, too, and only equal floats need it.
-    in_order = sorted(
-        edge_of_numbers.items(),
-        key=lambda item: (
-            float(item[1].length),
-            item[1].length,
-            item[1].max_speed or 0,
-            sorted(item[1].barred),
-            item[1].surcharge,
-        ),
+    return make_roadmap_of_table(
+        positions,
+        tabulate_edges(positions, edges),
+        y_up=y_up,
+        zones=zones,
+        pieces=pieces,
+        sides=sides,
+        frame=frame,
+        barred=barred,
+        surcharges=surcharges,
     )
-    classes, rank_of_numbers = list[EdgeClass](), dict[tuple[int, ...], int]()
-    for numbers_of_edge, edge in in_order:
-        edge_class = _edge_class(edge)
-        if not classes or edge_class != classes[-1]:
-            classes.append(edge_class)
-        rank_of_numbers[numbers_of_edge] = len(classes) - 1
-    order = sorted(range(len(edges)), key=lambda k: ids[edges[k].tail])  # stable: the given order
-    ordered = [edges[k] for k in order]
-    degrees = np.bincount([ids[edge.tail] for edge in ordered], minlength=len(ids))
+
+
+def make_roadmap_of_table(
+    positions: Mapping[str, tuple[float, float]],
+    table: EdgeTable,
+    *,
+    y_up: bool = False,
+    zones: Sequence[NamedZone] = (),
+    pieces: Mapping[tuple[str, str], Sequence[tuple[str, str]]] | None = None,
+    sides: Sequence[float] | None = None,
+    frame: Frame | None = None,
+    barred: Mapping[str, Collection[str]] | None = None,
+    surcharges: Mapping[str, Fraction] | None = None,
+) -> Roadmap:
+    """Make a roadmap of a table of edges; otherwise as `make_roadmap`.
+
+    Raises
+    ------
+    InputError
+        As `make_roadmap`.
+    """
+    ids = {name: vertex for vertex, name in enumerate(table.names)}
+    _check_edges(table)
+    table = _add_those_of_vertices(table, ids, barred or {}, surcharges or {})
+    classes, kinds = _sort_classes(table)
+    order = np.argsort(table.tails, kind="stable")  # the given order at each vertex
+    degrees = np.bincount(table.tails, minlength=len(ids))
     down = (1.0, -1.0 if y_up else 1.0)
-    both_ends = {(edge.tail, edge.head) for edge in edges}
     return Roadmap(
         indptr=np.concatenate(([0], np.cumsum(degrees))).astype(np.int32),
-        heads=np.array([ids[edge.head] for edge in ordered], np.int32),
-        class_of_edge=np.array([rank_of_numbers[numbers[k]] for k in order], np.int32),
-        edge_classes=tuple(classes),
-        barred_vertices={VertexId(ids[name]): frozenset(kinds) for name, kinds in barred.items()},
+        heads=table.heads[order],
+        class_of_edge=kinds[order],
+        edge_classes=classes,
+        barred_vertices={
+            VertexId(ids[name]): frozenset(kinds_of_vertex)
+            for name, kinds_of_vertex in (barred or {}).items()
+        },
         positions=np.array(list(positions.values()), np.float64).reshape(len(ids), 2) * down,
-        labels=tuple(positions),
+        labels=table.names,
         frame=frame or Frame(y_up=y_up),
         sides=None if sides is None else np.array(sides, np.float64),
-        zones=number_zones(zones, ids, both_ends, pieces or {}) if zones else (),
+        zones=number_zones(zones, ids, _list_ends(table), pieces or {}) if zones else (),
         lanes=_lanes((pieces or {}).values(), ids),
     )
 
 
-def _edge_class(edge: Edge) -> EdgeClass:
-    return EdgeClass(
-        length=edge.length,
-        max_speed=edge.max_speed,
-        barred=edge.barred,
-        surcharge=edge.surcharge,
+def _list_ends(table: EdgeTable) -> set[tuple[str, str]]:
+    names = table.names
+    ends = zip(table.tails.tolist(), table.heads.tolist(), strict=True)
+    return {(names[tail], names[head]) for tail, head in ends}
+
+
+def _add_those_of_vertices(
+    table: EdgeTable,
+    ids: Mapping[str, int],
+    barred: Mapping[str, Collection[str]],
+    surcharges: Mapping[str, Fraction],
+) -> EdgeTable:
+    """Return edges with the barred types and the surcharges of the vertices that they enter."""
+    special = sorted({*barred, *surcharges}, key=ids.__getitem__)
+    if not special:
+        return table
+    number = np.zeros(len(ids), np.int64)
+    number[[ids[name] for name in special]] = np.arange(1, len(special) + 1)
+    pairs = table.kinds.astype(np.int64) * (len(special) + 1) + number[table.heads]
+    known, kinds = np.unique(pairs, return_inverse=True)
+    classes = list[EdgeClass]()
+    for kind, vertex in (divmod(pair, len(special) + 1) for pair in known.tolist()):
+        edge_class = table.classes[kind]
+        if vertex:
+            name = special[vertex - 1]
+            edge_class = replace(
+                edge_class,
+                barred=edge_class.barred.union(barred.get(name, ())),
+                surcharge=edge_class.surcharge + surcharges.get(name, 0),
+            )
+        classes.append(edge_class)
+    return replace(table, kinds=kinds.astype(np.int32), classes=classes)
+
+
+def _sort_classes(table: EdgeTable) -> tuple[tuple[EdgeClass, ...], NDArray[np.int32]]:
+    """Return the classes that edges have, sorted and all different, and that of each edge."""
+    used, kinds = np.unique(table.kinds, return_inverse=True)
+    given = [table.classes[kind] for kind in used.tolist()]
+    # Floats first: fractions are slow to compare, and only equal floats need it.
+    floats = [edge_class.length.numerator / edge_class.length.denominator for edge_class in given]
+    rank, classes = np.zeros(len(given), np.int32), list[EdgeClass]()
+    for _, same in groupby(sorted(range(len(given)), key=floats.__getitem__), floats.__getitem__):
+        alike = list(same)
+        if len(alike) > 1:
+            alike.sort(key=lambda kind: _sort_key(given[kind]))
+        for kind in alike:
+            if kind == alike[0] or given[kind] != classes[-1]:
+                classes.append(given[kind])
+            rank[kind] = len(classes) - 1
+    return tuple(classes), rank[kinds]
+
+
+def _sort_key(edge_class: EdgeClass) -> tuple[Fraction, Fraction | int, list[str], Fraction]:
+    return (
+        edge_class.length,
+        edge_class.max_speed or 0,
+        sorted(edge_class.barred),
+        edge_class.surcharge,
     )
 
 
@@ -175,29 +334,32 @@ def _lanes(split: Iterable[Sequence[tuple[str, str]]], ids: Mapping[str, int]) -
     return tuple(Lane(vertices=lane) for lane in sorted(ways))
 
 
-def _check_edges(ids: Mapping[str, int], edges: Sequence[Edge]) -> None:
-    if not ids:
+def _check_edges(table: EdgeTable) -> None:
+    """Refuse a table whose first wrong edge is not one that robots can drive along."""
+    if not table.names:
         raise InputError.at("", "the roadmap has no vertex (give at least one)")
-    seen: set[tuple[str, str]] = set()
-    for index, edge in enumerate(limit_loop(edges, READING)):
-        fault = _edge_fault(edge, ids, seen)
-        if not fault and edge.surcharge.numerator < 0:
-            fault = f"surcharge {edge.surcharge} is negative (give 0 or more)"
-        if fault:
-            raise InputError.at(("edges", index), fault)
-        seen.add((edge.tail, edge.head))
+    if not len(table):
+        return
+    is_wrong = np.array([_class_fault(edge_class) != "" for edge_class in table.classes], bool)
+    is_repeated = table.find_repeated()
+    wrong = (table.tails == table.heads) | is_wrong[table.kinds] | is_repeated
+    if not wrong.any():
+        return
+    index = int(wrong.argmax())
+    tail, head = table.names[table.tails[index]], table.names[table.heads[index]]
+    fault = _class_fault(table.classes[table.kinds[index]])
+    if tail == head:
+        fault = f"leads from {tail!r} to itself (take it out)"
+    elif not fault or (fault.startswith("surcharge") and is_repeated[index]):
+        fault = f"{tail!r} to {head!r} is given twice (take one out)"
+    raise InputError.at(("edges", index), fault)
 
 
-def _edge_fault(edge: Edge, ids: Mapping[str, int], seen: set[tuple[str, str]]) -> str | None:
-    for end in (edge.tail, edge.head):
-        if end not in ids:
-            return f"no vertex is named {end!r} (name one of the {len(ids)} vertices)"
-    if edge.tail == edge.head:
-        return f"leads from {edge.tail!r} to itself (take it out)"
-    if edge.length.numerator <= 0:
-        return f"length {edge.length} is not positive (give a length above 0)"
-    if edge.max_speed is not None and edge.max_speed <= 0:
-        return f"max_speed {edge.max_speed} is not positive (give a speed above 0)"
-    if (edge.tail, edge.head) in seen:
-        return f"{edge.tail!r} to {edge.head!r} is given twice (take one out)"
-    return None
+def _class_fault(edge_class: EdgeClass) -> str:
+    if edge_class.length.numerator <= 0:
+        return f"length {edge_class.length} is not positive (give a length above 0)"
+    if edge_class.max_speed is not None and edge_class.max_speed.numerator <= 0:
+        return f"max_speed {edge_class.max_speed} is not positive (give a speed above 0)"
+    if edge_class.surcharge.numerator < 0:
+        return f"surcharge {edge_class.surcharge} is negative (give 0 or more)"
+    return ""

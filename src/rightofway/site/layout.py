@@ -10,14 +10,16 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import NamedTuple
 
+import numpy as np
+
 from rightofway.arguments import checks_arguments
-from rightofway.deadline import READING, limit_loop
 from rightofway.errors import InputError, find_nearest, join_names, quote
 from rightofway.phrases import Phrase, say_count
 from rightofway.site.drawing import Drawing, Picture
-from rightofway.site.edges import Edge, make_roadmap
+from rightofway.site.edges import EdgeTable, make_roadmap_of_table
 from rightofway.site.geometry import Point
-from rightofway.site.roadmap import Roadmap
+from rightofway.site.lane_table import BILLION, LaneShape, LaneTable, LayoutEdge, tabulate_lanes
+from rightofway.site.roadmap import EdgeClass, Roadmap
 from rightofway.site.spacing import SplitLanes, split_lanes
 from rightofway.site.zones import NamedZone
 
@@ -40,36 +42,6 @@ class LayoutVertex:
     at: Point
     is_parking: bool = False
     is_charging: bool = False
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LayoutEdge:
-    """A directed lane.
-
-    Attributes
-    ----------
-    tail, head
-        Names of the vertices it leaves and enters.
-    length
-        Its length [m], not below the straight distance.
-    max_speed
-        Speed limit [m/s]; None for none.
-    types
-        Vehicle types that may use it; None for all.
-    shape
-        Points between its ends where it is drawn [m]; empty for a straight lane.
-    chord_error
-        How far at most a curve that robots drive along is from the straight lines between these
-        points [m]; None where robots drive straight, whatever is drawn.
-    """
-
-    tail: str
-    head: str
-    length: Fraction
-    max_speed: Fraction | None = None
-    types: frozenset[str] | None = None
-    shape: tuple[Point, ...] = ()
-    chord_error: Fraction | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -106,18 +78,28 @@ class Level:
 
     name: str
     vertices: tuple[LayoutVertex, ...]
-    edges: tuple[LayoutEdge, ...]
+    edges: Sequence[LayoutEdge]
     stations: tuple[Station, ...] = ()
     zones: tuple[NamedZone, ...] = ()
     links: int = 0
     picture: Picture | None = None
 
+    def __post_init__(self) -> None:
+        names = tuple(vertex.name for vertex in self.vertices)
+        object.__setattr__(self, "edges", tabulate_lanes(names, self.edges))
+
+    @property
+    def lanes(self) -> LaneTable:
+        """The edges as columns."""
+        assert isinstance(self.edges, LaneTable), "they have been made into columns"
+        return self.edges
+
     @property
     def vehicle_types(self) -> tuple[str, ...]:
         """Names of the vehicle types that lanes are reserved for, sorted."""
-        return tuple(sorted({name for edge in self.edges for name in edge.types or ()}))
+        return self.lanes.types
 
-    def list_lanes(self, vehicle_type: str | None) -> tuple[LayoutEdge, ...]:
+    def list_lanes(self, vehicle_type: str | None) -> LaneTable:
         """Return the lanes that a vehicle type may use.
 
         Raises
@@ -127,19 +109,17 @@ class Level:
         """
         known = self.vehicle_types
         if vehicle_type is None:
-            if len({edge.types for edge in self.edges} - {None, frozenset(known)}) > 0:
+            if {kind.types for kind in self.lanes.used_kinds} - {None, frozenset(known)}:
                 message = "lanes differ between vehicle types (give one of"
                 message += f" {join_names(known)}, or each robot a type)"
                 raise InputError.at("vehicle_type", message)
-            return self.edges
+            return self.lanes
         if known and vehicle_type not in known:
             near = find_nearest(vehicle_type, known)
             hint = f"did you mean {near!r}?" if near else f"give one of {join_names(known)}"
             message = f"no vehicle type is named {quote(vehicle_type)} ({hint})"
             raise InputError.at("vehicle_type", message)
-        return tuple(
-            edge for edge in self.edges if edge.types is None or vehicle_type in edge.types
-        )
+        return self.lanes.select(vehicle_type)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -219,8 +199,8 @@ def build_roadmap_of_level(
 ) -> LevelRoadmap:
     """Make the roadmap of a level.
 
-    With a spacing, lanes are split that are longer; without one, those that others cross, for
-    robots that keep a distance [length unit]. For robots with a size, curves are cut into straight
+    With a spacing, lanes are split that are longer; without one it is chosen, for robots that keep
+    a distance [length unit]. For robots with a size, curves are cut into straight
     pieces. Lanes that only some of the robots may use are barred for the others.
 
     Raises
@@ -233,65 +213,110 @@ def build_roadmap_of_level(
         for name in sorted(name for name in robot_types if name is not None):
             level.list_lanes(name)
         selects = bool(known_types)
-    lanes = level.edges if selects else level.list_lanes(vehicle_type)
-    slowest: dict[tuple[str, str], Edge] = {}
-    # Fractions are slow to hash: lanes often share theirs, and are told apart by identity.
-    kinds = dict[tuple[int, ...], Edge]()
-    for lane in limit_loop(lanes, READING):
-        numbers = (id(lane.length), id(lane.max_speed), id(lane.types))
-        kind = kinds.get(numbers)
-        if kind is None:
-            is_open = lane.types is None or not selects
-            kind = kinds[numbers] = Edge(
-                tail=lane.tail,
-                head=lane.head,
-                length=lane.length if metre == 1 else lane.length * metre,
-                max_speed=None if lane.max_speed is None else lane.max_speed * metre / second,
-                barred=frozenset() if is_open else frozenset(known_types) - (lane.types or set()),
-            )
-        edge = kind.make_piece(lane.tail, lane.head, kind.length, kind.surcharge)
-        known = slowest.get((lane.tail, lane.head))
-        slowest[lane.tail, lane.head] = _slower(known, edge) if known else edge
-    closed = _ends(level.edges) - _ends(lanes)  # only other vehicle types come there
+    lanes = level.lanes if selects else level.list_lanes(vehicle_type)
+    table = _tabulate_slowest(lanes, known_types if selects else (), metre, second)
+    n_parallel = len(lanes) - len(table)
+    # Only other vehicle types come there.
+    closed = {lanes.names[vertex] for vertex in _list_ends(level.lanes) - _list_ends(lanes)}
     positions: dict[str, Point] = {
         vertex.name: (vertex.at[0] * metre, vertex.at[1] * metre)
         for vertex in level.vertices
         if vertex.name not in closed
     }
-    edges, zones = list(slowest.values()), _zones(level, positions, slowest)
-    curves = _curves(lanes, slowest) if cuts_curves else {}
-    split = SplitLanes(positions, edges, {})
-    if spacing is not None or curves or distance > 0:
-        shapes = {
-            ends: [(x * metre, y * metre) for x, y in lane.shape] for ends, lane in curves.items()
-        }
-        split = split_lanes(positions, edges, spacing, shapes, distance=distance)
+    if closed:
+        table = _leave_out(table, tuple(positions))
+    zones = _list_zones(level, positions, lanes)
+    curves = _list_curves(lanes) if cuts_curves else {}
+    shapes = {
+        ends: [(x * metre, y * metre) for x, y in shape.points] for ends, shape in curves.items()
+    }
+    split = split_lanes(positions, table, spacing, shapes, distance=distance)
     drawn = {name: (float(x), float(y)) for name, (x, y) in split.positions.items()}
-    roadmap = make_roadmap(drawn, split.edges, y_up=True, zones=zones, pieces=split.pieces)
-    bends = {(lane.tail, lane.head): lane.shape for lane in lanes if lane.shape}
+    roadmap = make_roadmap_of_table(drawn, split.edges, y_up=True, zones=zones, pieces=split.pieces)
+    bends = {lanes.get_ends(lane): shape.points for lane, shape in lanes.shapes.items()
+             if shape.points}  # fmt: skip
     roadmap = replace(roadmap, drawing=_drawing(level, roadmap, bends, metre))
     return LevelRoadmap(
         roadmap=roadmap,
         curves=len(curves),
         chord_error=metre * max((curve.chord_error or Fraction(0) for curve in curves.values()),
                                 default=Fraction(0)),
-        notes=tuple(_lacks(level, lanes, slowest, closed)),
+        notes=tuple(_lacks(level, n_parallel, closed)),
         split=split,
     )  # fmt: skip
 
 
-def _curves(
-    lanes: Sequence[LayoutEdge], pairs: Collection[tuple[str, str]]
-) -> dict[tuple[str, str], LayoutEdge]:
+def _tabulate_slowest(
+    lanes: LaneTable, known_types: Collection[str], metre: Fraction, second: Fraction
+) -> EdgeTable:
+    """Return the lanes as edges; of parallel lanes one that asks for no more than each does.
+
+    Lanes are barred for the types that are known and not theirs.
+    """
+    lengths, rank = np.unique(lanes.lengths, return_inverse=True)
+    known, kinds = np.unique(rank * len(lanes.kinds) + lanes.kind_of_lane, return_inverse=True)
+    limits = [
+        None if kind.max_speed is None else kind.max_speed * metre / second for kind in lanes.kinds
+    ]
+    barred = [
+        frozenset(known_types).difference(known_types if kind.types is None else kind.types)
+        for kind in lanes.kinds
+    ]
+    as_fractions = [Fraction(length, BILLION) * metre for length in lengths.tolist()]
+    classes = [
+        EdgeClass(length=as_fractions[rank], max_speed=limits[kind], barred=barred[kind])
+        for rank, kind in zip(*(part.tolist() for part in np.divmod(known, len(lanes.kinds))),
+                              strict=True)
+    ]  # fmt: skip
+    table = EdgeTable(
+        names=lanes.names,
+        tails=lanes.tails,
+        heads=lanes.heads,
+        kinds=kinds.astype(np.int32),
+        classes=classes,
+    )
+    is_repeated = table.find_repeated()
+    if not is_repeated.any():
+        return table
+    ends, column = lanes.ends, table.kinds.copy()
+    first = {int(ends[lane]): lane for lane in np.flatnonzero(~is_repeated).tolist()}
+    for lane in np.flatnonzero(is_repeated).tolist():
+        earlier = first[int(ends[lane])]
+        if column[earlier] != column[lane]:
+            classes.append(_slower(classes[column[earlier]], classes[column[lane]]))
+            column[earlier] = len(classes) - 1
+    return replace(
+        table,
+        tails=table.tails[~is_repeated],
+        heads=table.heads[~is_repeated],
+        kinds=column[~is_repeated],
+    )
+
+
+def _leave_out(table: EdgeTable, names: tuple[str, ...]) -> EdgeTable:
+    """Return edges with the numbers that their vertices have where others are left out."""
+    number = {name: vertex for vertex, name in enumerate(names)}
+    vertices = np.array([number.get(name, -1) for name in table.names], np.int32)
+    return replace(table, names=names, tails=vertices[table.tails], heads=vertices[table.heads])
+
+
+def _list_curves(lanes: LaneTable) -> dict[tuple[str, str], LaneShape]:
     """Return the lanes that robots drive along a curve; of parallel lanes the longest counts."""
-    if all(lane.chord_error is None for lane in lanes):
+    curved = [lane for lane, shape in lanes.shapes.items() if shape.chord_error is not None]
+    if not curved:
         return {}
-    slowest: dict[tuple[str, str], LayoutEdge] = {}
-    for lane in lanes:
-        ends = (lane.tail, lane.head)
-        if ends in pairs and (ends not in slowest or lane.length > slowest[ends].length):
-            slowest[ends] = lane
-    return {ends: lane for ends, lane in slowest.items() if lane.chord_error is not None}
+    ends = lanes.ends
+    slowest: dict[int, int] = {}
+    for lane in np.flatnonzero(np.isin(ends, ends[curved])).tolist():
+        earlier = slowest.get(ends[lane])
+        if earlier is None or lanes.lengths[lane] > lanes.lengths[earlier]:
+            slowest[ends[lane]] = lane
+    shapes = ((lanes.get_ends(lane), lanes.shapes.get(lane)) for lane in slowest.values())
+    return {
+        names: shape
+        for names, shape in shapes
+        if shape is not None and shape.chord_error is not None
+    }
 
 
 def _drawing(
@@ -321,30 +346,26 @@ def _drawing(
     )
 
 
-def _slower(first: Edge, other: Edge) -> Edge:
+def _slower(first: EdgeClass, other: EdgeClass) -> EdgeClass:
     """Return an edge that asks a robot for no more than either of two parallel lanes does."""
     limits = [edge.max_speed for edge in (first, other) if edge.max_speed is not None]
-    length = max(first.length, other.length)
-    barred = first.barred & other.barred
-    return replace(first, length=length, max_speed=min(limits, default=None), barred=barred)
+    return EdgeClass(
+        length=max(first.length, other.length),
+        max_speed=min(limits, default=None),
+        barred=first.barred & other.barred,
+    )
 
 
-def _lacks(
-    level: Level,
-    lanes: Sequence[LayoutEdge],
-    pairs: Collection[tuple[str, str]],
-    closed: Collection[str],
-) -> Iterator[Phrase]:
+def _lacks(level: Level, n_parallel: int, closed: Collection[str]) -> Iterator[Phrase]:
     if closed:
         yield Phrase(
             "{vertices} left out: only lanes of other vehicle types lead there",
             vertices=say_count(len(closed), "vertex", "vertices"),
         )
-    parallel = len(lanes) - len(set(pairs))
-    if parallel:
+    if n_parallel:
         yield Phrase(
             "{lanes} left out: the slowest of each counts",
-            lanes=say_count(parallel, "parallel lane", "parallel lanes"),
+            lanes=say_count(n_parallel, "parallel lane", "parallel lanes"),
         )
     if level.links:
         yield Phrase(
@@ -353,17 +374,18 @@ def _lacks(
         )
 
 
-def _ends(lanes: Sequence[LayoutEdge]) -> set[str]:
-    return {end for lane in lanes for end in (lane.tail, lane.head)}
+def _list_ends(lanes: LaneTable) -> set[int]:
+    return set(np.unique(np.concatenate((lanes.tails, lanes.heads))).tolist())
 
 
-def _zones(
-    level: Level, vertices: Collection[str], lanes: Collection[tuple[str, str]]
-) -> list[NamedZone]:
+def _list_zones(level: Level, vertices: Collection[str], lanes: LaneTable) -> list[NamedZone]:
     """Return the zones with what the roadmap has of them."""
+    if not level.zones:
+        return []
+    known = set(map(lanes.get_ends, range(len(lanes))))
     zones = []
     for zone in level.zones:
-        edges = tuple(dict.fromkeys(edge for edge in zone.edges if edge in lanes))
+        edges = tuple(dict.fromkeys(edge for edge in zone.edges if edge in known))
         names = tuple(dict.fromkeys(name for name in zone.vertices if name in vertices))
         if names or edges:
             zones.append(NamedZone(name=zone.name, vertices=names, edges=edges))

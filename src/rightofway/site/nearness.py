@@ -110,9 +110,7 @@ class Lines:
         near = np.hypot(*(to_point - share[:, None] * step).T) <= distance
         return line[near], point[near]
 
-    def find_crossing(
-        self, grid: PointGrid, some: slice, slack: float, first: int = 0
-    ) -> tuple[Ints, Ints]:
+    def find_crossing(self, grid: PointGrid, some: slice, slack: float) -> tuple[Ints, Ints]:
         """Return pairs of some lines with later ones that cross or touch, and few more.
 
         Parameters
@@ -123,11 +121,9 @@ class Lines:
             The lines to look at.
         slack
             What rounding can move a line.
-        first
-            The first line whose pieces are in the grid; all that follow are.
         """
         point, middle = self._pairs(grid, some, len(grid.points))
-        of_middle = self.line_of[self.first[first] + middle]
+        of_middle = self.line_of[middle]
         later = of_middle > point
         point, other = point[later], of_middle[later]
         point, other = np.divmod(np.unique(point * len(self.begin) + other), len(self.begin))

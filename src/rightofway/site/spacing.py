@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
-from math import ceil, dist, sqrt
+from math import ceil, dist
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rightofway.deadline import limit_loop
 from rightofway.errors import InputError, quote
 from rightofway.quantities import format_decimal
-from rightofway.site.crossings import MOST_PIECES, choose_spacing, find_crossed
-from rightofway.site.edges import Edge
+from rightofway.site.edges import Edge, EdgeTable, tabulate_edges
 from rightofway.site.geometry import (
     COARSE,
     Point,
@@ -32,6 +33,15 @@ PIECE = re.compile("(.+)/[1-9][0-9]*")
 MAX_PIECES = 100_000
 """The most pieces that the lanes of a roadmap are split into: 50 km of lanes, each 0.5 m."""
 
+
+PIECE_IN_DISTANCES = 3
+"""Length of a piece in least distances of two robots, where a map does not say how lanes are split:
+shorter pieces block a crossing hardly less, because a robot that drives along a piece has booked
+both of its ends, too."""
+
+MOST_PIECES, MOST_CUTS = 8, 50_000
+"""Pieces that a lane, and all lanes together, are split into where a map does not say how, at most:
+else pieces are longer. The eighth part of a lane is booked for an eighth of the time."""
 
 SPLITTING = "splitting lanes into pieces"
 
@@ -51,16 +61,16 @@ class SplitLanes(NamedTuple):
         All edges, pieces in the place of their lane.
     pieces
         Tail and head of every piece of each lane that was split, by tail and head of the lane.
-    crossed
-        How many lanes were split because others cross them, whichever ways they are driven.
+    chosen
+        How many lanes were split though no map asks for it, whichever ways they are driven.
     spacing
         The longest piece of these [length unit]; None where there are none.
     """
 
     positions: dict[str, Point]
-    edges: list[Edge]
+    edges: EdgeTable
     pieces: dict[tuple[str, str], list[tuple[str, str]]]
-    crossed: int = 0
+    chosen: int = 0
     spacing: Fraction | None = None
 
 
@@ -78,8 +88,8 @@ def split_lanes(
     Both directions of a lane share the new vertices, which are named by the direction that is given
     first: ``A-B/1``, ``A-B/2``, …. Directions that are driven along different curves share none.
 
-    Without a spacing, but with a distance that two robots keep [length unit], lanes are split that
-    others cross far from their ends (`crossings`), if they are drawn as long as they are.
+    Without a spacing, but with a distance that two robots keep [length unit], the spacing is chosen
+    (`choose_spacing`), and lanes stay whole that are not drawn as long as they are.
 
     Raises
     ------
@@ -94,110 +104,224 @@ def split_lanes(
     >>> [(edge.tail, edge.head, str(edge.length)) for edge in split.edges]
     [('A', 'A-B/1', '5/3'), ('A-B/1', 'A-B/2', '5/3'), ('A-B/2', 'B', '5/3')]
     """
+    table = tabulate_edges(positions, edges)
     curves = {ends: tuple(points) for ends, points in (shapes or {}).items()}
-    longest, drawings = _drawn_lanes(positions, edges, curves)
-    refuse_many_pieces(longest.values(), spacing)
-    longest_piece = {} if spacing is None else dict.fromkeys(longest, spacing)
-    if spacing is None and distance > 0 and is_drawn:
-        longest_piece = _crossed(drawings, longest, list(positions.values()), distance)
-    places, split = dict(positions), list[Edge]()
+    is_chosen = spacing is None and distance > 0 and is_drawn
+    if not len(table) or (spacing is None and not is_chosen and not curves):
+        return SplitLanes(dict(positions), table, {})
+    lanes = _Lanes(table, curves)
+    if spacing is not None:
+        refuse_many_pieces(lanes.list_lengths(), spacing)
+    elif is_chosen:
+        spacing = choose_spacing(lanes.lengths_as_floats, distance)
+    is_long = lanes.find_longer(spacing)
+    is_bent = np.zeros(len(is_long), bool)
+    bent = [edge for edge in range(len(table)) if lanes.get_bends(edge)] if curves else []
+    is_bent[lanes.lane_of_edge[bent]] = True
+    places = dict(positions)
     pieces: dict[tuple[str, str], list[tuple[str, str]]] = {}
-    ways: dict[_Ends, tuple[list[str], list[Fraction], Fraction]] = {}
-    for edge in limit_loop(edges, SPLITTING):
-        lane = _lane(edge, curves)
-        points, own = drawings[lane], longest_piece.get(lane)
-        if len(points) == STRAIGHT and (own is None or longest[lane] <= own):
-            split.append(edge)  # most of a million
-            continue
+    ways = dict[int, _Way | None]()
+    parts: dict[int, _Way] = {}
+    affected = np.flatnonzero((is_long | is_bent)[lanes.lane_of_edge]).tolist()
+    for edge in limit_loop(affected, SPLITTING):
+        lane = int(lanes.lane_of_edge[edge])
         if lane not in ways:
-            if is_drawn and own is not None and longest[lane] > own:
-                _refuse_winding(edge, points, longest[lane], own)
-            lengths = measure_lengths_along(points) if len(points) > STRAIGHT else [longest[lane]]
-            inside, parts = _cuts(points, lengths, own)
-            names = _joint_names(edge, len(inside))
-            taken = next((name for name in names if name in places), None)
-            if taken is not None and spacing is None and own is not None:
-                inside, parts = _cuts(points, lengths, None)  # nobody asked for pieces
-                names = _joint_names(edge, len(inside))
-                taken = next((name for name in names if name in places), None)
-            if taken is not None:
-                message = f"{taken!r} is the name of a piece of a lane (rename the vertex)"
-                raise InputError.at("vertices", message)
-            places |= zip(names, inside, strict=True)
-            whole = sum(lengths, Fraction(0))
-            least = whole if len(lengths) > 1 else Fraction(0)
-            shares = _each(parts, whole.__rtruediv__)
-            ways[lane] = [edge.tail, *names, edge.head], shares, least
-        lane_vertices, shares, least = ways[lane]
-        if lane_vertices[0] != edge.tail:
-            lane_vertices, shares = lane_vertices[::-1], shares[::-1]
-        if len(shares) > 1:
-            pieces[edge.tail, edge.head] = list(pairwise(lane_vertices))
-        found_lengths = _each(shares, max(edge.length, least).__mul__)
-        surcharges = _each(shares, edge.surcharge.__mul__)
-        split += [
-            edge.make_piece(tail, head, length, surcharge)
-            for (tail, head), length, surcharge in zip(
-                pairwise(lane_vertices), found_lengths, surcharges, strict=True
+            own = spacing if is_long[lane] else None
+            ways[lane] = _make_way(lanes, edge, places, own, is_chosen=is_chosen, is_drawn=is_drawn)
+        lane_way = ways[lane]
+        if lane_way is not None:
+            parts[edge] = (
+                lane_way if lane_way.names[0] == lanes.get_ends(edge)[0] else lane_way.reverse()
             )
-        ]
-    crossed_pieces = list(longest_piece.values()) if spacing is None else []
+            if len(lane_way.shares) > 1:
+                pieces[lanes.get_ends(edge)] = list(pairwise(parts[edge].names))
+    chosen = [
+        lane_way.longest_piece
+        for lane_way in ways.values()
+        if lane_way is not None and lane_way.is_cut
+    ]
     return SplitLanes(
         places,
-        split,
+        _join(table, tuple(places), parts),
         pieces,
-        crossed=len(crossed_pieces),
-        spacing=max(crossed_pieces, default=None),
+        chosen=len(chosen) if is_chosen else 0,
+        spacing=max(chosen, default=None) if is_chosen else None,
     )
 
 
-def _joint_names(edge: Edge, count: int) -> list[str]:
-    return [f"{edge.tail}-{edge.head}/{k}" for k in range(1, count + 1)]
+class _Way(NamedTuple):
+    """The vertices along a lane, and the pieces between them."""
+
+    names: list[str]
+    shares: list[Fraction]  # of the whole lane
+    least: Fraction  # length of the lane, at least
+    longest_piece: Fraction
+    is_cut: bool  # whether a spacing makes pieces
+
+    def reverse(self) -> _Way:
+        return self._replace(names=self.names[::-1], shares=self.shares[::-1])
 
 
-def _drawn_lanes(
-    positions: Mapping[str, Point],
-    edges: Sequence[Edge],
-    curves: Mapping[tuple[str, str], tuple[Point, ...]],
-) -> tuple[dict[_Ends, Fraction], dict[_Ends, list[Point]]]:
-    """Return the length of each lane, of its longer direction, and its ends and bends."""
-    longest, drawings = dict[_Ends, Fraction](), dict[_Ends, list[Point]]()
-    for edge in edges:
-        lane = _lane(edge, curves)
-        longest[lane] = max(longest.get(lane, edge.length), edge.length)
-        if lane not in drawings:
-            bends = curves.get((edge.tail, edge.head), ())
-            drawings[lane] = [positions[edge.tail], *bends, positions[edge.head]]
-    return longest, drawings
+class _Lanes:
+    """The lanes of a table: an edge and the one back are one lane, unless their curves differ."""
+
+    def __init__(
+        self, table: EdgeTable, curves: Mapping[tuple[str, str], tuple[Point, ...]]
+    ) -> None:
+        self.table, self.curves = table, curves
+        tails, heads = table.tails.astype(np.int64), table.heads.astype(np.int64)
+        count = len(table.names)
+        keys = np.minimum(tails, heads) * count + np.maximum(tails, heads)
+        if curves:
+            apart = [
+                edge
+                for edge in range(len(table))
+                if self.get_bends(edge) != self.curves.get(self.get_ends(edge)[::-1], ())[::-1]
+            ]
+            keys[apart] = count**2 + tails[apart] * count + heads[apart]
+        _, first, lane_of_edge = np.unique(keys, return_index=True, return_inverse=True)
+        self.first, self.lane_of_edge = first, lane_of_edge
+        # The class of the longer direction.
+        self.longest = table.kinds[first].copy()
+        for edge in np.flatnonzero(table.kinds != self.longest[lane_of_edge]).tolist():
+            lane, kind = lane_of_edge[edge], table.kinds[edge]
+            if table.classes[kind].length > table.classes[self.longest[lane]].length:
+                self.longest[lane] = kind
+        floats = [
+            edge_class.length.numerator / edge_class.length.denominator
+            for edge_class in table.classes
+        ]
+        self.lengths_as_floats = np.array(floats)[self.longest]
+
+    def get_ends(self, edge: int) -> tuple[str, str]:
+        """Return the names of tail and head."""
+        names = self.table.names
+        return names[self.table.tails[edge]], names[self.table.heads[edge]]
+
+    def get_bends(self, edge: int) -> tuple[Point, ...]:
+        """Return the points between the ends of a curve."""
+        return self.curves.get(self.get_ends(edge), ())
+
+    def get_length(self, lane: int) -> Fraction:
+        """Return the length of the longer direction."""
+        length: Fraction = self.table.classes[self.longest[lane]].length
+        return length
+
+    def list_lengths(self) -> Iterator[Fraction]:
+        """Yield the length of each lane."""
+        return (self.table.classes[kind].length for kind in self.longest.tolist())
+
+    def find_longer(self, spacing: Fraction | None) -> NDArray[np.bool_]:
+        """Return which lanes are longer than a length; none without one."""
+        if spacing is None:
+            return np.zeros(len(self.longest), bool)
+        is_longer = self.lengths_as_floats > float(spacing)
+        for lane in np.flatnonzero(self.lengths_as_floats == float(spacing)).tolist():
+            is_longer[lane] = self.get_length(lane) > spacing  # rounding makes them equal
+        return is_longer
 
 
-def _crossed(
-    drawings: Mapping[_Ends, Sequence[Point]],
-    longest: Mapping[_Ends, Fraction],
-    points: Sequence[Point],
-    distance: Fraction,
-) -> dict[_Ends, Fraction]:
-    """Return the longest piece of each long lane that others cross, or that passes a vertex.
+def _make_way(
+    lanes: _Lanes,
+    edge: int,
+    places: dict[str, Point],
+    spacing: Fraction | None,
+    *,
+    is_chosen: bool,
+    is_drawn: bool,
+) -> _Way | None:
+    """Return the way along a lane in the direction of an edge, and add its new vertices.
 
-    A lane that winds far more than it is drawn stays whole, because nobody knows where it leads.
+    None for a lane that stays whole. Where the spacing is chosen nobody has asked for pieces: a
+    lane stays as it is whose pieces have names of vertices, or that winds more than it is drawn,
+    because nobody knows where it leads.
     """
-    spacing = choose_spacing(list(longest.values()), distance)
-    parts, wanted, lane_of = list[list[_Floats]](), list[bool](), list[_Ends]()
-    for lane, drawing in drawings.items():
-        make_points_along = [(float(x), float(y)) for x, y in drawing]
-        drawn = sum(dist(*ends) for ends in pairwise(make_points_along))
-        is_long = spacing < longest[lane] <= MOST_WINDING * drawn
-        for ends in pairwise(make_points_along):
-            parts.append(list(ends))
-            wanted.append(is_long)
-            lane_of.append(lane)
-    begin, end = np.array(parts, np.float64).reshape(-1, 2, 2).swapaxes(0, 1)
-    at = np.array([(float(x), float(y)) for x, y in points], np.float64)
-    is_met = find_crossed(begin, end, at, np.array(wanted, bool), float(distance))
-    return {
-        lane: max(spacing, longest[lane] / MOST_PIECES)
-        for lane in (lane_of[part] for part in np.flatnonzero(is_met).tolist())
-    }
+    length = lanes.get_length(int(lanes.lane_of_edge[edge]))
+    tail, head = lanes.get_ends(edge)
+    points = [places[tail], *lanes.get_bends(edge), places[head]]
+    if spacing is not None and is_drawn:
+        drawn = sum(dist(*ends) for ends in pairwise([(float(x), float(y)) for x, y in points]))
+        if length > MOST_WINDING * drawn:
+            if not is_chosen:
+                raise _make_winding_fault(tail, head, drawn, length, spacing)
+            spacing = None
+    if spacing is not None and is_chosen:
+        spacing = max(spacing, length / MOST_PIECES)
+    lengths = measure_lengths_along(points) if len(points) > STRAIGHT else [length]
+    for own in (spacing, None) if is_chosen else (spacing,):
+        inside, parts = _cut(points, lengths, own)
+        names = [f"{tail}-{head}/{k}" for k in range(1, len(inside) + 1)]
+        taken = next((name for name in names if name in places), None)
+        if taken is None:
+            break
+    else:
+        message = f"{taken!r} is the name of a piece of a lane (rename the vertex)"
+        raise InputError.at("vertices", message)
+    if not names:
+        return None
+    places.update(zip(names, inside, strict=True))
+    whole = sum(lengths, Fraction(0))
+    return _Way(
+        names=[tail, *names, head],
+        shares=_each(parts, whole.__rtruediv__),
+        least=whole if len(lengths) > 1 else Fraction(0),
+        longest_piece=Fraction(0) if own is None else own,
+        is_cut=own is not None,
+    )
+
+
+def _join(table: EdgeTable, names: tuple[str, ...], parts: Mapping[int, _Way]) -> EdgeTable:
+    """Return a table with pieces in the place of the edges that are split."""
+    ids = {name: vertex for vertex, name in enumerate(names)}
+    counts = np.ones(len(table), np.int64)
+    tails, heads, kinds = list[int](), list[int](), list[int]()
+    classes, new_kinds = list(table.classes), dict[tuple[int, ...], int]()
+    for edge, lane_way in limit_loop(parts.items(), SPLITTING):
+        counts[edge] = len(lane_way.shares)
+        of_vertex = [ids[name] for name in lane_way.names]
+        tails += of_vertex[:-1]
+        heads += of_vertex[1:]
+        edge_class = table.classes[table.kinds[edge]]
+        for share in lane_way.shares:
+            key = (int(table.kinds[edge]), id(share), id(lane_way.least))
+            if key not in new_kinds:
+                new_kinds[key] = len(classes)
+                classes.append(
+                    replace(
+                        edge_class,
+                        length=share * max(edge_class.length, lane_way.least),
+                        surcharge=share * edge_class.surcharge,
+                    )
+                )
+            kinds.append(new_kinds[key])
+    row = np.repeat(np.arange(len(table)), counts)
+    columns = [column[row] for column in (table.tails, table.heads, table.kinds)]
+    is_piece = np.zeros(len(table), bool)
+    is_piece[list(parts)] = True
+    for column, values in zip(columns, (tails, heads, kinds), strict=True):
+        column[is_piece[row]] = values
+    return EdgeTable(
+        names=names, tails=columns[0], heads=columns[1], kinds=columns[2], classes=classes
+    )
+
+
+def choose_spacing(lengths: NDArray[np.float64], distance: Fraction) -> Fraction:
+    """Return the length that lanes are split at where a map does not say it.
+
+    It is `PIECE_IN_DISTANCES` times the distance, doubled until all lanes that are longer make no
+    more than `MOST_CUTS` pieces; a lane makes `MOST_PIECES` at most.
+
+    Examples
+    --------
+    >>> choose_spacing(np.array([5.0, 20.0]), Fraction(1))
+    Fraction(3, 1)
+    """
+    spacing = PIECE_IN_DISTANCES * distance
+    while True:
+        counts = np.minimum(np.ceil(lengths / float(spacing)), MOST_PIECES)
+        if counts[counts > 1].sum() <= MOST_CUTS:
+            return spacing
+        spacing *= 2
 
 
 def refuse_many_pieces(lengths: Iterable[Fraction], spacing: Fraction | None) -> None:
@@ -215,20 +339,18 @@ def refuse_many_pieces(lengths: Iterable[Fraction], spacing: Fraction | None) ->
         raise InputError.at("", message)
 
 
-def _refuse_winding(
-    edge: Edge, points: Sequence[Point], length: Fraction, spacing: Fraction
-) -> None:
-    """Refuse to split a lane whose places would lie far nearer together than robots drive."""
-    drawn = sum(sqrt(measure_squared_distance(*ends)) for ends in pairwise(points))
-    if length > MOST_WINDING * drawn:
-        gap = drawn / ceil(length / spacing)
-        raise InputError.at(
-            "",
-            f"the lane from {quote(edge.tail)} to {quote(edge.head)} is {format_decimal(length)}"
-            f" long, but {drawn:.4g} in the drawing: a spacing of {format_decimal(spacing)} sets"
-            f" places {gap:.2g} apart (correct its length or its ends, draw its way as a curve, or"
-            " give a larger spacing)",
-        )
+def _make_winding_fault(
+    tail: str, head: str, drawn: float, length: Fraction, spacing: Fraction
+) -> InputError:
+    """Return the fault of a lane whose places would lie far nearer together than robots drive."""
+    gap = drawn / ceil(length / spacing)
+    return InputError.at(
+        "",
+        f"the lane from {quote(tail)} to {quote(head)} is {format_decimal(length)}"
+        f" long, but {drawn:.4g} in the drawing: a spacing of {format_decimal(spacing)} sets"
+        f" places {gap:.2g} apart (correct its length or its ends, draw its way as a curve, or"
+        " give a larger spacing)",
+    )
 
 
 def _each(parts: Sequence[Fraction], use: Callable[[Fraction], Fraction]) -> list[Fraction]:
@@ -236,19 +358,6 @@ def _each(parts: Sequence[Fraction], use: Callable[[Fraction], Fraction]) -> lis
     part_of = {id(part): part for part in parts}
     result_of = {key: use(part) for key, part in part_of.items()}
     return [result_of[id(part)] for part in parts]
-
-
-_Ends = frozenset[str] | tuple[str, str]
-"""Both ends of a lane; in order where its directions are driven along different curves."""
-
-
-_Floats = tuple[float, float]
-
-
-def _lane(edge: Edge, curves: Mapping[tuple[str, str], tuple[Point, ...]]) -> _Ends:
-    forward, back = curves.get((edge.tail, edge.head), ()), curves.get((edge.head, edge.tail), ())
-    ends = (edge.tail, edge.head)
-    return frozenset(ends) if forward == back[::-1] else ends
 
 
 def measure_lengths_along(points: Sequence[Point]) -> list[Fraction]:
@@ -261,7 +370,7 @@ def measure_lengths_along(points: Sequence[Point]) -> list[Fraction]:
     return [longest] * len(parts) if longest - min(parts) <= 2 * COARSE else parts
 
 
-def _cuts(
+def _cut(
     points: Sequence[Point], lengths: Sequence[Fraction], spacing: Fraction | None
 ) -> tuple[list[Point], list[Fraction]]:
     """Return the points between the ends of a way, and the lengths of the pieces between them."""

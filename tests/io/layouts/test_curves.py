@@ -102,7 +102,11 @@ def loaded(path: Path, **robot: Any) -> Loaded:
         {"name": "R2", "home": "C", "target": "D", **robot},
     ]
     return read_scenario(
-        {"format": "rightofway-scenario/1", "map": {"layout": path.name}, "robots": robots},
+        {
+            "format": "rightofway-scenario/1",
+            "map": {"layout": path.name, "spacing": "whole"},  # curves are cut all the same
+            "robots": robots,
+        },
         path.parent,
     )
 

@@ -5,7 +5,7 @@ Each name is one that some program writes; the first that is there counts.
 
 from __future__ import annotations
 
-from rightofway.io.layouts.draft import DraftLane, LevelDraft
+from rightofway.io.layouts.draft import LevelDraft
 from rightofway.io.source import Source
 from rightofway.site.geometry import Point
 from rightofway.site.layout import LayoutVertex
@@ -35,12 +35,10 @@ def add_lanes(level: LevelDraft, own: Source, tail: str, head: str, both_ways: b
     length, max_speed = own.get(*LENGTHS), own.get(*SPEEDS)
     for start, end in ((tail, head), (head, tail)) if both_ways else ((tail, head),):
         level.connect(
-            DraftLane(
-                source=own,
-                tail=start,
-                head=end,
-                length=None if length is None else length.number(),
-                attribute="" if length is None else str(length.path[-1]),
-                max_speed=None if max_speed is None else max_speed.number(),
-            )
+            own,
+            start,
+            end,
+            length=None if length is None else length.number(),
+            attribute="" if length is None else str(length.path[-1]),
+            max_speed=None if max_speed is None else max_speed.number(),
         )

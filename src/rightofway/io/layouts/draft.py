@@ -7,6 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import groupby, pairwise
+from math import ceil, isqrt
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from rightofway.deadline import READING, limit_loop
 from rightofway.errors import InputError, find_nearest, is_printable, quote
@@ -20,7 +25,8 @@ from rightofway.site.geometry import (
     measure_squared_distance,
     measure_straight_length,
 )
-from rightofway.site.layout import Layout, LayoutEdge, LayoutVertex, Level, Station
+from rightofway.site.lane_table import BILLION, LaneKind, LaneShape, LaneTable
+from rightofway.site.layout import Layout, LayoutVertex, Level, Station
 from rightofway.site.zones import NamedZone
 
 MAX_VERTICES, MAX_EDGES = 200_000, 1_000_000
@@ -32,40 +38,73 @@ MICRO = 1_000_000
 NEAR = Fraction(1, 100)
 """How far the ends of a trajectory may be from its vertices [m]."""
 
-SHORTEST = Fraction(1, 1000)
-"""Length of a lane between two vertices at one position [m]."""
+SHORTEST = BILLION // 1000
+"""Length of a lane between two vertices at one position [billionths of a metre]."""
+
+LONGEST_FAST = 1_500_000_000
+"""Up to this difference of coordinates [micrometres], squares of distances fit 64 bits."""
+
+Integers = NDArray[Any]
+"""Whole numbers: int64, or of any size where they may not fit that."""
+
+Bools = NDArray[np.bool_]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class DraftLane:
-    """A lane as a file gives it.
+class Curve(NamedTuple):
+    """The curve that a lane is driven along.
 
     Attributes
     ----------
-    source
-        Where it stands in the file.
-    tail, head, max_speed, types, shape
-        As those of `LayoutEdge`.
-    length
-        Its length [m]; None for the straight distance.
-    attribute
-        Where that is an attribute of a graph, which may be no length, its name.
-    curve
-        Points of the curve that it is driven along, both ends included [m]; empty for none.
+    points
+        Points of the curve, both ends included [m].
     chord_error
-        How far at most that curve is from the straight lines between these points [m].
+        How far at most it is from the straight lines between these points [m].
     """
 
-    source: Source
-    tail: str
-    head: str
-    length: Fraction | None = None
-    attribute: str = ""
-    max_speed: Fraction | None = None
-    types: frozenset[str] | None = None
-    shape: tuple[Point, ...] = ()
-    curve: tuple[Point, ...] = ()
-    chord_error: Fraction = Fraction(0)
+    points: tuple[Point, ...]
+    chord_error: Fraction
+
+
+@dataclass(slots=True)
+class DraftLanes:
+    """The lanes that a file gives, as columns with an item for each lane.
+
+    Attributes
+    ----------
+    sources
+        Where it stands in the file.
+    tails, heads
+        Names of the vertices that it leaves and enters.
+    lengths
+        Its length [m]; None for the straight distance.
+    attributes
+        Where that is an attribute of a graph, which may be no length, its name.
+    kinds
+        What it has in common with others; an index into `kind_values`.
+    shapes, curves
+        How lanes are drawn and driven that are not straight, by index.
+    """
+
+    sources: list[Source] = field(default_factory=list)
+    tails: list[str] = field(default_factory=list)
+    heads: list[str] = field(default_factory=list)
+    lengths: list[Fraction | None] = field(default_factory=list)
+    attributes: list[str] = field(default_factory=list)
+    kinds: list[int] = field(default_factory=list)
+    kind_values: list[LaneKind] = field(default_factory=list)
+    shapes: dict[int, tuple[Point, ...]] = field(default_factory=dict)
+    curves: dict[int, Curve] = field(default_factory=dict)
+    # Fractions are slow to hash: lanes often share theirs, and are told apart by identity.
+    _kind_of: dict[tuple[int, int], int] = field(default_factory=dict)
+
+    def add_kind(self, max_speed: Fraction | None, types: frozenset[str] | None) -> int:
+        """Return the number of a kind."""
+        key = id(max_speed), id(types)
+        kind = self._kind_of.get(key)
+        if kind is None:
+            kind = self._kind_of[key] = len(self.kind_values)
+            self.kind_values.append(LaneKind(max_speed, types))  # which keeps both alive
+        return kind
 
 
 @dataclass(slots=True)
@@ -74,7 +113,7 @@ class LevelDraft:
 
     name: str
     vertices: dict[str, LayoutVertex] = field(default_factory=dict)
-    lanes: list[DraftLane] = field(default_factory=list)
+    lanes: DraftLanes = field(default_factory=DraftLanes)
     stations: list[Station] = field(default_factory=list)
     zones: list[NamedZone] = field(default_factory=list)
     picture: Picture | None = None
@@ -91,40 +130,34 @@ class LevelDraft:
             raise source.make_fault(f"more than {MAX_VERTICES} vertices (give a part of it)")
         self.vertices[vertex.name] = vertex
 
-    def connect(self, lane: DraftLane) -> None:
+    def connect(
+        self,
+        source: Source,
+        tail: str,
+        head: str,
+        *,
+        length: Fraction | None = None,
+        attribute: str = "",
+        max_speed: Fraction | None = None,
+        types: frozenset[str] | None = None,
+        shape: tuple[Point, ...] = (),
+        curve: Curve | None = None,
+    ) -> None:
         """Take a lane; InputError if there are too many."""
-        if len(self.lanes) == MAX_EDGES:
-            raise lane.source.make_fault(f"more than {MAX_EDGES} lanes (give a part of it)")
-        self.lanes.append(lane)
-
-
-def _in_micrometres(point: Point) -> tuple[int, int]:
-    return int(point[0] * MICRO), int(point[1] * MICRO)
-
-
-def _square(start: tuple[int, int], other: tuple[int, int]) -> int:
-    """Return the squared distance of two points; whole numbers are quicker than fractions."""
-    return (start[0] - other[0]) ** 2 + (start[1] - other[1]) ** 2
-
-
-def _is_short(length: Fraction, square: int) -> bool:
-    """Return whether a length is below the straight one by more than rounding makes of it."""
-    above, below = length.numerator, length.denominator
-    step, part = SHORTEST.numerator * MICRO, SHORTEST.denominator
-    # ((length + SHORTEST) * MICRO) ** 2 < square, in whole numbers
-    return above < 0 or (above * part * MICRO + below * step) ** 2 < square * (below * part) ** 2
-
-
-class _Straight(dict[int, Fraction]):
-    """The straight length [m] of each squared distance [square micrometres]."""
-
-    def __init__(self, step: Fraction) -> None:
-        super().__init__({0: Fraction(0)})
-        self.step = step
-
-    def __missing__(self, square: int) -> Fraction:
-        self[square] = length = measure_straight_length(Fraction(square, MICRO**2), self.step)
-        return length
+        lanes = self.lanes
+        number = len(lanes.tails)
+        if number == MAX_EDGES:
+            raise source.make_fault(f"more than {MAX_EDGES} lanes (give a part of it)")
+        lanes.sources.append(source)
+        lanes.tails.append(tail)
+        lanes.heads.append(head)
+        lanes.lengths.append(length)
+        lanes.attributes.append(attribute)
+        lanes.kinds.append(lanes.add_kind(max_speed, types))
+        if shape:
+            lanes.shapes[number] = shape
+        if curve is not None:
+            lanes.curves[number] = curve
 
 
 class LayoutDraft:
@@ -149,9 +182,9 @@ class LayoutDraft:
         self.levels.append(LevelDraft(name))
         return self.levels[-1]
 
-    def repair(self, mending: Phrase) -> None:
-        """Note that something was mended or left out; equal notes are say_count."""
-        self.repairs[mending] += 1
+    def repair(self, mending: Phrase, count: int = 1) -> None:
+        """Note that something was mended or left out; equal notes are counted."""
+        self.repairs[mending] += count
 
     def make_layout(self) -> Layout:
         """Return the layout.
@@ -163,8 +196,8 @@ class LayoutDraft:
         """
         elsewhere = {name for level in self.levels for name in level.vertices}
         if self.faults.found:  # lanes to vertices with a fault are no further faults
-            elsewhere.update(end for level in self.levels for lane in level.lanes
-                             for end in (lane.tail, lane.head))  # fmt: skip
+            for level in self.levels:
+                elsewhere.update(level.lanes.tails, level.lanes.heads)
         levels = [self._finish(level, elsewhere) for level in self.levels if level.vertices]
         self.faults.stop()
         if not levels:
@@ -178,111 +211,15 @@ class LayoutDraft:
         return Layout(kind=self.kind, levels=tuple(levels), notes=tuple(notes))
 
     def _finish(self, level: LevelDraft, elsewhere: set[str]) -> Level:
-        vertices, edges, links = level.vertices, list[LayoutEdge](), 0
-        micro = {name: _in_micrometres(vertex.at) for name, vertex in vertices.items()}
-        squares = [
-            _square(micro[lane.tail], micro[lane.head])
-            if lane.tail in vertices and lane.head in vertices
-            else 0
-            for lane in limit_loop(level.lanes, READING)
-        ]
-        nearest_ends = min((square for square in squares if square), default=0)
-        straight = _Straight(choose_rounding_step([Fraction(nearest_ends, MICRO**2)]))
-        no_lengths = self._no_lengths(level.lanes, squares)
-        for lane, square in limit_loop(zip(level.lanes, squares, strict=True), READING):
-            missing = [end for end in (lane.tail, lane.head) if end not in vertices]
-            if any(end not in elsewhere for end in missing):
-                near = find_nearest(missing[0], vertices)
-                hint = f"did you mean {near!r}?" if near else "name one that the file has"
-                message = f"no vertex is named {quote(missing[0])} ({hint})"
-                self.faults.note(lane.source.location, message)
-            elif missing:
-                links += 1
-            elif lane.tail == lane.head:
-                self.repair(Phrase("a lane from a vertex to itself is left out"))
-            elif lane.max_speed is not None and lane.max_speed <= 0:
-                message = f"speed limit {lane.max_speed} is not positive (give m/s)"
-                self.faults.note(lane.source.location, message)
-            else:
-                length = None if lane.attribute in no_lengths else lane.length
-                edge = self._edge(lane, length, square, straight[square])
-                if lane.curve:
-                    edge = self._add_curve(edge, lane, vertices)
-                edges.append(edge)
+        edges, links = _LaneFinisher(self, level).finish(elsewhere)
         return Level(
             name=level.name,
-            vertices=tuple(vertices.values()),
-            edges=tuple(edges),
+            vertices=tuple(level.vertices.values()),
+            edges=edges,
             stations=tuple(self._usable_stations(level)),
             zones=tuple(self._usable_zones(level)),
             links=links,
             picture=level.picture,
-        )
-
-    def _no_lengths(self, lanes: Sequence[DraftLane], squares: Sequence[int]) -> set[str]:
-        """Return attributes that contradict the positions of one lane: they mean something else."""
-        wrong = Counter(
-            lane.attribute
-            for lane, square in zip(lanes, squares, strict=True)
-            if lane.attribute and lane.length is not None and _is_short(lane.length, square)
-        )
-        for name, count in wrong.items():
-            self.repair(
-                Phrase(
-                    "the attribute {attribute} is no length: by it, {lanes} shorter than the"
-                    " straight line; all lanes get the straight length",
-                    attribute=quote(name),
-                    lanes=say_count(count, "lane is", "lanes are"),
-                )
-            )
-        return set(wrong)
-
-    def _edge(
-        self, lane: DraftLane, length: Fraction | None, square: int, straight: Fraction
-    ) -> LayoutEdge:
-        if square == 0:
-            self.repair(Phrase("a lane between two vertices at one position counts as 1 mm long"))
-            length = max(length or SHORTEST, SHORTEST)
-        elif length is not None and length < straight:
-            if _is_short(length, square):
-                self.repair(
-                    Phrase("a lane shorter than the straight line gets the straight length")
-                )
-            length = None
-        return LayoutEdge(
-            tail=lane.tail,
-            head=lane.head,
-            length=straight if length is None else length,
-            max_speed=lane.max_speed,
-            types=lane.types,
-            shape=lane.shape,
-        )
-
-    def _add_curve(
-        self, edge: LayoutEdge, lane: DraftLane, vertices: dict[str, LayoutVertex]
-    ) -> LayoutEdge:
-        """Return an edge with its curve, if that leads from its tail to its head."""
-        ends = vertices[lane.tail].at, vertices[lane.head].at
-        gaps = (
-            measure_squared_distance(*gap)
-            for gap in zip(ends, (lane.curve[0], lane.curve[-1]), strict=True)
-        )
-        if max(gaps) > NEAR**2:
-            self.repair(
-                Phrase("a trajectory that does not lead from start to end counts as straight")
-            )
-            return edge
-        points = [at for at, _ in groupby((ends[0], *lane.curve[1:-1], ends[1]))]
-        squares = [measure_squared_distance(*pair) for pair in pairwise(points)]
-        step = choose_rounding_step(squares)
-        return replace(
-            edge,
-            length=max(
-                edge.length,
-                sum((measure_straight_length(square, step) for square in squares), Fraction(0)),
-            ),
-            shape=tuple(points[1:-1]),
-            chord_error=lane.chord_error,
         )
 
     def _usable_stations(self, level: LevelDraft) -> list[Station]:
@@ -310,3 +247,209 @@ class LayoutDraft:
             else:
                 zones[zone.name] = replace(zone, vertices=vertices)
         return list(zones.values())
+
+
+class _LaneFinisher:
+    """The lanes of a level made fit to drive along, all at once."""
+
+    def __init__(self, draft: LayoutDraft, level: LevelDraft) -> None:
+        self.draft, self.level, self.lanes = draft, level, level.lanes
+        ids = {name: number for number, name in enumerate(level.vertices)}
+        self.tails, self.heads = (
+            np.array([ids.get(name, -1) for name in limit_loop(names, READING)], np.int32)
+            for names in (self.lanes.tails, self.lanes.heads)
+        )
+        self.is_here = (self.tails >= 0) & (self.heads >= 0)
+        self.squares = self._measure_squares()
+        self.roots = _find_roots(self.squares)
+        self.repairs: list[tuple[int, Phrase, int]] = []
+
+    def _measure_squares(self) -> Integers:
+        """Return the squared distance of the ends of each lane [square micrometres]."""
+        at = np.array(
+            [[int(number * MICRO) for number in vertex.at]
+             for vertex in self.level.vertices.values()], np.int64
+        )  # fmt: skip
+        steps = at[self.tails] - at[self.heads]
+        steps[~self.is_here] = 0
+        if np.abs(steps).max(initial=0) > LONGEST_FAST:
+            steps = steps.astype(object)
+        squares: Integers = steps[:, 0] ** 2 + steps[:, 1] ** 2
+        return squares
+
+    def finish(self, elsewhere: set[str]) -> tuple[LaneTable, int]:
+        """Return the lanes of the level, and how many lead to other levels."""
+        is_kept, links = self._leave_out(elsewhere)
+        lengths = self._choose_lengths(is_kept)
+        lanes_kept = np.flatnonzero(is_kept)
+        shapes, lengths = self._draw_curves(is_kept, lengths)
+        for _, mending, count in sorted(self.repairs, key=lambda repair: repair[0]):
+            self.draft.repair(mending, count)
+        new_number = np.cumsum(is_kept) - 1
+        kinds = np.array(self.lanes.kinds, np.int32)[lanes_kept]
+        return (
+            LaneTable(
+                names=tuple(self.level.vertices),
+                tails=self.tails[lanes_kept],
+                heads=self.heads[lanes_kept],
+                lengths=lengths[lanes_kept].astype(np.int64),
+                kind_of_lane=kinds,
+                kinds=tuple(self.lanes.kind_values),
+                shapes={int(new_number[lane]): shape for lane, shape in sorted(shapes.items())},
+            ),
+            links,
+        )
+
+    def _leave_out(self, elsewhere: set[str]) -> tuple[Bools, int]:
+        """Return the lanes that can be driven along, and count those to other levels."""
+        lanes, vertices, links = self.lanes, self.level.vertices, 0
+        is_loop = self.is_here & (self.tails == self.heads)
+        limits = [kind.max_speed for kind in lanes.kind_values]
+        is_slow = np.array([limit is not None and limit <= 0 for limit in limits], bool)
+        kinds = np.array(lanes.kinds, np.int32)
+        is_kept = self.is_here & ~is_loop
+        if is_slow.any():
+            is_kept &= ~is_slow[kinds]
+        for lane in np.flatnonzero(~is_kept).tolist():
+            ends = (lanes.tails[lane], lanes.heads[lane])
+            missing = [end for end in ends if end not in vertices]
+            if any(end not in elsewhere for end in missing):
+                near = find_nearest(missing[0], vertices)
+                hint = f"did you mean {near!r}?" if near else "name one that the file has"
+                message = f"no vertex is named {quote(missing[0])} ({hint})"
+                self.draft.faults.note(lanes.sources[lane].location, message)
+            elif missing:
+                links += 1
+            elif not is_loop[lane]:
+                message = f"speed limit {limits[kinds[lane]]} is not positive (give m/s)"
+                self.draft.faults.note(lanes.sources[lane].location, message)
+        mending = Phrase("a lane from a vertex to itself is left out")
+        self._repair(is_loop, mending)
+        return is_kept, links
+
+    def _repair(self, lanes: Bools, mending: Phrase) -> None:
+        """Note how many lanes were mended, in the order in which they stand in the file."""
+        if lanes.any():
+            self.repairs.append((int(lanes.argmax()), mending, int(lanes.sum())))
+
+    def _choose_lengths(self, is_kept: Bools) -> Integers:
+        """Return the length of each lane [billionths of a metre], not below the straight one."""
+        nearest_ends = min(self.squares[self.squares > 0], default=0)
+        step = choose_rounding_step([Fraction(int(nearest_ends), MICRO**2)])
+        straight = _measure_straight(self.squares, self.roots, step)
+        given = self._read_lengths()
+        has_length = np.array([length is not None for length in self.lanes.lengths], bool)
+        is_short = has_length & _is_short(given, self.squares, self.roots)
+        has_length &= ~self._find_no_lengths(is_short)
+        at_one_place = is_kept & (self.squares == 0)
+        message = "a lane between two vertices at one position counts as 1 mm long"
+        self._repair(at_one_place, Phrase(message))
+        is_short &= is_kept & has_length & ~at_one_place
+        message = "a lane shorter than the straight line gets the straight length"
+        self._repair(is_short, Phrase(message))
+        lengths = np.where(has_length, np.maximum(given, straight), straight)
+        return np.where(at_one_place, np.maximum(lengths, SHORTEST), lengths)
+
+    def _read_lengths(self) -> Integers:
+        """Return the lengths that are given [billionths of a metre], rounded up; else 0."""
+        # By identity: fractions are slow to hash, and lanes often share theirs.
+        length_of = {id(length): length for length in self.lanes.lengths}
+        whole = {
+            key: 0 if length is None else ceil(length * BILLION)
+            for key, length in length_of.items()
+        }
+        return _as_integers([whole[id(length)] for length in self.lanes.lengths])
+
+    def _find_no_lengths(self, is_short: Bools) -> Bools:
+        """Return lanes with an attribute that contradicts the positions of one lane.
+
+        The attribute means something else.
+        """
+        wrong = Counter(
+            name for name in (self.lanes.attributes[k] for k in np.flatnonzero(is_short)) if name
+        )
+        for name, count in wrong.items():
+            self.draft.repair(
+                Phrase(
+                    "the attribute {attribute} is no length: by it, {lanes} shorter than the"
+                    " straight line; all lanes get the straight length",
+                    attribute=quote(name),
+                    lanes=say_count(count, "lane is", "lanes are"),
+                )
+            )
+        if not wrong:
+            return np.zeros(len(is_short), bool)
+        return np.array([name in wrong for name in self.lanes.attributes], bool)
+
+    def _draw_curves(
+        self, is_kept: Bools, lengths: Integers
+    ) -> tuple[dict[int, LaneShape], Integers]:
+        """Return how lanes are drawn, and lengths that are not below those of their curves."""
+        shapes = {
+            lane: LaneShape(points, None)
+            for lane, points in self.lanes.shapes.items()
+            if is_kept[lane]
+        }
+        lost, lengths = np.zeros(len(is_kept), bool), lengths.copy()
+        for lane, curve in self.lanes.curves.items():
+            if is_kept[lane]:
+                points = self._connect_curve(lane, curve)
+                if points is None:
+                    lost[lane] = True
+                    continue
+                shapes[lane] = LaneShape(tuple(points[1:-1]), curve.chord_error)
+                squares = [measure_squared_distance(*pair) for pair in pairwise(points)]
+                step = choose_rounding_step(squares)
+                along = sum(measure_straight_length(square, step) for square in squares)
+                lengths[lane] = max(lengths[lane], int(along * BILLION))
+        message = "a trajectory that does not lead from start to end counts as straight"
+        self._repair(lost, Phrase(message))
+        return shapes, lengths
+
+    def _connect_curve(self, lane: int, curve: Curve) -> list[Point] | None:
+        """Return the points along a curve, if that leads from the tail of a lane to its head."""
+        vertices = self.level.vertices
+        tail, head = vertices[self.lanes.tails[lane]].at, vertices[self.lanes.heads[lane]].at
+        first, *inside, last = curve.points
+        gaps = (measure_squared_distance(*gap) for gap in ((tail, first), (head, last)))
+        if max(gaps) > NEAR**2:
+            return None
+        return [at for at, _ in groupby((tail, *inside, head))]
+
+
+def _as_integers(values: Sequence[int]) -> Integers:
+    return np.array(values, np.int64)
+
+
+def _find_roots(squares: Integers) -> Integers:
+    """Return the square roots of whole numbers, rounded down; exact."""
+    if squares.dtype == object:
+        return np.array([isqrt(square) for square in squares.tolist()], object)
+    roots: Integers = np.sqrt(squares).astype(np.int64)
+    roots -= roots**2 > squares  # what rounding has added
+    roots += (roots + 1) ** 2 <= squares
+    return roots
+
+
+def _measure_straight(squares: Integers, roots: Integers, step: Fraction) -> Integers:
+    """Return straight lengths [billionths of a metre], as `measure_straight_length` does.
+
+    Squares are in square micrometres, their roots in micrometres.
+    """
+    micro = int(step * MICRO)
+    steps = -(-squares // micro**2)
+    whole = _find_roots(steps)
+    whole += whole**2 < steps
+    lengths = np.where(roots**2 == squares, roots, whole * micro) * (BILLION // MICRO)
+    return lengths.astype(np.int64)
+
+
+def _is_short(lengths: Integers, squares: Integers, roots: Integers) -> Bools:
+    """Return which lengths are below the straight ones by more than rounding makes of them."""
+    longer, unit = lengths + SHORTEST, BILLION // MICRO
+    is_short = longer < unit * roots
+    unsure = np.flatnonzero(~is_short & (longer < unit * (roots + 1)))  # roots are rounded down
+    is_short[unsure] = [
+        int(longer[lane]) ** 2 < int(squares[lane]) * unit**2 for lane in unsure.tolist()
+    ]
+    return (is_short | (lengths < 0)).astype(bool)

@@ -18,15 +18,11 @@ from typing import Any
 import numpy as np
 
 from rightofway.errors import InputError
-from rightofway.io.layouts.draft import MICRO, DraftLane, LayoutDraft, LevelDraft
+from rightofway.io.layouts.draft import MICRO, Curve, LayoutDraft, LevelDraft
 from rightofway.io.layouts.nurbs import CHORD_ERROR, Nurbs
 from rightofway.io.source import Source
 from rightofway.phrases import Phrase
-from rightofway.site.geometry import Point
 from rightofway.site.layout import Layout, LayoutVertex, Station
-
-Curve = tuple[tuple[Point, ...], Fraction]
-"""Points of a curve [m], and how far it is from the lines between them [m]."""
 
 NODE_PROPERTIES = ("vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties")
 EDGE_PROPERTIES = ("vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties")
@@ -124,25 +120,15 @@ def _add_edge(level: LevelDraft, edge: Source, draft: LayoutDraft) -> None:
     own = edge.read_items_under(*EDGE_PROPERTIES)
     if not own:
         draft.repair(Phrase("an edge without a vehicle type is free for all"))
-        level.connect(DraftLane(source=edge, tail=tail, head=head))
-    ways: dict[tuple[Fraction | None, Curve], set[str]] = {}
+        level.connect(edge, tail, head)
+    ways: dict[tuple[Fraction | None, Curve | None], set[str]] = {}
     for properties in own:
         speed = properties.get(*SPEEDS)
         limit = None if speed is None else speed.number()
         limit_and_curve = limit, _curve(properties, draft)
         ways.setdefault(limit_and_curve, set()).update(_types(properties))
-    for (limit, (curve, error)), types in ways.items():  # one lane for all types with one way
-        level.connect(
-            DraftLane(
-                source=edge,
-                tail=tail,
-                head=head,
-                max_speed=limit,
-                types=frozenset(types),
-                curve=curve,
-                chord_error=error,
-            )
-        )
+    for (limit, curve), types in ways.items():  # one lane for all types with one way
+        level.connect(edge, tail, head, max_speed=limit, types=frozenset(types), curve=curve)
 
 
 def _types(own: Source) -> list[str]:
@@ -153,23 +139,23 @@ def _types(own: Source) -> list[str]:
     return [robot_type.need("seriesName").read_text() for robot_type in series.read_items()]
 
 
-def _curve(own: Source, draft: LayoutDraft) -> Curve:
-    """Return points of a trajectory [m], and how far it is from the lines between them [m]."""
+def _curve(own: Source, draft: LayoutDraft) -> Curve | None:
+    """Return the curve of a trajectory, if there is one that can be read."""
     trajectory = own.get("trajectory")
     if trajectory is None:
-        return (), Fraction(0)
+        return None
     try:
         nurbs = _nurbs(trajectory)
         pieces = nurbs.cut_pieces()
     except (InputError, ValueError):
         draft.repair(Phrase("a trajectory that cannot be read: its edge counts as straight"))
-        return (), Fraction(0)
+        return None
     points = tuple(
         (Fraction(round(x * MICRO), MICRO), Fraction(round(y * MICRO), MICRO))
         for x, y in pieces.tolist()
     )
     error = Fraction(repr(CHORD_ERROR)) if nurbs.degree > 1 else Fraction(0)
-    return points, error
+    return Curve(points, error)
 
 
 def _nurbs(trajectory: Source) -> Nurbs:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from rightofway.errors import InputError, quote
-from rightofway.io.layouts.draft import DraftLane, LayoutDraft, LevelDraft
+from rightofway.io.layouts.draft import LayoutDraft, LevelDraft
 from rightofway.io.source import Source
 from rightofway.phrases import Phrase
 from rightofway.site.geometry import Point
@@ -70,13 +70,11 @@ def _add_edge(level: LevelDraft, feature: Source, draft: LayoutDraft) -> None:
             Phrase("a speed_limit counts as m/s; Nav2 may be set to read it as a percentage")
         )
     level.connect(
-        DraftLane(
-            source=feature,
-            tail=own.need("startid").read_text(),
-            head=own.need("endid").read_text(),
-            max_speed=max_speed,
-            shape=_shape(feature.need("geometry"), draft),
-        )
+        feature,
+        own.need("startid").read_text(),
+        own.need("endid").read_text(),
+        max_speed=max_speed,
+        shape=_shape(feature.need("geometry"), draft),
     )
 
 

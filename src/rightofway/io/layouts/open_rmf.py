@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError, join_names, quote
-from rightofway.io.layouts.draft import DraftLane, LayoutDraft, LevelDraft
+from rightofway.io.layouts.draft import LayoutDraft, LevelDraft
 from rightofway.io.source import Source
 from rightofway.phrases import Phrase
 from rightofway.site.drawing import Picture
@@ -135,7 +135,7 @@ def _read_level(
     for lane in lanes:
         draft.faults.attempt("", _add_lane, level, lane, names, groups, has_graphs)
     if transform is not None:  # corners of walls and floors are no vertices of the graph
-        ends = {name for lane in level.lanes for name in (lane.tail, lane.head)}
+        ends = {*level.lanes.tails, *level.lanes.heads}
         level.vertices = {name: vertex for name, vertex in level.vertices.items() if name in ends}
     for name, (vertices, edges) in groups.items():
         level.zones.append(NamedZone(name=name, vertices=tuple(vertices), edges=tuple(edges)))
@@ -204,9 +204,7 @@ def _add_lane(
     types = frozenset([f"graph {_name_in(own, 'graph_idx', lane)}"]) if has_graphs else None
     max_speed = speed if speed > 0 else None
     for start, end in ((tail, head), (head, tail)) if both else ((tail, head),):
-        level.connect(
-            DraftLane(source=lane, tail=start, head=end, max_speed=max_speed, types=types)
-        )
+        level.connect(lane, start, end, max_speed=max_speed, types=types)
         if own.get("mutex"):
             groups.setdefault(_name_in(own, "mutex", lane), ([], []))[1].append((start, end))
 

@@ -10,7 +10,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from rightofway.errors import quote
-from rightofway.io.layouts.draft import DraftLane, LayoutDraft, LevelDraft
+from rightofway.io.layouts.draft import LayoutDraft, LevelDraft
 from rightofway.io.layouts.xml_tree import Element
 from rightofway.phrases import Phrase
 from rightofway.site.layout import Layout, LayoutVertex, Station
@@ -94,15 +94,7 @@ def _add_path(
     for ends, speed in zip(((tail, head), (head, tail)), speeds, strict=True):
         if speed > 0:
             lanes.append(ends)
-            level.connect(
-                DraftLane(
-                    source=path,
-                    tail=ends[0],
-                    head=ends[1],
-                    length=length,
-                    max_speed=speed * MILLIMETRE,
-                )
-            )
+            level.connect(path, *ends, length=length, max_speed=speed * MILLIMETRE)
 
 
 def _add_location(level: LevelDraft, location: Element, draft: LayoutDraft) -> list[str]:

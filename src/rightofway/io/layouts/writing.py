@@ -15,7 +15,8 @@ from rightofway.arguments import checks_arguments, get_value
 from rightofway.errors import InputError, join_names
 from rightofway.io.text import format_json_line
 from rightofway.site.geometry import Point, measure_squared_distance
-from rightofway.site.layout import Layout, LayoutEdge, LayoutVertex, Level
+from rightofway.site.lane_table import LayoutEdge
+from rightofway.site.layout import Layout, LayoutVertex, Level
 
 LISTS = {"layouts", "nodes", "edges", "stations", "features"}
 """Keys of lists that are spread over lines."""

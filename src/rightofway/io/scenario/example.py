@@ -13,8 +13,8 @@ from rightofway.errors import InputError
 from rightofway.io.faults import validate
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.layouts import read_layout
+from rightofway.io.scenario.layouts import make_map_of_layout
 from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap
-from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.writer import format_yaml
 from rightofway.io.text import format_json
 from rightofway.metrics.connectivity import find_strong_parts, list_ways
@@ -81,8 +81,9 @@ def format_example(path: Path | str, target: Path | str, radius: Fraction = Frac
         shape["cell_size"] = _cell_size(layout, radius)
     from rightofway.io.scenario.shape import MapDocument
 
-    loaded = map_of(validate(MapDocument, shape), beside, Units(), FleetTraits(radius=radius))
-    assert loaded, "only a floor needs speeds"
+    loaded = make_map_of_layout(
+        validate(MapDocument, shape), layout, path, Units(), FleetTraits(radius=radius)
+    )
     document = {
         "format": SCENARIO_FORMAT,
         "map": shape,
@@ -109,7 +110,8 @@ def _cell_size(occupancy: Occupancy, radius: Fraction) -> str:
 def _robots(loaded: LoadedMap, level: Level | None, radius: Fraction) -> list[dict[str, Any]]:
     """Return robots with homes and targets in the largest part whose vertices reach each other."""
     roadmap = loaded.roadmap
-    part = find_strong_parts(list_ways(roadmap))[0]
+    joints = {joint for lane in roadmap.lanes for joint in lane.joints}
+    part = [vertex for vertex in find_strong_parts(list_ways(roadmap))[0] if vertex not in joints]
     inside, stations, parking = set(part), dict[int, str](), list[int]()
     if level is not None:
         ids = {roadmap.name(vertex): vertex for vertex in part}

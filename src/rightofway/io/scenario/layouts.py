@@ -12,7 +12,7 @@ from rightofway.io.layouts import read_layout
 from rightofway.io.scenario.loaded_map import (
     FleetTraits,
     LoadedMap,
-    note_on_crossed,
+    note_on_chosen_pieces,
     note_on_curves,
     note_on_squares,
 )
@@ -37,12 +37,23 @@ def map_of_layout(
     units: Units,
     fleet: FleetTraits,
 ) -> LoadedMap:
-    """Return the map of a layout's file.
+    """Return the map of a layout's file."""
+    with locate_faults("layout"):
+        layout = read_layout(file)
+    return make_map_of_layout(document, layout, file, units, fleet)
+
+
+def make_map_of_layout(
+    document: MapDocument,
+    layout: Layout | Occupancy | CellMap,
+    file: Path,
+    units: Units,
+    fleet: FleetTraits,
+) -> LoadedMap:
+    """Return the map of a layout that was read from a file.
 
     Layouts are in metres and seconds; a scenario that names no units has these.
     """
-    with locate_faults("layout"):
-        layout = read_layout(file)
     if isinstance(layout, CellMap):
         return _map_of_cells(document, layout, file)
     units = Units(length=units.length or "m", time=units.time or "s")
@@ -68,7 +79,7 @@ def map_of_layout(
             *layout.notes,
             *level_map.notes,
             *note_on_curves(level_map.curves, level_map.chord_error, units),
-            *note_on_crossed(level_map.split, units),
+            *note_on_chosen_pieces(level_map.split, units),
         )
         return LoadedMap(
             roadmap=roadmap,

@@ -26,7 +26,7 @@ class FleetTraits:
     radius
         The largest radius, for maps that are pictures and for curves [length unit].
     clearance
-        The least distance between two robots, for lanes that cross [length unit].
+        The least distance between two robots, for pieces of lanes [length unit].
     types
         The types of all robots, for layouts whose lanes are reserved for types; None stands for a
         robot without one.
@@ -121,14 +121,14 @@ def note_on_rounding(rounded: int, lengths: int, step: Fraction, units: Units) -
     )
 
 
-def note_on_crossed(split: SplitLanes, units: Units) -> Iterator[Phrase]:
-    """Yield a sentence on the lanes that are split because others cross them, if there are any."""
-    if split.crossed:
+def note_on_chosen_pieces(split: SplitLanes, units: Units) -> Iterator[Phrase]:
+    """Yield a sentence on the lanes that are split though the map does not say it, if any are."""
+    if split.chosen:
         assert split.spacing is not None, "they are split into pieces"
         yield Phrase(
-            "{lanes} booked in pieces of at most {length}, because others cross far from the ends"
-            " (spacing: whole keeps lanes whole)",
-            lanes=say_count(split.crossed, "lane is", "lanes are"),
+            "{lanes} booked in pieces of at most {length}, so that robots can follow and cross"
+            " each other there (spacing: whole keeps lanes whole)",
+            lanes=say_count(split.chosen, "lane is", "lanes are"),
             length=units.format_length(split.spacing),
         )
 

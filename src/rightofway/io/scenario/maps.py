@@ -16,7 +16,7 @@ from rightofway.io.movingai import load_map
 from rightofway.io.scenario.loaded_map import (
     FleetTraits,
     LoadedMap,
-    note_on_crossed,
+    note_on_chosen_pieces,
     note_on_curves,
     note_on_squares,
 )
@@ -35,13 +35,13 @@ from rightofway.site import (
     cluster,
     compute_node_length,
     make_grid_roadmap,
-    make_roadmap,
     measure_squared_distance,
     measure_straight_length,
 )
 from rightofway.site.clustering import MAX_CELLS, free_cells
 from rightofway.site.drawing import Drawing
-from rightofway.site.spacing import SplitLanes, find_pieces, refuse_many_pieces, split_lanes
+from rightofway.site.edges import make_roadmap_of_table
+from rightofway.site.spacing import find_pieces, refuse_many_pieces, split_lanes
 from rightofway.site.zones import NamedZone
 
 if TYPE_CHECKING:
@@ -272,10 +272,9 @@ def _map_of_roadmap(
     has_sizes = fleet.radius > 0
     is_cut = bool(curves) and has_sizes
     distance = on.choose_distance(fleet.distance) if document.sides is None else Fraction(0)
-    split = SplitLanes(positions, edges, {})
-    if on.longest_piece is not None or is_cut or distance > 0:
-        shapes = _shapes(curves, positions, on.longest_piece, has_sizes)
-        split = split_lanes(positions, edges, on.longest_piece, shapes, distance=distance)
+    is_split = on.longest_piece is not None or is_cut or distance > 0
+    shapes = _shapes(curves, positions, on.longest_piece, has_sizes) if is_split else {}
+    split = split_lanes(positions, edges, on.longest_piece, shapes, distance=distance)
     written_pieces = {
         ends: [part for piece in pieces for part in split.pieces.get(piece, (piece,))]
         for ends, pieces in find_pieces(
@@ -287,7 +286,7 @@ def _map_of_roadmap(
     frame = Frame(x=left, y=low, y_up=on.y_up, yaw=on.yaw or Fraction(0))
     sides = None if document.sides is None else [float(side) for side in document.sides]
     rounded = sum((lengths[index] or 0) ** 2 != square for index, square in squares.items())
-    roadmap = make_roadmap(
+    roadmap = make_roadmap_of_table(
         drawn,
         split.edges,
         y_up=on.y_up,
@@ -309,7 +308,7 @@ def _map_of_roadmap(
         chord_error=error,
         notes=(
             *(note_on_curves(len({*map(frozenset, curves)}), error, units) if is_cut else ()),
-            *note_on_crossed(split, units),
+            *note_on_chosen_pieces(split, units),
         ),
     )
 

@@ -258,7 +258,7 @@ class MapDocument(Document):
     spacing: Spacing = Field(
         default="auto",
         description="how edges of a roadmap are split into pieces: longer ones than a length"
-        " [length unit]; auto: those that others cross, for robots with a size; whole: none",
+        " [length unit]; auto: long ones, for robots with a size; whole: none",
     )
     picture: PictureDocument = make_optional(
         "{file, scale, origin, opacity}: a picture below the map"
@@ -313,7 +313,7 @@ class MapDocument(Document):
         return self.spacing if isinstance(self.spacing, Fraction) else None
 
     def choose_distance(self, distance: Fraction) -> Fraction:
-        """Return the least distance of robots for which crossed lanes are split; 0 for none."""
+        """Return the least distance of robots for which long lanes are split; 0 for none."""
         return distance if self.spacing == "auto" else Fraction(0)
 
 
