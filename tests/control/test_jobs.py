@@ -269,3 +269,42 @@ def test_laps_are_driven_round_what_is_closed() -> None:
     floor.drive(400)
     assert own.laps_done > before + 4
     assert "N1" not in places_of(floor)[1 : own.released + 2 - own.arrived]
+
+
+def test_replanned_laps_leave_no_robot_behind() -> None:
+    """R1 drives by the home of R2, which goes aside once for as many laps as are planned.
+
+    R2 has few visits before it then, whatever it has to do. If laps were added for that reason, or
+    if all was planned again with each lap, R2 would wait for ever longer laps of R1.
+
+              D   E2 ─── E3
+              │   │      │
+          A ─ B ─ C ─ E1 ─ F
+    """
+    places = {"A": [0, 0], "B": [1, 0], "C": [2, 0], "D": [1, 1], "E1": [3, 0], "F": [4, 0]}
+    lanes = [["A", "B"], ["B", "C"], ["B", "D"], ["C", "E1"], ["E1", "F"]]
+    places |= {"E2": [2, 1], "E3": [3, 2]}
+    lanes += [["C", "E2"], ["E2", "E3"], ["E3", "F"]]
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {"roadmap": {"vertices": places, "edges": lanes}},
+        "rules": {"rotations": False},
+        "robots": [
+            {"name": "R1", "home": "A", "target": "F"},
+            {"name": "R2", "home": "B", "target": "B"},
+        ],
+    }
+    plan = rightofway.solve(parse_scenario(document), "prioritized")
+    assert [len(track) for track in plan.tracks] == [9, 3]
+    laps, control = LapsToDrive(plan), FleetControl(MemoryJournal())
+    dispatcher = Dispatcher(control, plan, laps, planner="prioritized", time_limit=None)
+    dispatcher.begin("run")
+    floor = Floor(dispatcher)
+    floor.send(Operator(dispatcher).close("E1"))
+    for steps in (30, 30):
+        floor.drive(steps)
+        assert all(len(own.route.places) <= 30 for own in control.ledger.robots)
+    r1, r2 = control.ledger.robots
+    assert r1.laps_done >= 2
+    assert r2.arrived >= 2 * r1.laps_done
+    assert "E1" not in places_of(floor)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -10,7 +11,13 @@ from rightofway.control.routes import RouteToDrive
 from rightofway.model import Scenario
 from rightofway.model.route import compute_drives_along
 
-__all__ = ["RobotCommitment", "StopToMake", "list_stops_to_make", "make_robot_commitment"]
+__all__ = [
+    "RobotCommitment",
+    "StopToMake",
+    "find_last_open",
+    "list_stops_to_make",
+    "make_robot_commitment",
+]
 
 
 class StopToMake(NamedTuple):
@@ -40,6 +47,24 @@ def list_stops_to_make(own: RobotLedger, released: int) -> list[StopToMake]:
         if visit in own.route.lap_ends:
             stops.append(StopToMake(place, ends_lap=True))
     return stops
+
+
+def find_last_open(own: RobotLedger, last: int, closed: Collection[tuple[str, str]]) -> int:
+    """Return the visit up to which a robot enters nothing that is closed, ``last`` at most.
+
+    Parameters
+    ----------
+    own
+        What is known of the robot; what is released to it is looked at no more.
+    last
+        A visit of its route.
+    closed
+        Edges that robots shall not enter any more, as names of their vertices.
+    """
+    visit, route = own.released, own.route
+    while visit < last and (route.get_place(visit), route.get_place(visit + 1)) not in closed:
+        visit += 1
+    return visit
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

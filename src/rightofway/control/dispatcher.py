@@ -9,9 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from itertools import pairwise
 
-from rightofway.control.commitments import StopToMake, list_stops_to_make
+from rightofway.control.commitments import StopToMake, find_last_open, list_stops_to_make
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.journal import Entry
 from rightofway.control.laps import LapsToDrive, build_graph_behind_released
@@ -19,7 +20,7 @@ from rightofway.control.ledger import Ledger
 from rightofway.control.messages import Message
 from rightofway.control.rest import RestPlanner
 from rightofway.control.robot_ledger import RobotLedger
-from rightofway.control.routes import make_routes_to_drive
+from rightofway.control.routes import RouteToDrive, make_routes_to_drive
 from rightofway.errors import GaveUp
 from rightofway.model import Plan
 from rightofway.precedence import Part, ReleaseGraph
@@ -93,18 +94,55 @@ class Dispatcher:
 
     def _dispatch(self) -> list[Message]:
         """Add laps where robots come to the end of theirs."""
-        routes = self._laps.extend(self.ledger.robots) if self._laps else None
+        robots = self.ledger.robots
+        routes = self._laps.extend(robots) if self._laps else None
         if routes is None:
             return []
-        absent = [robot for robot, own in enumerate(self.ledger.robots) if own.is_off]
-        committed = self.control.list_committed()
-        graph = build_graph_behind_released(self.plan.scenario, routes, committed, absent)
-        messages = self.control.splice(routes, graph)
+        planned = [own.route.end - 1 for own in robots]
+        messages = self.control.splice(routes, self._build_graph(routes))
         closed = self.ledger.closed_edges
         if closed and any(not closed.isdisjoint(pairwise(route.places)) for route in routes):
-            with suppress(GaveUp):  # robots stop before what is closed
-                messages += self._plan_rest(self.list_stops())
+            try:
+                messages += self._plan_behind(planned)
+            except GaveUp:
+                with suppress(GaveUp):  # robots stop before what is closed
+                    messages += self._plan_rest(self.list_stops())
         return messages
+
+    def _build_graph(self, routes: Sequence[RouteToDrive]) -> ReleaseGraph:
+        """Return who waits for whom in the order of planned times, behind what is released."""
+        absent = [robot for robot, own in enumerate(self.ledger.robots) if own.is_off]
+        committed = self.control.list_committed()
+        return build_graph_behind_released(self.plan.scenario, routes, committed, absent)
+
+    def _plan_behind(self, planned: Sequence[int]) -> list[Message]:
+        """Plan laps that were added round what is closed; what was planned before goes first.
+
+        If all was planned again with each lap, a robot could be planned behind the others' laps
+        each time, and never get there. What was planned before ends with the visits ``planned``.
+        """
+        robots, closed = self.ledger.robots, self.ledger.closed_edges
+        ends = [
+            own.released if robot in self._passed else find_last_open(own, last, closed)
+            for robot, (own, last) in enumerate(zip(robots, planned, strict=True))
+        ]
+        at_ends = [
+            replace(own, route=own.route.cut_before(last), arrived=last, released=last)
+            for own, last in zip(robots, ends, strict=True)
+        ]
+        stops = [list_stops_to_make(own, own.released) for own in at_ends]
+        more, _ = self._rest.plan(at_ends, ends, stops, closed, [*self._passed])
+        routes = [own.route.cut_before(own.arrived) for own in robots]
+        later = 1 + max(
+            route.enter[last - route.first] for route, last in zip(routes, ends, strict=True)
+        )
+        for robot, (route, after) in enumerate(zip(routes, more, strict=True)):
+            if not robots[robot].is_off:
+                routes[robot] = route.join(after, later)
+        graph = self._build_graph(routes)
+        if graph.find_rotation():
+            raise GaveUp("robots would move round a circle at one instant")
+        return self.control.splice(routes, graph)
 
     # --- the rest (splices, rule 10) -------------------------------------------------------------
 

@@ -38,11 +38,14 @@ class _Group:
         After how long their visits come again [ticks].
     visits
         For each of them how many of its last visits are a period.
+    jobs
+        For each of them how many jobs these visits have.
     """
 
     robots: tuple[int, ...]
     period: int
     visits: tuple[int, ...]
+    jobs: tuple[int, ...]
 
 
 class LapsToDrive:
@@ -82,11 +85,8 @@ class LapsToDrive:
 
     def _whole(self) -> _Group:
         moving = [robot for robot, route in enumerate(self._routes) if route.end > 1]
-        return _Group(
-            robots=tuple(moving),
-            period=max(route.enter[-1] for route in self._routes) + 1,
-            visits=tuple(self._routes[robot].end - 1 for robot in moving),
-        )
+        period = max(route.enter[-1] for route in self._routes) + 1
+        return self._group(moving, period, [self._routes[robot].end - 1 for robot in moving])
 
     def _steady_groups(self, plan: Plan, names: Sequence[str]) -> list[_Group]:
         groups = []
@@ -102,10 +102,15 @@ class LapsToDrive:
                     message = f"{names[robot]} makes less than a period, {group.period} ticks"
                     raise InputError.at("plan", f"{message} (give a plan with more laps)")
                 visits.append(route.end - 1 - again)
-            groups.append(
-                _Group(robots=group.robots, period=int(group.period), visits=tuple(visits))
-            )
+            groups.append(self._group(group.robots, int(group.period), visits))
         return groups
+
+    def _group(self, robots: Sequence[int], period: int, visits: Sequence[int]) -> _Group:
+        jobs = [
+            sum(map(len, self._routes[robot].jobs[-count:]))
+            for robot, count in zip(robots, visits, strict=True)
+        ]
+        return _Group(robots=tuple(robots), period=period, visits=tuple(visits), jobs=tuple(jobs))
 
     def extend(self, robots: Sequence[RobotLedger], ahead: int = 0) -> list[RouteToDrive] | None:
         """Return all routes with the next period of each group that needs one; None if none does.
@@ -115,7 +120,8 @@ class LapsToDrive:
         robots
             What is known of each robot.
         ahead
-            Visits that shall be left to each robot beyond what is released, if more than a period.
+            Visits and jobs that shall be left to each robot beyond what is released, if more than
+            those of a period.
 
         Returns
         -------
@@ -127,8 +133,9 @@ class LapsToDrive:
             group
             for group in self._groups
             if any(
-                robots[robot].route.end - 1 - robots[robot].released < max(visits, ahead)
-                for robot, visits in zip(group.robots, group.visits, strict=True)
+                _is_short(robots[robot], max(visits, ahead), max(jobs, ahead))
+                for robot, visits, jobs in zip(group.robots, group.visits, group.jobs, strict=True)
+                if jobs
             )
             and not any(robots[robot].is_off for robot in group.robots)
         ]
@@ -144,7 +151,8 @@ class LapsToDrive:
                     begin = lap.end - 1 - visits
                 else:
                     later, begin = latest + 1, 0
-                routes[robot] = _appended(route, lap, begin, later, robots[robot].next_job)
+                next_lap = _number_lap(lap, begin, route.end - 1, robots[robot].next_job)
+                routes[robot] = route.join(next_lap, later)
         return [route.cut_before(own.arrived) for own, route in zip(robots, routes, strict=True)]
 
     def find_planned_visit(self, robot: int, visit: int) -> tuple[int, int]:
@@ -168,20 +176,27 @@ class LapsToDrive:
         raise AssertionError("a robot without laps has no visits beyond the plan")
 
 
-def _appended(
-    route: RouteToDrive, lap: RouteToDrive, begin: int, later: int, next_job: int
-) -> RouteToDrive:
-    """Return a route followed by the visits of a lap behind one, each some ticks later."""
+def _is_short(own: RobotLedger, visits: int, jobs: int) -> bool:
+    """Return whether a robot has less left than a period, beyond what is released.
+
+    Replanned laps may take few visits, as where a robot works at home: visits alone do not tell.
+    """
+    if own.route.end - 1 - own.released >= visits:
+        return False
+    left = own.route.jobs[own.released + 1 - own.route.first :]
+    return sum(map(len, left)) <= jobs
+
+
+def _number_lap(lap: RouteToDrive, begin: int, first: int, next_job: int) -> RouteToDrive:
+    """Return the visits of a lap from one on, with numbers and jobs of a route that goes on."""
     numbers = itertools.count(next_job)
-    jobs = (tuple(f"job{next(numbers)}" for _ in names) for names in lap.jobs[begin + 1 :])
-    shift = route.end - 1 - begin
+    part, shift = lap.cut_before(begin), first - begin
+    jobs = (tuple(f"job{next(numbers)}" for _ in names) for names in part.jobs[1:])
     return replace(
-        route,
-        places=(*route.places, *lap.places[begin + 1 :]),
-        jobs=(*route.jobs, *jobs),
-        work=(*route.work, *lap.work[begin + 1 :]),
-        enter=(*route.enter, *(tick + later for tick in lap.enter[begin + 1 :])),
-        lap_ends=(*route.lap_ends, *(end + shift for end in lap.lap_ends if end > begin)),
+        part,
+        first=first,
+        jobs=(part.jobs[0], *jobs),
+        lap_ends=tuple(end + shift for end in part.lap_ends),
         in_step=True,
     )
 

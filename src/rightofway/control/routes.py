@@ -107,6 +107,30 @@ class RouteToDrive:
             lap_ends=tuple(end for end in self.lap_ends if end >= visit),
         )
 
+    def join(self, after: RouteToDrive, later: int) -> RouteToDrive:
+        """Return the route up to the visit with which another one begins, and that one behind it.
+
+        Parameters
+        ----------
+        after
+            The other route; its first visit is one of this route.
+        later
+            How much later its other visits begin [ticks].
+        """
+        index = self._index(after.first)
+        return replace(
+            self,
+            places=(*self.places[: index + 1], *after.places[1:]),
+            jobs=(*self.jobs[: index + 1], *after.jobs[1:]),
+            work=(*self.work[: index + 1], *after.work[1:]),
+            enter=(*self.enter[: index + 1], *(tick + later for tick in after.enter[1:])),
+            lap_ends=(
+                *(end for end in self.lap_ends if end <= after.first),
+                *(end for end in after.lap_ends if end > after.first),
+            ),
+            in_step=after.in_step,
+        )
+
     @property
     def all_jobs(self) -> set[str]:
         """Return the names of all that is to be done."""
