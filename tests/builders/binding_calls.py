@@ -199,9 +199,9 @@ def to_stop(vertex: int) -> NDArray[np.int32]:
     return tables().to(vertex, np.ones(E, np.int32))
 
 
-def tracks(*, late: int = 0) -> Arguments:
-    """Return tracks of the problem of points; they do not overlap."""
-    search = _core.FleetSearch(build("Problem", problem_arguments("points")), 0, 1)
+def tracks(kind: str = "points", *, late: int = 0) -> Arguments:
+    """Return tracks of the problem of a kind; they keep its rules."""
+    search = _core.FleetSearch(build("Problem", problem_arguments(kind)), 0, 1)
     search.prioritize(int32(0, 1, 2), 100, None, None)
     first_visit, vertices, enter = search.tracks()
     enter[np.arange(len(enter)) >= first_visit[2] + 1] += late
@@ -223,6 +223,14 @@ def _with_edges(arguments: Arguments, robot: int) -> Arguments:
     lap = LAPS[robot]
     edges = [V + EDGE.get((lap[k - 1], lap[k]), 0) for k in range(len(lap))]
     return arguments | {"edge": int32(*edges)}
+
+
+def _fewest_actions(rng: random.Random) -> Arguments:
+    kind = rng.choice(KINDS)
+    return {
+        "problem": _problem(rng, kind), **tracks(kind), "waits": int64(1, 0, 2),
+        "latest": rng.choice((_core.NEVER, 60)), "most_states": 500, "time_limit": 0.2,
+    }  # fmt: skip
 
 
 def _bookings(rng: random.Random) -> Arguments:
@@ -489,10 +497,7 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
         "time_limit": 0.2,
     },
     "ConflictBasedSearch.tracks": _always(),
-    "fewest_actions": lambda rng: {
-        "problem": _problem(rng), **TRACKS, "waits": int64(1, 0, 2),
-        "latest": rng.choice((_core.NEVER, 60)), "most_states": 500, "time_limit": 0.2,
-    },
+    "fewest_actions": _fewest_actions,
     "ConflictBasedSearch.n_nodes": _always(),
     "ConflictBasedSearch.n_searches": _always(),
     "PriceAscent": lambda rng: {"problem": _problem(rng)},
