@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 import asyncio
 import contextlib
+import gc
 import sys
 import tempfile
 import time
@@ -82,6 +83,7 @@ def main() -> None:
                     async with asyncio.timeout(given.seconds):
                         await driver.run(Broker.of(broker.url))
 
+            gc.freeze()  # as the command does
             asyncio.run(drive())
             share = (time.process_time() - cpu) / (time.perf_counter() - began)
         broker.kill()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 
 import pytest
 
@@ -11,6 +12,7 @@ from rightofway.control.demo import DemoResult, drive_demo
 from rightofway.control.endpoints import Letter
 from rightofway.control.identities import VERSIONS
 from rightofway.control.report import report
+from rightofway.control.story import Happening, Story
 from rightofway.cyclic import find_best_timetable
 from rightofway.errors import InputError
 from rightofway.io import parse_scenario
@@ -18,6 +20,7 @@ from rightofway.model import Tick
 from tests.builders.chaos import chaotic_plan, laps_plan
 from tests.builders.plans import door, door_shifted
 from tests.builders.schemas import validator
+from tests.builders.warehouses import warehouse
 
 TIMELY = """\
 0 R1 waits at N0 until R2 is at N4
@@ -184,3 +187,25 @@ def test_a_plan_with_faults_is_refused() -> None:
 def test_a_robot_that_breaks_down_for_ever_is_refused() -> None:
     with pytest.raises(InputError, match=r"delays: R. would never complete.*delays that end"):
         drive_demo(door(), "stop:R2@2")
+
+
+def test_the_story_of_robots_that_have_changed_is_the_story_of_all(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Each sentence comes at the same moment where all robots are looked at in each instant."""
+    go_on = Story.go_on
+
+    def look_at_all(story: Story) -> Iterator[Happening]:
+        ledger = story._ledger
+        ledger.changed.update(range(len(ledger.robots)))
+        return go_on(story)
+
+    def tell() -> list[tuple[int, str]]:
+        sentences: list[tuple[int, str]] = []
+        drive_demo(warehouse(6), "chance:0.2x5", report=lambda *said: sentences.append(said))
+        return sentences
+
+    by_changes = tell()
+    monkeypatch.setattr(Story, "go_on", look_at_all)
+    assert by_changes == tell()
+    assert any(" waits at " in text for _, text in by_changes)

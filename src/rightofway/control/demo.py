@@ -237,8 +237,6 @@ class _Demo:
         self._dispatcher, self._operator = dispatcher, Operator(dispatcher)
         self.switches = False
         self._may_begin = set(range(len(self._robots)))  # robots that may have something to do
-        self._has_news = set(range(len(self._robots)))  # robots of which the story may go on
-        self._graph = control.ledger.graph  # at the last look of the story
         self._stamp = (-1, "")  # the last time, and how messages have it
 
     @property
@@ -306,12 +304,8 @@ class _Demo:
 
     def _end_instant(self) -> None:
         """Tell what is new; keep it."""
-        graph = self._control.ledger.graph
-        if graph is not self._graph:  # other robots may wait for others
-            self._graph, self._has_news = graph, set(range(len(self._robots)))
-        for happening in self._story.go_on(sorted(self._has_news)):
+        for happening in self._story.go_on():
             self._tell(happening.text)
-        self._has_news.clear()
         if self._record:
             self._record.journal.flush()
 
@@ -343,7 +337,6 @@ class _Demo:
                 self._tell(said)
                 self._record.write(make_notice(to_parts(said)))
         self._exchange(self._end.make_letters(messages))
-        self._has_news.update(range(len(self._robots)))
         self._end_instant()
         for number, answer in answers:
             self._record.commands.answer(number, answer)
@@ -358,11 +351,9 @@ class _Demo:
             self._watch(letter)
             number = self._listens.get(letter.topic)
             if number is None:
-                self._has_news.add(self._end.find_robot(letter.topic) or 0)
                 queue.extend(self._end.receive(letter))
             else:
                 self._may_begin.add(number)
-                self._has_news.add(number)
                 self._robots[number].end.receive(letter)
                 queue.append(self._robots[number].end.report_state())
 

@@ -19,7 +19,10 @@ Edge = tuple[str, str]
 
 
 class Ledger:
-    """All robots, and the release graph of their routes."""
+    """All robots, and the release graph of their routes.
+
+    ``changed`` has the robots with entries that a story has not been told of yet.
+    """
 
     def __init__(self) -> None:
         self.run = ""
@@ -30,6 +33,7 @@ class Ledger:
         self.closed: dict[Names, tuple[Edge, ...]] = {}  # what nobody may enter
         self.commands = 0  # the number of the last command that was carried out
         self.answer = ""  # to it
+        self.changed = set[int]()
 
     @property
     def arrived(self) -> list[int]:
@@ -102,6 +106,7 @@ class Ledger:
             pass
         else:
             APPLY_TO_ROBOT[kind](self.robots[entry["robot"]], entry)
+            self.changed.add(entry["robot"])
 
     def make_snapshot(self) -> Entry:
         """Return an entry that says all that the entries before it say together."""
@@ -127,6 +132,7 @@ class Ledger:
             self.robots = [RobotLedger(route) for route in routes]
         for own, route in zip(self.robots, routes, strict=True):
             own.take_route(route)
+        self.changed.update(range(len(self.robots)))
 
     def _apply_snapshot(self, entry: Entry) -> None:
         self.run, self.starts = entry["run"], entry["starts"]
@@ -137,6 +143,7 @@ class Ledger:
         self.commands, self.answer = entry["commands"], entry["answer"]
         self.robots = [RobotLedger.of_document(robot) for robot in entry["robots"]]
         self.graph = _graph_of([own.route for own in self.robots], entry["waits"])
+        self.changed.update(range(len(self.robots)))
 
 
 Waits = list[list[list[Any]]]

@@ -177,7 +177,7 @@ class Recording:
         for robot in sorted(changed):
             self._compare(robot, tick)
         if self._story is not None:
-            for happening in self._story.go_on(sorted(changed)):
+            for happening in self._story.go_on():
                 robot, kind, text, others = happening
                 says: SaysRow = (tick, robot, "says", kind, to_parts(text), list(others))
                 self._rows.append(says)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
@@ -76,17 +76,14 @@ class Story:
         ]
         self.waits = [0] * len(names)
 
-    def go_on(self, robots: Iterable[int] | None = None) -> Iterator[Happening]:
-        """Yield all that is new, of all robots or of some.
+    def go_on(self) -> Iterator[Happening]:
+        """Yield all that is new, of the robots that have changed.
 
         Call it at the end of an instant: within one, a robot may wait for a state that has come.
-
-        Parameters
-        ----------
-        robots
-            Numbers of robots; all by default.
         """
-        for robot in range(len(self._names)) if robots is None else robots:
+        robots = sorted(self._ledger.changed)
+        self._ledger.changed.clear()
+        for robot in robots:
             yield from self._of_robot(robot, self._ledger.robots[robot], self._chapters[robot])
 
     def _of_robot(self, robot: int, own: RobotLedger, chapter: _Chapter) -> Iterator[Happening]:
