@@ -310,9 +310,9 @@ class CbsOptions(PlannerOptions):
         "Resolve conflicts with robots that have reached their ends for all later ticks at once.",
     ] = "yes"
     pairs: Annotated[
-        Literal["yes", "no"],
-        "Split nodes by the completion times of two robots that lose to each other.",
-    ] = "yes"
+        Literal["no", "yes"],
+        "Split nodes by the completion times of two robots that lose to each other; or do not.",
+    ] = "no"
     pair_nodes: Annotated[
         int,
         "Nodes for each pair of robots, whose losses by each other raise bounds; 0: none.",

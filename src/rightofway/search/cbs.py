@@ -76,7 +76,7 @@ class ConflictBasedSearch:
         bypass: bool = True,
         clear: bool = True,
         targets: bool = True,
-        pairs: bool = True,
+        pairs: bool = False,
         pair_nodes: int = 20,
         joint_states: int = 10_000,
         factor: Fraction | int = 1,
