@@ -82,6 +82,7 @@ def read_sites(path: Path | str, choice: Choice, robots: Path | str | None = Non
         keys = choice.list_keys()
         if isinstance(layout, Layout):
             level = _level(path, layout, choice)
+            keys["spacing"] = "whole"  # what is drawn is inspected, not pieces of it
             if choice.vehicle_type is None and (name := _usual_type(level)):
                 keys["vehicle_type"] = name
         loaded = _with_fleet({"layout": str(path.resolve()), **keys}, Path(), Path(robots))
