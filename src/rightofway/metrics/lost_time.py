@@ -251,7 +251,9 @@ def _with_turns(
 
 def _visitor(bookings: BookedPlaces, robot: int, vertex: int, leave: int, until: int) -> int | None:
     """Return the first other robot that books a vertex while a robot is away."""
-    first, after = np.searchsorted(bookings.vertex, (vertex, vertex + 1))
+    # Of the same type: for Python's numbers numpy would copy all bookings of the fleet.
+    places = np.array((vertex, vertex + 1), bookings.vertex.dtype)
+    first, after = np.searchsorted(bookings.vertex, places)
     inside = (
         (bookings.robot[first:after] != robot)
         & (bookings.start[first:after] >= leave)
