@@ -342,11 +342,11 @@ class _LaneFinisher:
         is_short = has_length & _is_short(given, self.squares, self.roots)
         has_length &= ~self._find_no_lengths(is_short)
         at_one_place = is_kept & (self.squares == 0)
-        message = "a lane between two vertices at one position counts as 1 mm long"
-        self._repair(at_one_place, Phrase(message))
+        phrase = Phrase("a lane between two vertices at one position counts as 1 mm long")
+        self._repair(at_one_place, phrase)
         is_short &= is_kept & has_length & ~at_one_place
-        message = "a lane shorter than the straight line gets the straight length"
-        self._repair(is_short, Phrase(message))
+        phrase = Phrase("a lane shorter than the straight line gets the straight length")
+        self._repair(is_short, phrase)
         lengths = np.where(has_length, np.maximum(given, straight), straight)
         return np.where(at_one_place, np.maximum(lengths, SHORTEST), lengths)
 
@@ -402,8 +402,8 @@ class _LaneFinisher:
                 step = choose_rounding_step(squares)
                 along = sum(measure_straight_length(square, step) for square in squares)
                 lengths[lane] = max(lengths[lane], int(along * BILLION))
-        message = "a trajectory that does not lead from start to end counts as straight"
-        self._repair(lost, Phrase(message))
+        phrase = Phrase("a trajectory that does not lead from start to end counts as straight")
+        self._repair(lost, phrase)
         return shapes, lengths
 
     def _connect_curve(self, lane: int, curve: Curve) -> list[Point] | None:
