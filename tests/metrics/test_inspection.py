@@ -111,19 +111,83 @@ def test_vertices_nearer_than_the_robots_are_wide_are_found_exactly() -> None:
     assert finding.severity == "warning"
 
 
-def test_pieces_of_lanes_that_cross_are_in_nobodys_wrong_place() -> None:
+def split(at: Mapping[str, tuple[int, int]], lanes: str, length: int, distance: int) -> Roadmap:
+    """Return a roadmap of lanes like ``drawn``, all of one length, with the long ones in pieces."""
+    positions = {name: (Fraction(x), Fraction(y)) for name, (x, y) in at.items()}
+    both = [
+        lane for lane in lanes.split() for lane in ([lane, lane[::-1]] if "-" in lane else [lane])
+    ]
+    edges = [Edge(tail=lane[0], head=lane[-1], length=Fraction(length)) for lane in both]
+    pieces = split_lanes(positions, edges, None, distance=Fraction(distance))
+    floats = {name: (float(x), float(y)) for name, (x, y) in pieces.positions.items()}
+    return make_roadmap(floats, pieces.edges, pieces=pieces.pieces)
+
+
+def test_lanes_in_pieces_that_cross_are_named_as_they_are_drawn() -> None:
     """Each lane of 8 m is two pieces, which meet in its middle, where the other one is, too."""
     at = {"A": (0, 0), "B": (8, 0), "C": (4, -4), "D": (4, 4)}
-    positions = {name: (Fraction(x), Fraction(y)) for name, (x, y) in at.items()}
-    edges = [Edge(tail=tail, head=head, length=Fraction(8)) for tail, head in ("AB", "CD")]
-    split = split_lanes(positions, edges, None, distance=Fraction(2))
-    floats = {name: (float(x), float(y)) for name, (x, y) in split.positions.items()}
-    roadmap = make_roadmap(floats, split.edges, pieces=split.pieces)
     robots = (robot("R1", 0, 1, "1"), robot("R2", 2, 3, "1"))
-    findings = found(Site(roadmap=roadmap, units=METRES, robots=robots), "too near")
-    assert {finding.severity for finding in findings} == {"note"}
-    assert "A-B/1 and C-D/1 are 0 m apart" in findings[0].fact
-    assert all("wait for each other" in str(finding) for finding in findings)
+    site = Site(roadmap=split(at, "A>B C>D", 8, 2), units=METRES, robots=robots)
+    (finding,) = found(site, "crossing")
+    assert finding.fact == "The lanes A to B and C to D cross without a vertex"
+    assert (finding.severity, finding.vertices) == ("note", ("A", "B", "C", "D"))
+    assert "wait for each other" in str(finding)
+    assert found(site, "too near") == []
+
+
+@pytest.mark.parametrize(("y", "is_near"), [(1, True), (2, False)])
+def test_a_vertex_beside_a_joint_is_beside_the_lane(y: int, is_near: bool) -> None:
+    """Robots of radius 1 need 2 m; the lane has joints every 6 m, and M is beside the second."""
+    at = {"A": (0, 0), "B": (24, 0), "M": (12, y), "P": (12, 24)}
+    roadmap = split(at, "A-B M-P", 24, 2)
+    assert roadmap.name(4) == "A-B/1"
+    site = Site(roadmap=roadmap, units=METRES, robots=(robot("R1", 0, 1, "1"),))
+    facts = [finding.fact for finding in found(site, "too near")]
+    fact = "M is too near to the lane A to B; robots of radius 1 m need 2 m"
+    assert facts == ([fact] if is_near else [])
+
+
+def test_a_lane_in_pieces_is_one_edge_and_no_corridor() -> None:
+    """A ring of two-way lanes and one that leads one way, all of four pieces."""
+    at = {"A": (0, 0), "B": (24, 0), "C": (24, 24), "D": (0, 24)}
+    roadmap = split(at, "A-B B-C C-D D>A", 24, 2)
+    assert roadmap.n_vertices == 16
+    fleet = (robot("R1", 0, 2, "1"), robot("R2", 3, 1, "1"))
+    result = inspect(Site(roadmap=roadmap, units=METRES, robots=fleet))
+    assert (result.vertices, result.edges, result.one_way, result.parts) == (4, 7, 1, (4,))
+    joints = [name for finding in result.findings for name in finding.vertices if "/" in name]
+    assert joints == []
+
+
+def test_a_corridor_of_lanes_in_pieces_is_as_long_as_they_are() -> None:
+    """Between A and D all is one corridor, by way of B and C; its joints are not named."""
+    at = {"A": (0, 0), "B": (24, 0), "C": (48, 0), "D": (72, 0)}
+    roadmap = split(at, "A-B B-C C-D", 24, 2)
+    fleet = (robot("R1", 0, 3, "1"), robot("R2", 3, 0, "1"))
+    (finding,) = found(Site(roadmap=roadmap, units=METRES, robots=fleet), "corridor")
+    assert finding.fact.startswith("B to C is a corridor of 72 m without a passing place")
+    assert finding.vertices == ("A", "B", "C", "D")
+
+
+def test_a_joint_stays_a_vertex_where_a_robot_lives_or_another_lane_ends() -> None:
+    at = {"A": (0, 0), "B": (24, 0)}
+    roadmap = split(at, "A-B", 24, 2)
+    middle = roadmap.get_vertex("A-B/2")
+    assert inspect(Site(roadmap=roadmap)).vertices == 2
+    lived_at = inspect(Site(roadmap=roadmap, robots=(robot("R1", middle, 1, "1"),)))
+    assert (lived_at.vertices, lived_at.edges) == (3, 4)
+    names = [*map(roadmap.name, range(roadmap.n_vertices)), "Bay"]
+    places = dict(zip(names, [*map(tuple, roadmap.positions.tolist()), (12.0, 9.0)], strict=True))
+    ends = [
+        (f"A-B/{k}" if 0 < k < 4 else "AB"[k > 0], f"A-B/{k + 1}" if k < 3 else "B")
+        for k in range(4)
+    ]
+    both = [*ends, *((head, tail) for tail, head in ends), ("A-B/3", "Bay"), ("Bay", "A-B/3")]
+    edges = [Edge(tail=tail, head=head, length=Fraction(9)) for tail, head in both]
+    backwards = [(head, tail) for tail, head in reversed(ends)]
+    pieces = {("A", "B"): ends, ("B", "A"): backwards}
+    joined = inspect(Site(roadmap=make_roadmap(places, edges, pieces=pieces)))
+    assert (joined.vertices, joined.edges) == (4, 6), "A, A-B/3, B and Bay"
 
 
 def test_homes_that_are_too_near_are_an_error() -> None:

@@ -7,8 +7,9 @@ sites are small, and a map in cells of 50 000 vertices takes a fraction of a sec
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from heapq import heappop, heappush
 from itertools import pairwise
 from math import lcm
@@ -23,45 +24,96 @@ Neighbours = Sequence[Sequence[int]]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Ways:
-    """The edges of a roadmap, as lists.
+    """The edges of a roadmap, as lists; a lane that was split into pieces is one edge.
 
     Attributes
     ----------
     along, against
         Heads of the edges that leave each vertex; tails of those that enter it.
     steps
-        Length of each edge of `along`, as a whole multiple of one length.
+        Length of each edge of `along`, as a whole multiple of `unit`.
+    unit
+        Length of a step [length unit].
     even
         The length of all edges in these multiples; 0 where they differ.
+    joints
+        Vertices between two pieces of lanes: no edge leads there.
     """
 
     along: list[list[int]]
     against: list[list[int]]
     steps: list[list[int]]
+    unit: Fraction = Fraction(1)
     even: int = 0
+    joints: frozenset[int] = frozenset()
+
+    @property
+    def vertices(self) -> list[int]:
+        """All vertices but joints."""
+        return [vertex for vertex in range(len(self.along)) if vertex not in self.joints]
 
     def find_neighbours(self, vertex: int) -> set[int]:
         """Return the vertices that an edge joins to a vertex, in either direction."""
         return {*self.along[vertex], *self.against[vertex]}
 
 
-def list_ways(roadmap: Roadmap) -> Ways:
-    """Return the edges of a roadmap as lists."""
+def list_ways(roadmap: Roadmap, places: Collection[int] = ()) -> Ways:
+    """Return the edges of a roadmap as lists; pieces of a lane are one edge.
+
+    A joint of pieces stays a vertex where it is one of some places, or where other edges meet it.
+    """
     scale = lcm(*(length.denominator for length in roadmap.lengths))
     steps = [int(length * scale) for length in roadmap.lengths]
-    heads, first = roadmap.heads.tolist(), roadmap.indptr.tolist()
     lengths = [steps[edge_class] for edge_class in roadmap.class_of_edge.tolist()]
-    against: list[list[int]] = [[] for _ in range(roadmap.n_vertices)]
     tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr)).tolist()
-    for tail, head in zip(tails, heads, strict=True):
-        against[head].append(tail)
-    spans = list(pairwise(first))
-    return Ways(
-        along=[heads[begin:end] for begin, end in spans],
-        against=against,
-        steps=[lengths[begin:end] for begin, end in spans],
-        even=steps[0] if len({*steps}) == 1 else 0,
+    edges = list(zip(tails, roadmap.heads.tolist(), lengths, strict=True))
+    joints = frozenset[int]()
+    if roadmap.lanes:
+        joints = _find_hidden_joints(roadmap, edges, places)
+        edges = list(_join_pieces(roadmap, edges, joints))
+    along, against, steps_along = (
+        [list[int]() for _ in range(roadmap.n_vertices)] for _ in range(3)
     )
+    for tail, head, length in edges:
+        along[tail].append(head)
+        steps_along[tail].append(length)
+        against[head].append(tail)
+    different = {length for _, _, length in edges}
+    return Ways(
+        along=along,
+        against=against,
+        steps=steps_along,
+        unit=Fraction(1, scale),
+        even=different.pop() if len(different) == 1 else 0,
+        joints=joints,
+    )
+
+
+def _find_hidden_joints(
+    roadmap: Roadmap, edges: Sequence[tuple[int, int, int]], places: Collection[int]
+) -> frozenset[int]:
+    """Return the joints that are no place, and that only pieces of their lanes meet."""
+    pieces = {piece for lane in roadmap.lanes for piece in lane.pieces}
+    met = {end for tail, head, _ in edges if (tail, head) not in pieces for end in (tail, head)}
+    joints = {int(joint) for lane in roadmap.lanes for joint in lane.joints}
+    return frozenset(joints.difference(met, places))
+
+
+def _join_pieces(
+    roadmap: Roadmap, edges: Sequence[tuple[int, int, int]], joints: Collection[int]
+) -> Iterator[tuple[int, int, int]]:
+    """Yield the edges between vertices that are no joints: tail, head and length."""
+    pieces_behind: dict[tuple[int, int], tuple[int, int]] = {
+        piece: following for lane in roadmap.lanes for piece, following in pairwise(lane.pieces)
+    }
+    length_of = {(tail, head): length for tail, head, length in edges if tail in joints}
+    for tail, head, length in edges:
+        if tail not in joints:
+            piece, along = (tail, head), length
+            while piece[1] in joints:
+                piece = pieces_behind[piece]
+                along += length_of[piece]
+            yield tail, piece[1], along
 
 
 def find_strong_parts(ways: Ways) -> list[list[int]]:
@@ -74,7 +126,7 @@ def find_strong_parts(ways: Ways) -> list[list[int]]:
     """
     count = len(ways.along)
     order, seen = list[int](), [False] * count
-    for root in range(count):
+    for root in ways.vertices:
         stack = [] if seen[root] else [(root, iter(ways.along[root]))]
         seen[root] = True
         while stack:

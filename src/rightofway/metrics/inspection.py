@@ -78,7 +78,7 @@ def inspect(site: Site) -> Inspection:
     site
         The site.
     """
-    roadmap, ways = site.roadmap, list_ways(site.roadmap)
+    ways = list_ways(site.roadmap, site.places)
     parts = find_strong_parts(ways)
     main = set(parts[0])
     places = [vertex for vertex in sorted(site.places) if vertex in main]
@@ -88,15 +88,15 @@ def inspect(site: Site) -> Inspection:
     findings = [
         *_impossible_trips(site, ways, parts),
         *_outside(site, ways, parts),
-        *find_nearness(site),
+        *find_nearness(site, ways.joints),
         *_on_the_way(site, ways, main, apart, load=load, total=total),
         *_corridors(site, ways, main, load, total),
         *_bottlenecks(site, ways, load, total, named=len(places) > 1),
     ]
     pairs = {(tail, head) for tail, heads in enumerate(ways.along) for head in heads}
     return Inspection(
-        vertices=roadmap.n_vertices,
-        edges=roadmap.n_edges,
+        vertices=len(ways.vertices),
+        edges=sum(map(len, ways.along)),
         one_way=sum((head, tail) not in pairs for tail, head in pairs),
         places=len(site.places),
         parts=tuple(map(len, parts)),
@@ -312,7 +312,6 @@ def _corridors(
         corridor for corridor in find_corridors(ways) if len(corridor.inside) > 1 and use(corridor)
     ]
     long_ones = [corridor for corridor in long_ones if main.issuperset(corridor.ends)]
-    scale = _length_of_a_step(site.roadmap, ways)
     busiest = sorted(long_ones, key=lambda corridor: (-use(corridor), -corridor.steps))
     for corridor in busiest[:LISTED_CORRIDORS]:
         ends, inside = corridor.ends, set(corridor.inside)
@@ -341,7 +340,7 @@ def _corridors(
                 " {round}",
                 one=names[0],
                 other=names[1],
-                length=site.units.format_length(corridor.steps * scale),
+                length=site.units.format_length(corridor.steps * ways.unit),
                 users=users,
                 round=Phrase("no way leads round it")
                 if is_only
@@ -365,14 +364,6 @@ def _using(site: Site, side: set[int], inside: set[int]) -> list[str]:
         if trip & inside or len({place in side for place in trip}) > 1:
             findings.append(robot.name)
     return findings
-
-
-def _length_of_a_step(roadmap: Roadmap, ways: Ways) -> Fraction:
-    tail = next((vertex for vertex, heads in enumerate(ways.along) if heads), 0)
-    if not ways.along[tail]:
-        return Fraction(1)
-    first = int(roadmap.indptr[tail])
-    return roadmap.get_edge_class(first).length / ways.steps[tail][0]
 
 
 def _bottlenecks(

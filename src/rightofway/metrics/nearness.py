@@ -22,16 +22,19 @@ ROUNDED = 10**6
 """Distances in sentences are rounded to this part of a length unit."""
 
 TAKE_TURNS = Phrase("robots wait for each other there; a vertex lets them wait nearer")
-"""What to do where lanes cross, or their pieces are too near: nothing is drawn in a wrong place."""
+"""What to do where lanes cross: nothing is drawn in a wrong place."""
 
 MOST_NAMED = 200
 """The most vertices that a finding names."""
 
 
-def find_nearness(site: Site) -> Iterator[Finding]:
-    """Yield vertices, lanes and walls nearer than robots are wide, and lanes that cross."""
+def find_nearness(site: Site, joints: frozenset[int]) -> Iterator[Finding]:
+    """Yield vertices, lanes and walls nearer than robots are wide, and lanes that cross.
+
+    Joints between pieces of a lane are no vertices: what is near to one is near to the lane.
+    """
     yield from _beside_walls(site)
-    yield from _near(site)
+    yield from _near(site, joints)
 
 
 def _beside_walls(site: Site) -> Iterator[Finding]:
@@ -61,7 +64,7 @@ def _beside_walls(site: Site) -> Iterator[Finding]:
             )
 
 
-def _near(site: Site) -> Iterator[Finding]:
+def _near(site: Site, joints: frozenset[int]) -> Iterator[Finding]:
     """Yield vertices and lanes that are nearer than the robots are wide, and lanes that cross."""
     roadmap, room = site.roadmap, site.room
     length = site.units.format_length
@@ -92,9 +95,8 @@ def _near(site: Site) -> Iterator[Finding]:
                 remedy=Phrase("take larger cells, or smaller robots"),
             )
         return
-    pairs = close_pairs(roadmap, room or TOUCHING)
-    joints = {int(joint) for lane in roadmap.lanes for joint in lane.joints} - {*site.places}
-    yield from _near_vertices(site, pairs, need, joints)
+    pairs = _find_drawn_pairs(roadmap, room or TOUCHING, joints)
+    yield from _near_vertices(site, pairs, need)
     for vertex, (tail, head) in pairs.beside:
         if roadmap.is_along_one_lane((vertex, tail, head)):
             continue
@@ -113,13 +115,11 @@ def _near(site: Site) -> Iterator[Finding]:
         )
         yield Finding(
             kind="too near",
-            severity="note" if need and vertex in joints else "warning",
+            severity="warning",
             fact=beside,
-            remedy=Phrase("split the lane there")
-            if not need
-            else TAKE_TURNS
-            if vertex in joints
-            else Phrase("a robot on one blocks the other; move one"),
+            remedy=Phrase("a robot on one blocks the other; move one")
+            if need
+            else Phrase("split the lane there"),
             vertices=site.list_names((vertex, tail, head)),
         )
     for lanes in pairs.crossings:
@@ -142,6 +142,48 @@ def _near(site: Site) -> Iterator[Finding]:
         )
 
 
+def _find_drawn_pairs(roadmap: Roadmap, distance: Fraction, joints: frozenset[int]) -> ClosePairs:
+    """Return the vertices and lanes that are near, as they are drawn: lanes whole, no joints."""
+    pairs = close_pairs(roadmap, distance)
+    if not joints:
+        return pairs
+    lane_at, lane_of = dict[int, tuple[int, int]](), dict[frozenset[int], tuple[int, int]]()
+    for lane in roadmap.lanes:
+        ends = min(lane.ends, lane.ends[::-1])
+        lane_at.update((joint, ends) for joint in lane.joints if joint in joints)
+        lane_of.update((frozenset(piece), ends) for piece in lane.pieces)
+
+    def whole(edge: tuple[int, int]) -> tuple[int, int]:
+        return lane_of.get(frozenset(edge), edge)
+
+    vertices = [pair for pair in pairs.vertices if joints.isdisjoint(pair)]
+    near_ends = {frozenset(pair) for pair in vertices}
+    near_lanes = [
+        *((vertex, lane_at[joint])
+          for pair in pairs.vertices for vertex, joint in (pair, pair[::-1])
+          if joint in lane_at and vertex not in lane_at),
+        *((vertex, whole(edge)) for vertex, edge in pairs.beside if vertex not in joints),
+    ]  # fmt: skip
+    beside = [
+        (vertex, lane)
+        for vertex, lane in dict.fromkeys(near_lanes)
+        if vertex not in lane and not any(frozenset((vertex, end)) in near_ends for end in lane)
+    ]
+    # Lanes that cross at a joint touch there: no piece is on both sides of the other lane.
+    touching = close_pairs(roadmap, TOUCHING)
+    meeting = [
+        *((lane_at[first], lane_at[other]) for first, other in touching.vertices
+          if {first, other} <= lane_at.keys()),
+        *((lane_at[joint], whole(edge)) for joint, edge in touching.beside if joint in lane_at),
+    ]  # fmt: skip
+    crossings = [
+        *((whole(first), whole(other)) for first, other in pairs.crossings),
+        *((first, other) for first, other in meeting if {*first}.isdisjoint(other)),
+    ]
+    drawn = dict.fromkeys(min(lanes, lanes[::-1]) for lanes in crossings if lanes[0] != lanes[1])
+    return ClosePairs(vertices=vertices, beside=beside, crossings=list(drawn))
+
+
 def find_smallest_cell(roadmap: Roadmap) -> Fraction | None:
     """Return the side of the smallest cells, None where vertices are no cells."""
     if roadmap.grid is not None:
@@ -149,9 +191,7 @@ def find_smallest_cell(roadmap: Roadmap) -> Fraction | None:
     return None if roadmap.sides is None else Fraction(repr(float(roadmap.sides.min())))
 
 
-def _near_vertices(
-    site: Site, pairs: ClosePairs, need: Phrase | None, joints: set[int]
-) -> Iterator[Finding]:
+def _near_vertices(site: Site, pairs: ClosePairs, need: Phrase | None) -> Iterator[Finding]:
     roadmap = site.roadmap
     for first, other in pairs.vertices:
         if roadmap.is_along_one_lane((first, other)):
@@ -163,7 +203,6 @@ def _near_vertices(
             or roadmap.find_edge(other, first) is not None
         )
         are_places = first in site.places and other in site.places
-        are_drawn = joints.isdisjoint((first, other))
         names = {"one": site.name(first), "other": site.name(other)}
         if need:
             fact = Phrase(
@@ -179,14 +218,12 @@ def _near_vertices(
             severity="error"
             if both_homes
             else "note"
-            if (is_joined and not are_places) or (need and not are_drawn)
+            if is_joined and not are_places
             else "warning",
             fact=fact,
-            remedy=Phrase("make them one vertex")
-            if not need
-            else Phrase("move one, or use smaller robots")
-            if are_drawn
-            else TAKE_TURNS,
+            remedy=Phrase("move one, or use smaller robots")
+            if need
+            else Phrase("make them one vertex"),
             vertices=site.list_names((first, other)),
         )
 

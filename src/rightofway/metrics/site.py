@@ -92,7 +92,8 @@ class Inspection:
     Attributes
     ----------
     vertices, edges, one_way
-        Vertices, directed edges, and those of them without an edge back.
+        Vertices, directed edges, and those of them without an edge back; a lane that was split into
+        pieces is one edge.
     places
         Stations, parking places, homes and stops.
     parts

@@ -110,8 +110,7 @@ def _cell_size(occupancy: Occupancy, radius: Fraction) -> str:
 def _robots(loaded: LoadedMap, level: Level | None, radius: Fraction) -> list[dict[str, Any]]:
     """Return robots with homes and targets in the largest part whose vertices reach each other."""
     roadmap = loaded.roadmap
-    joints = {joint for lane in roadmap.lanes for joint in lane.joints}
-    part = [vertex for vertex in find_strong_parts(list_ways(roadmap))[0] if vertex not in joints]
+    part = find_strong_parts(list_ways(roadmap))[0]  # without joints between pieces of lanes
     inside, stations, parking = set(part), dict[int, str](), list[int]()
     if level is not None:
         ids = {roadmap.name(vertex): vertex for vertex in part}
