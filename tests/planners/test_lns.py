@@ -6,7 +6,6 @@ import time
 from dataclasses import replace
 from fractions import Fraction
 
-import numpy as np
 import pytest
 
 import rightofway
@@ -15,7 +14,7 @@ from rightofway.metrics import measure
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track, compute_cost
 from rightofway.planners import Deadline, PrioritizedOptions, Task
 from rightofway.planners.lns import lns
-from rightofway.planners.prioritized import list_in_order, prioritized
+from rightofway.planners.prioritized import prioritized
 from rightofway.search import FleetSearch
 from tests.builders.fleets import grid_fleet, random_fleet
 
@@ -106,38 +105,6 @@ def test_it_stops_when_time_is_up() -> None:
 def test_every_order_gives_a_sound_plan(order: str) -> None:
     plan = rightofway.solve(CROWDED, "prioritized", options={"order": order})
     assert rightofway.check(plan).ok
-
-
-def test_short_ways_first_beat_short_times_first_on_full_floors() -> None:
-    """Three speeds, a third of the floor; the mean of six fleets, as one may come out otherwise."""
-    ratios = []
-    for seed in range(6):
-        fleet = random_fleet(seed, size=14, robots=70, walls=0, rules=Rules(occupancy="both"))
-        by_time = FleetSearch(fleet.problem)
-        alone = by_time.compute_alone()
-        order = np.argsort(alone, kind="stable").tolist()
-        assert by_time.prioritize(order, searches=300, time_limit=None)
-        plan = rightofway.solve(fleet, "prioritized", time_limit=None)
-        ratios.append(measure(plan).flowtime / by_time.cost)
-    assert sum(ratios) / len(ratios) < 0.98
-
-
-def test_robots_queue_by_the_time_of_their_trips_where_there_is_room() -> None:
-    """Sixty robots on 196 places are less than a third; 66 are more."""
-    for robots, is_by_time in ((60, True), (66, False)):
-        fleet = random_fleet(1, size=14, robots=robots, walls=0, rules=Rules(occupancy="both"))
-        search = FleetSearch(fleet.problem)
-        by_time = np.argsort(search.compute_alone(), kind="stable").tolist()
-        assert (list_in_order(fleet, search, "shortest", seed=0) == by_time) == is_by_time
-
-
-def test_robots_of_one_speed_queue_by_the_time_of_their_trips_on_a_full_floor() -> None:
-    fleet = random_fleet(1, size=14, robots=70, walls=0, rules=Rules(occupancy="both"))
-    robots = tuple(replace(robot, speed=Fraction(1, 2)) for robot in fleet.robots)
-    fleet = replace(fleet, robots=robots)
-    search = FleetSearch(fleet.problem)
-    by_time = np.argsort(search.compute_alone(), kind="stable").tolist()
-    assert list_in_order(fleet, search, "shortest", seed=0) == by_time
 
 
 def test_robots_that_find_no_way_at_their_own_speeds_find_one_at_one_pace(

@@ -49,12 +49,6 @@ without a plan, and with one."""
 MOST_ROBOTS = 8000
 """Larger fleets are not planned in turn: ten thousand robots found no plan in 80 s."""
 
-PLACES_PER_ROBOT = 3
-"""A floor with at most this many places per robot is full; with more, short times first are better.
-
-On drawn floors the way gains up to 7 % where robots stand on a third, and loses 3 to 6 % below it.
-"""
-
 HEADWAYS_PER_EDGE = 8
 """The headway of robots at one pace, as a part of the shortest edge."""
 
@@ -91,7 +85,7 @@ def plan_in_turn(
     """
     if len(task.scenario.robots) > MOST_ROBOTS or task.deadline.measure_seconds_left() == 0:
         return None
-    turns = list_in_order(task.scenario, search, order, task.seed)
+    turns = _in_order(task.scenario, search, order, task.seed)
     problem = task.scenario.problem
     if not problem.resources.are_points or problem.closures is not None:
         return _patiently(task, search, turns, SHARE_WITH_PLAN if has_plan else SHARE_WITH_SIZES)
@@ -172,29 +166,13 @@ def _paced(scenario: Scenario) -> Scenario:
     return replace(scenario, robots=robots, rules=rules)
 
 
-def list_in_order(scenario: Scenario, search: FleetSearch, order: str, seed: int) -> list[int]:
-    """Return the robots in an order of the option ``order``.
-
-    "shortest" sorts by the time alone. On a full floor it sorts by time * speed ** 3/2, squared to
-    be exact: by the way, and of equal ways the slow robot first. Most of what is lost there is lost
-    behind slower robots (``benchmarks/little_room.py``).
-    """
+def _in_order(scenario: Scenario, search: FleetSearch, order: str, seed: int) -> list[int]:
     robots = list(range(len(scenario.robots)))
     if order == "random":
         random.Random(seed).shuffle(robots)  # noqa: S311 (no secret depends on it)
     elif order == "slowest":
         robots.sort(key=lambda robot: scenario.robots[robot].speed)
     elif order != "file":
-        alone = search.compute_alone().tolist()
-        if order == "shortest" and _is_full(scenario):
-            speeds = [robot.speed for robot in scenario.robots]
-            robots.sort(key=lambda robot: alone[robot] ** 2 * speeds[robot] ** 3)
-        else:
-            robots.sort(key=lambda robot: alone[robot], reverse=order == "longest")
+        alone = search.compute_alone()
+        robots.sort(key=lambda robot: alone[robot], reverse=order == "longest")
     return robots
-
-
-def _is_full(scenario: Scenario) -> bool:
-    """Return whether robots that book ahead stand on a third of the places or more."""
-    is_ahead = scenario.rules.occupancy == "both"
-    return is_ahead and PLACES_PER_ROBOT * len(scenario.robots) >= scenario.roadmap.n_vertices
