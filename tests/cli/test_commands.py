@@ -41,6 +41,16 @@ def test_a_plan_is_summed_up_in_80_columns(cli: Cli, door: Path) -> None:
     assert max(map(len, ended.out.splitlines())) <= 80
 
 
+def test_lost_time_is_left_out_where_it_would_end_too_late(
+    cli: Cli, door: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """At 3 s for each visit, even a plan of two visits would be reported on 3.5 s too late."""
+    monkeypatch.setattr("rightofway.cli.planning.SECONDS_PER_VISIT", 3)
+    late = "lost time  not computed, because the time limit is over"
+    assert late in cli("plan", door, "--time-limit", "2").out
+    assert late not in cli("plan", door, "--time-limit", "inf").out
+
+
 def test_json_and_page_show_the_robots_that_block_each_other(cli: Cli) -> None:
     Path("stuck.yaml").write_text(STUCK, encoding="utf-8")
     ended = cli("plan", "stuck.yaml", "--json", "--page", "stuck.html")

@@ -51,6 +51,16 @@ def test_times_are_in_the_units_of_the_scenario() -> None:
     ]
 
 
+def test_after_the_time_limit_only_costs_are_reported() -> None:
+    plan = in_seconds(door())
+    assert summarize_plan(plan, plan.scenario.quantities, with_lost_time=False).splitlines() == [
+        "planner    two-level",
+        "flowtime   19 s, 5.6% above the lower bound of 18 s",
+        "makespan   10 s",
+        "lost time  not computed, because the time limit is over",
+    ]
+
+
 def test_on_request_times_are_in_ticks_and_the_length_of_a_tick_is_given() -> None:
     plan = in_seconds(door())
     lines = summarize_plan(plan, replace(plan.scenario.quantities, in_ticks=True)).splitlines()

@@ -43,12 +43,16 @@ from rightofway.phrases import Phrase
 from rightofway.planners import DEFAULT_PLANNER, IMPROVER, Feature, PlannerSpec, find, find_all
 
 if TYPE_CHECKING:
+    from rightofway.deadline import Deadline
     from rightofway.model import ForcedLoss, Plan
     from rightofway.quantities import Quantities
 
 SECONDS_PER_VISIT = 2.2e-6
 """The time to judge a plan, to write it and to report on it, for each visit that it has at least.
 Planning ends so much earlier, so that the time limit holds for the whole command."""
+
+GRACE = 0.5
+"""The time that the report of a plan may take after the time limit [s]."""
 
 SHARE_OF_PAIRS = 0.2
 """The part of the time of `bound` for what pairs of robots lose to each other."""
@@ -268,7 +272,8 @@ def _run(
         say(Phrase("wrote {file} (open it in a browser)", file=page))
     if output != "-":
         quantities = choose_quantities(plan.scenario, in_ticks=in_ticks)
-        _report(plan, quantities, log=log, table=table, as_json=as_json)
+        in_time = _has_time_for_lost_time(plan, deadline)
+        _report(plan, quantities, log=log, table=table, as_json=as_json, with_lost_time=in_time)
     may_hold_swaps = (
         Feature.LEAVES_SWAPS in find(planner).features or plan.run.options.get("swaps") == "leave"
     )
@@ -305,14 +310,29 @@ def write_no_plan(problem: Any, page: str | None, title: str, *, as_json: bool) 
         raise
 
 
-def _report(plan: Plan, quantities: Quantities, *, log: bool, table: bool, as_json: bool) -> None:
+def _has_time_for_lost_time(plan: Plan, deadline: Deadline) -> bool:
+    """Return whether lost time can be computed before the time limit, or hardly later."""
+    left = deadline.measure_seconds_left()
+    return left is None or SECONDS_PER_VISIT * sum(map(len, plan.tracks)) <= left + GRACE
+
+
+def _report(
+    plan: Plan,
+    quantities: Quantities,
+    *,
+    log: bool,
+    table: bool,
+    as_json: bool,
+    with_lost_time: bool,
+) -> None:
     from rightofway.report.plan import report_decisions, summarize_plan
     from rightofway.report.plan_data import make_summary_data
 
     if as_json:
         put_json(make_summary_data(plan))
         return
-    put_report(summarize_plan(plan, quantities, get_language()))
+    text = summarize_plan(plan, quantities, get_language(), with_lost_time=with_lost_time)
+    put_report(text)
     if log:
         put_report("\n" + report_decisions(plan, quantities, get_language()))
     if table:

@@ -62,20 +62,29 @@ HEADINGS = (
 )
 """Headings of the table of robots: the first time is the sum of the others."""
 
+NOT_COMPUTED = Phrase("not computed, because the time limit is over")
 
-def summarize_plan(plan: Plan, quantities: Quantities, language: str = ENGLISH) -> str:
-    """Return the costs of a plan, and where and to which others robots lose time."""
-    words = Words(plan=plan, quantities=quantities)
-    metrics, lost = measure(plan), compute_lost_time(plan)
+
+def summarize_plan(
+    plan: Plan, quantities: Quantities, language: str = ENGLISH, *, with_lost_time: bool = True
+) -> str:
+    """Return the costs of a plan, and where and to which others robots lose time.
+
+    Lost time of thousands of robots takes seconds; without it the costs alone are returned.
+    """
+    words, metrics = Words(plan=plan, quantities=quantities), measure(plan)
+    lost = compute_lost_time(plan) if with_lost_time else ()
+    lost_in_words = _lost(words, lost) if with_lost_time else NOT_COMPUTED
     costs = [
         (Phrase("planner"), describe_planning(plan, quantities)),
         (Phrase("flowtime"), _flowtime(words, metrics)),
         (Phrase("makespan"), words.say_time(metrics.makespan)),
-        (Phrase("lost time"), _lost(words, lost)),
+        (Phrase("lost time"), lost_in_words),
     ]
     if quantities.in_ticks:
         costs.append((Phrase("tick"), replace(quantities, in_ticks=False).format_duration(1)))
-    parts = [*_robots(words, lost), *_losses(words, lost), *_forced_losses(words)]
+    details = [*_robots(words, lost), *_losses(words, lost)] if with_lost_time else []
+    parts = [*details, *_forced_losses(words)]
     return lay_out([Facts(costs), "", *parts], language)
 
 
