@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from math import dist
 
@@ -22,7 +22,7 @@ ROUNDED = 10**6
 """Distances in sentences are rounded to this part of a length unit."""
 
 TAKE_TURNS = Phrase("robots wait for each other there; a vertex lets them wait nearer")
-"""What to do where lanes cross: nothing is drawn in a wrong place."""
+"""What to do where lanes cross or are near: nothing is drawn in a wrong place."""
 
 MOST_NAMED = 200
 """The most vertices that a finding names."""
@@ -95,7 +95,7 @@ def _near(site: Site, joints: frozenset[int]) -> Iterator[Finding]:
                 remedy=Phrase("take larger cells, or smaller robots"),
             )
         return
-    pairs = _find_drawn_pairs(roadmap, room or TOUCHING, joints)
+    pairs, near_lanes = _find_drawn_pairs(roadmap, room or TOUCHING, joints)
     yield from _near_vertices(site, pairs, need)
     for vertex, (tail, head) in pairs.beside:
         if roadmap.is_along_one_lane((vertex, tail, head)):
@@ -122,11 +122,24 @@ def _near(site: Site, joints: frozenset[int]) -> Iterator[Finding]:
             else Phrase("split the lane there"),
             vertices=site.list_names((vertex, tail, head)),
         )
-    for lanes in pairs.crossings:
-        first, other = (
-            Phrase("{tail} to {head}", tail=tail, head=head)
-            for tail, head in map(site.list_names, lanes)
+    for lanes in near_lanes:
+        if not need:  # all that touches crosses
+            break
+        first, other = _name_lanes(site, lanes)
+        yield Finding(
+            kind="too near",
+            severity="note",
+            fact=Phrase(
+                "The lane {one} is too near to the lane {other}; {need}",
+                one=first,
+                other=other,
+                need=need,
+            ),
+            remedy=TAKE_TURNS,
+            vertices=site.list_names(vertex for lane in lanes for vertex in lane),
         )
+    for lanes in pairs.crossings:
+        first, other = _name_lanes(site, lanes)
         yield Finding(
             kind="crossing",
             severity="note" if need else "warning",
@@ -142,11 +155,26 @@ def _near(site: Site, joints: frozenset[int]) -> Iterator[Finding]:
         )
 
 
-def _find_drawn_pairs(roadmap: Roadmap, distance: Fraction, joints: frozenset[int]) -> ClosePairs:
-    """Return the vertices and lanes that are near, as they are drawn: lanes whole, no joints."""
+Lanes = tuple[tuple[int, int], tuple[int, int]]
+"""Tail and head of two lanes."""
+
+
+def _name_lanes(site: Site, lanes: Lanes) -> list[Phrase]:
+    names = map(site.list_names, lanes)
+    return [Phrase("{tail} to {head}", tail=tail, head=head) for tail, head in names]
+
+
+def _find_drawn_pairs(
+    roadmap: Roadmap, distance: Fraction, joints: frozenset[int]
+) -> tuple[ClosePairs, list[Lanes]]:
+    """Return the vertices and lanes that are near, as they are drawn, and lanes near to others.
+
+    Lanes are whole, joints no vertices. Lanes near to others are those that do not cross and have
+    no common end.
+    """
     pairs = close_pairs(roadmap, distance)
     if not joints:
-        return pairs
+        return pairs, []
     lane_at, lane_of = dict[int, tuple[int, int]](), dict[frozenset[int], tuple[int, int]]()
     for lane in roadmap.lanes:
         ends = min(lane.ends, lane.ends[::-1])
@@ -158,7 +186,7 @@ def _find_drawn_pairs(roadmap: Roadmap, distance: Fraction, joints: frozenset[in
 
     vertices = [pair for pair in pairs.vertices if joints.isdisjoint(pair)]
     near_ends = {frozenset(pair) for pair in vertices}
-    near_lanes = [
+    near_pieces = [
         *((vertex, lane_at[joint])
           for pair in pairs.vertices for vertex, joint in (pair, pair[::-1])
           if joint in lane_at and vertex not in lane_at),
@@ -166,22 +194,35 @@ def _find_drawn_pairs(roadmap: Roadmap, distance: Fraction, joints: frozenset[in
     ]  # fmt: skip
     beside = [
         (vertex, lane)
-        for vertex, lane in dict.fromkeys(near_lanes)
+        for vertex, lane in dict.fromkeys(near_pieces)
         if vertex not in lane and not any(frozenset((vertex, end)) in near_ends for end in lane)
     ]
+
+    def meeting(pairs: ClosePairs) -> Iterator[Lanes]:
+        for first, other in pairs.vertices:
+            if first in lane_at and other in lane_at:
+                yield lane_at[first], lane_at[other]
+        for joint, edge in pairs.beside:
+            if joint in lane_at:
+                yield lane_at[joint], whole(edge)
+
     # Lanes that cross at a joint touch there: no piece is on both sides of the other lane.
-    touching = close_pairs(roadmap, TOUCHING)
-    meeting = [
-        *((lane_at[first], lane_at[other]) for first, other in touching.vertices
-          if {first, other} <= lane_at.keys()),
-        *((lane_at[joint], whole(edge)) for joint, edge in touching.beside if joint in lane_at),
-    ]  # fmt: skip
-    crossings = [
-        *((whole(first), whole(other)) for first, other in pairs.crossings),
-        *((first, other) for first, other in meeting if {*first}.isdisjoint(other)),
-    ]
-    drawn = dict.fromkeys(min(lanes, lanes[::-1]) for lanes in crossings if lanes[0] != lanes[1])
-    return ClosePairs(vertices=vertices, beside=beside, crossings=list(drawn))
+    touching = _list_apart(meeting(close_pairs(roadmap, TOUCHING)))
+    crossings = _sort_lanes((whole(first), whole(other)) for first, other in pairs.crossings)
+    crossings = list(dict.fromkeys([*crossings, *touching]))
+    crossed = set(crossings)
+    near = [lanes for lanes in _list_apart(meeting(pairs)) if lanes not in crossed]
+    return ClosePairs(vertices=vertices, beside=beside, crossings=crossings), near
+
+
+def _list_apart(pairs: Iterable[Lanes]) -> list[Lanes]:
+    """Return pairs of lanes without a common end, each once."""
+    return _sort_lanes(lanes for lanes in pairs if {*lanes[0]}.isdisjoint(lanes[1]))
+
+
+def _sort_lanes(pairs: Iterable[Lanes]) -> list[Lanes]:
+    """Return pairs of two lanes, each once."""
+    return list(dict.fromkeys(min(lanes, lanes[::-1]) for lanes in pairs if lanes[0] != lanes[1]))
 
 
 def find_smallest_cell(roadmap: Roadmap) -> Fraction | None:

@@ -197,7 +197,7 @@ def test_an_inspection_names_what_the_bow_comes_near_and_not_its_own_pieces(tmp_
     site = Site(roadmap=scenario.roadmap, robots=scenario.robots, rules=scenario.rules)
     near = [each.fact for each in inspect(site).findings if each.kind == "too near"]
     assert any("is too near to the lane C to D" in fact for fact in near)
-    assert not any(fact.count("A-B/") > 1 for fact in near)
+    assert not any("A-B/" in fact for fact in near)
 
 
 def test_a_curve_is_written_as_a_trajectory(tmp_path: Path) -> None:
