@@ -52,19 +52,20 @@ def fleet(folder: Path | None, name: str, robots: int, seed: int, *, classic: bo
     return replace(scenario, robots=dealt, rules=rules)
 
 
-def figures(scenario: Scenario, factor: Fraction, seconds: float) -> tuple[bool, str, str]:
-    """Return whether the factor is proven, cost / bound, and the seconds of the processor."""
+def figures(scenario: Scenario, factor: Fraction, seconds: float) -> tuple[bool, list[str]]:
+    """Return whether the factor is proven; flowtime, cost / bound, seconds of the processor."""
     began = time.process_time()
     try:
         plan = rightofway.solve(scenario, "cbs", seconds, options={"suboptimality": factor})
     except GaveUp:
-        return False, "-", f"{time.process_time() - began:.1f}"
+        return False, ["-", "-", f"{time.process_time() - began:.2f}"]
     outcome = plan.run.outcome
     assert outcome is not None
     assert outcome.bound is not None
     ratio = plan.flowtime / outcome.bound
     is_proven = outcome.kind in {OutcomeKind.OPTIMAL, OutcomeKind.BOUNDED}
-    return is_proven, f"{ratio:.3f}", f"{time.process_time() - began:.1f}"
+    cost = f"{float(plan.flowtime * scenario.problem.clock.tick):g}"
+    return is_proven, [cost, f"{ratio:.3f}", f"{time.process_time() - began:.2f}"]
 
 
 def gaps(scenario: Scenario, seconds: float) -> tuple[bool, list[float | None]]:
@@ -117,11 +118,12 @@ def main() -> None:
             lines.append((name, robots, *measured))
             continue
         rows = [figures(scenario, given.factor, given.seconds) for scenario in fleets]
-        proven = sum(is_proven for is_proven, _, _ in rows)
-        ratios = ", ".join(ratio for _, ratio, _ in rows)
-        cpu = ", ".join(spent for _, _, spent in rows)
-        lines.append((name, robots, f"{proven} of {len(rows)}", ratios, cpu))
-    heads: tuple[str, ...] = ("map", "robots", "proven", "cost / bound", "processor [s]")
+        proven = sum(is_proven for is_proven, _ in rows)
+        columns = (", ".join(column) for column in zip(*(row for _, row in rows), strict=True))
+        lines.append((name, robots, f"{proven} of {len(rows)}", *columns))
+    heads: tuple[str, ...] = (
+        "map", "robots", "proven", "flowtime", "cost / bound", "processor [s]",
+    )  # fmt: skip
     if given.gaps:
         heads = ("map", "robots", "proven", *(f"`{planner}` [%]" for planner in PLANNERS))
     print(table(heads, lines))  # noqa: T201

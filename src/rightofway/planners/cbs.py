@@ -1,7 +1,8 @@
 """Conflict-based search: a plan of least flowtime, or one within a proven factor of it.
 
-A first plan comes from `lns`. The search then raises the proven bound, node by node, until it
-meets that plan, or finds a better one: of least cost by construction. Which constraints a
+A first plan comes from `lns`. The search raises the proven bound, node by node, until it meets that
+plan, or finds a better one: of least cost by construction. Both take turns, so that neither goes on
+where the other has proven enough; then the search goes on alone. Which constraints a
 conflict leads to, and why no plan is lost by them, is in ``cpp/cbs/track_conflicts.cpp`` and in
 decision 30.
 
@@ -26,11 +27,14 @@ Optimal where it ends; deterministic where `nodes` ends it before the time limit
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from math import ceil
 from typing import Any
 
+from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Proof, Tick, compute_cost
 from rightofway.model.outcome import Objective, choose_objective
@@ -38,8 +42,8 @@ from rightofway.phrases import Phrase, say_count
 from rightofway.planners.bounds import finish_optimum
 from rightofway.planners.impossible import find_blocking_set
 from rightofway.planners.lns import improve_best
-from rightofway.planners.makespan import MakespanSearch
-from rightofway.planners.objectives import find_objective
+from rightofway.planners.makespan import MakespanSearch, measure_alone
+from rightofway.planners.objectives import compute_value, find_objective, list_weights
 from rightofway.planners.prioritized import make_fleet_search
 from rightofway.planners.task import Draft, Task
 from rightofway.search import ConflictBasedSearch
@@ -50,15 +54,19 @@ SHARE = 0.25
 ITERATIONS_PER_ROBOT = 200
 """How many neighbourhoods of the first plan are replanned for each robot."""
 
+NODES_PER_TURN, SHARE_OF_TURN = 5, 0.1
+"""Nodes from one look at the first plan to the next, and the part of its time that they may take.
+"""
+
 
 def cbs(task: Task) -> Draft:
     """Plan a fleet with least flowtime and surcharges, or makespan; options: `CbsOptions`."""
-    has_makespan = find_objective(task).has_makespan
-    first = _first_plan(task)
-    if has_makespan:
-        draft = _with_makespan(task, first or _of_least_flowtime(task, None))
+    if find_objective(task).has_makespan:
+        first = _first_plan(task, partial(_is_within, task))
+        draft = _with_makespan(task, first or _Tree(task).finish(None))
     else:
-        draft = _of_least_flowtime(task, first)
+        tree = _Tree(task)
+        draft = tree.finish(_first_plan(task, tree.prove))
     return finish_optimum(task, draft)
 
 
@@ -76,73 +84,83 @@ def _search(task: Task, **limits: Any) -> ConflictBasedSearch:
     )
 
 
-def _of_least_flowtime(task: Task, first: Draft | None) -> Draft:
-    """Return an optimal plan, or the first plan with what is proven of it."""
-    scenario, factor = task.scenario, Fraction(task.options["suboptimality"])
-    upper = None if first is None else compute_cost(scenario, first.tracks)
-    search = _search(task, factor=factor)
-    ended = "time ran out"
-    try:
-        search.run(
+class _Tree:
+    """A tree for the least flowtime: it grows in turn with a first plan, and then alone."""
+
+    def __init__(self, task: Task) -> None:
+        self._task = task
+        self._factor = Fraction(task.options["suboptimality"])
+        self._search = _search(task, factor=self._factor)
+
+    def prove(self, value: Tick, deadline: Deadline) -> bool:
+        """Grow by a few nodes; return whether a plan of this cost, or another one, is proven."""
+        self._grow(value, NODES_PER_TURN, deadline.shorten(SHARE_OF_TURN))
+        return self._is_over(value)
+
+    def _is_over(self, value: int | None) -> bool:
+        search = self._search
+        is_within = value is not None and value <= self._factor * (search.bound or 0)
+        return search.is_proven or is_within
+
+    def _grow(self, upper: int | None, nodes: int | None, deadline: Deadline) -> None:
+        if most := self._task.options["nodes"]:
+            nodes = min(nodes or most, most - self._search.n_nodes)
+        if nodes == 0 or self._is_over(upper):
+            return
+        self._search.run(
             upper=upper,
-            enough=None if upper is None else ceil(upper / factor),
-            nodes=task.options["nodes"] or None,
-            time_limit=task.deadline.measure_seconds_left(),
+            enough=None if upper is None else ceil(upper / self._factor),
+            nodes=nodes,
+            time_limit=deadline.measure_seconds_left(),
         )
-    except KeyboardInterrupt:
-        if not task.keep_best or first is None:
-            raise
-        return replace(first, status=Phrase("interrupted: {status}", status=first.status))
-    done = say_count(search.n_nodes, "node", "nodes")
-    if search.tracks is not None:
-        task.has_plan()
-        tracks = search.tracks
+
+    def finish(self, first: Draft | None) -> Draft:
+        """Return the optimum, a plan within the factor, or the first plan with what is proven."""
+        task, scenario, search = self._task, self._task.scenario, self._search
+        upper = None if first is None else compute_cost(scenario, first.tracks)
+        is_interrupted = first and first.improvement and first.improvement.interrupted
+        try:
+            if not is_interrupted:
+                self._grow(upper, None, task.deadline)
+        except KeyboardInterrupt:
+            if not task.keep_best or first is None:
+                raise
+            return replace(first, status=Phrase("interrupted: {status}", status=first.status))
+        done = say_count(search.n_nodes, "node", "nodes")
         kind = Phrase("optimal")
-        if factor > 1:
-            kind = Phrase("within {factor} of the optimum", factor=f"{float(factor):g}")
-        status = Phrase("{kind}: found in {nodes}", kind=kind, nodes=done)
-        if first is not None and compute_cost(scenario, tracks) >= compute_cost(
-            scenario, first.tracks
-        ):
+        if self._factor > 1:
+            kind = Phrase("within {factor} of the optimum", factor=f"{float(self._factor):g}")
+        other = search.tracks
+        if other is not None and (upper is None or compute_cost(scenario, other) < upper):
+            task.has_plan()
+            tracks, status = other, Phrase("{kind}: found in {nodes}", kind=kind, nodes=done)
+            task.better(lambda: tracks)
+        elif first is not None:
             tracks = first.tracks
-            status = Phrase(
-                "{kind}: {nodes} prove it (first plan: {status})",
-                kind=kind,
-                nodes=done,
-                status=first.status,
-            )
-        task.better(lambda: tracks)
-    elif first is not None:
-        tracks = first.tracks
-        if search.is_proven:
-            status = Phrase(
-                "optimal: {nodes} prove that nothing is better (first plan: {status})",
-                nodes=done,
-                status=first.status,
+            said = {"nodes": done, "status": first.status}
+            status = Phrase("{nodes} found nothing better (first plan: {status})", **said)
+            if self._is_over(upper):
+                status = Phrase(
+                    "{kind}: {nodes} prove it (first plan: {status})", kind=kind, **said
+                )
+        elif search.is_proven:
+            robots = range(len(scenario.robots))
+            raise NoPlanExists(
+                [find_blocking_set(scenario, robots, seed=task.seed, deadline=task.deadline)]
             )
         else:
-            status = Phrase(
-                "{nodes} found nothing better (first plan: {status})",
-                nodes=done,
-                status=first.status,
-            )
-    elif search.is_proven:
-        robots = range(len(scenario.robots))
-        raise NoPlanExists(
-            [find_blocking_set(scenario, robots, seed=task.seed, deadline=task.deadline)]
+            remedy = "give a longer time limit, or take another planner"
+            message = f"time ran out in the search for an optimal plan, after {done} ({remedy})"
+            error = GaveUp(message)
+            if choose_objective(scenario) is Objective.FLOWTIME:  # the message has a bound of that
+                error.lower_bound = search.bound
+            raise error
+        proof = Proof(
+            bound=Tick(search.bound or 0),
+            objective=choose_objective(scenario),
+            factor=self._factor if self._factor > 1 else None,
         )
-    else:
-        remedy = "give a longer time limit, or take another planner"
-        error = GaveUp(f"{ended} in the search for an optimal plan, after {done} ({remedy})")
-        if choose_objective(scenario) is Objective.FLOWTIME:  # the message has a bound of that
-            error.lower_bound = search.bound
-        raise error
-    proof = Proof(
-        bound=Tick(search.bound or 0),
-        objective=choose_objective(scenario),
-        factor=factor if factor > 1 else None,
-    )
-    return Draft(tracks=tracks, status=status, proof=proof)
+        return Draft(tracks=tracks, status=status, proof=proof)
 
 
 def _with_makespan(task: Task, first: Draft) -> Draft:
@@ -169,7 +187,14 @@ def _with_makespan(task: Task, first: Draft) -> Draft:
     return Draft(tracks=search.tracks, status=status, proof=proof)
 
 
-def _first_plan(task: Task) -> Draft | None:
+def _is_within(task: Task, value: Tick, _: Deadline) -> bool:
+    """Return whether a makespan is within the factor, which is above 1, as robots alone prove."""
+    factor = Fraction(task.options["suboptimality"])
+    alone = compute_value(find_objective(task), list_weights(task.scenario), measure_alone(task))
+    return factor > 1 and value <= factor * alone[0]
+
+
+def _first_plan(task: Task, is_proven: Callable[[Tick, Deadline], bool]) -> Draft | None:
     """Return the plan given or one by large neighbourhood search, None where it finds none."""
     if task.start is not None:
         return Draft(tracks=task.start, status=Phrase("the plan given"))
@@ -180,6 +205,10 @@ def _first_plan(task: Task) -> Draft | None:
         deadline=task.deadline.shorten(SHARE),
     )
     try:
-        return improve_best(hurried, make_fleet_search(hurried))
+        return improve_best(
+            hurried,
+            make_fleet_search(hurried),
+            is_enough=lambda value: is_proven(value, hurried.deadline),
+        )
     except GaveUp:
         return None

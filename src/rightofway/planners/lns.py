@@ -16,7 +16,7 @@ Moscato & Norman, *A memetic approach for the traveling salesman problem*, 1992.
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -61,6 +61,12 @@ RETIMING_AMONG_CLOSURES = 15e-6
 
 UNLIMITED = 2**62
 
+ITERATIONS_PER_TURN = 1
+"""Neighbourhoods for each robot from one look at the proof to the next."""
+
+IsEnough = Callable[[Tick], bool]
+"""Tells whether a plan of some value is good enough; it may search for the proof each time."""
+
 
 def lns(task: Task) -> Draft:
     """Find a plan or take the one given, and improve it till time is up; options: `LnsOptions`."""
@@ -70,8 +76,17 @@ def lns(task: Task) -> Draft:
     return improve_best(task, search)
 
 
-def improve_best(task: Task, search: FleetSearch, *, first: Draft | None = None) -> Draft:
-    """Improve the best of several first plans: the given one, one by LaCAM, one by prioritized."""
+def improve_best(
+    task: Task,
+    search: FleetSearch,
+    *,
+    first: Draft | None = None,
+    is_enough: IsEnough | None = None,
+) -> Draft:
+    """Improve the best of several first plans: the given one, one by LaCAM, one by prioritized.
+
+    It ends as soon as a plan is good enough, which is asked after every few neighbourhoods.
+    """
     problem = task.scenario.problem
     drafts: tuple[Draft | None, ...]
     if not problem.is_open:
@@ -91,7 +106,7 @@ def improve_best(task: Task, search: FleetSearch, *, first: Draft | None = None)
         raise GaveUp("time ran out before there was a first plan (give a longer time limit)")
     best = min(plans, key=lambda plan: measure_worth(task, plan.tracks))
     proof = None if first is None else first.proof
-    return _improve(task, search, replace(best, proof=proof))
+    return _improve(task, search, replace(best, proof=proof), is_enough)
 
 
 def _if_found(task: Task, search: FleetSearch, *, needed: bool) -> Draft | None:
@@ -135,7 +150,9 @@ def _in_turn(task: Task, search: FleetSearch, *, has_plan: bool) -> Draft | None
     return draft
 
 
-def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
+def _improve(
+    task: Task, search: FleetSearch, first: Draft, is_enough: IsEnough | None = None
+) -> Draft:
     """Improve a plan until time, iterations or gains are used up, or nothing can be better.
 
     An interrupt ends it too where the task keeps the best plan.
@@ -153,19 +170,19 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     weights, fastest = list_weights(task.scenario), search.compute_alone().tolist()
     alone, least_cost = compute_value(objective, weights, fastest)
     bound = alone if first.proof is None else max(alone, first.proof.bound)
-    has_ties = objective is Objective.MAKESPAN  # plans of one makespan that differ in flowtime
+    # Plans of one makespan may differ in flowtime.
+    goal = (bound, least_cost if objective is Objective.MAKESPAN else None)
     before = search.value, search.cost
     patience = PATIENCE * len(task.scenario.robots)
     iterations = task.options["iterations"] or UNLIMITED
+    turn = ITERATIONS_PER_TURN * len(task.scenario.robots) if is_enough else iterations
     done, is_interrupted = 0, False
     try:
-        while done < iterations:
-            if search.value == bound and (not has_ties or search.cost == least_cost):
-                break
+        while done < iterations and not _is_over(search, goal, is_enough):
             began, done_before = time.perf_counter(), done
             reached = search.value, search.cost
             done += search.improve(
-                iterations - done,
+                min(turn, iterations - done),
                 patience=patience,
                 time_limit=deadline.measure_seconds_left(),
                 pause=BETWEEN_REPORTS,
@@ -193,6 +210,14 @@ def _improve(task: Task, search: FleetSearch, first: Draft) -> Draft:
     saved = rated(first.tracks)[0] - rated(tracks)[0]
     gain = Improvement(saved=Tick(saved), tries=done, interrupted=is_interrupted)
     return Draft(tracks=tracks, status=status, improvement=gain, proof=first.proof)
+
+
+def _is_over(search: FleetSearch, goal: tuple[int, int | None], is_enough: IsEnough | None) -> bool:
+    """Return whether nothing is better, by value and cost where that counts, or it is enough."""
+    bound, least_cost = goal
+    if search.value == bound and least_cost in {None, search.cost}:
+        return True
+    return is_enough is not None and is_enough(search.value)
 
 
 def _progress(task: Task, cost: int, bound: int, rate: float) -> str:

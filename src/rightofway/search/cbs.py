@@ -104,7 +104,7 @@ class ConflictBasedSearch:
         Parameters
         ----------
         upper
-            The cost of a plan that is known, the same in each call [ticks]; None for none.
+            The cost of a plan that is known [ticks], no more than in a call before; None for none.
         enough
             Stop as soon as the bound is this or more [ticks].
         nodes

@@ -1,0 +1,49 @@
+"""Conflict-based search and the improvement of its first plan take turns."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+
+import rightofway
+from rightofway.bench.fleets import make_scenario_document
+from rightofway.io import parse_scenario
+from rightofway.model import OutcomeKind, Plan, Scenario
+from rightofway.planners.cbs import ITERATIONS_PER_ROBOT
+
+ROBOTS = 20
+
+
+def _fleet() -> Scenario:
+    grid = {"width": 12, "height": 12, "walls": 0.1, "seed": 4}
+    drawn = {"speeds": [1], "work": [0, 0], "by_seed": False, "rules": {}}
+    return parse_scenario(make_scenario_document({"random": grid}, drawn, ROBOTS, 4))
+
+
+def _count_neighbourhoods(plan: Plan) -> int:
+    tries = re.search(r"(\d+) neighbourhoods?", str(plan.run.status))
+    return int(tries[1]) if tries else 0
+
+
+def test_a_first_plan_within_the_factor_is_not_improved() -> None:
+    plan = rightofway.solve(_fleet(), "cbs", options={"suboptimality": Fraction(5)})
+    outcome = plan.run.outcome
+    assert outcome is not None
+    assert outcome.kind in {OutcomeKind.BOUNDED, OutcomeKind.OPTIMAL}
+    assert _count_neighbourhoods(plan) == 0
+
+
+def test_the_improvement_ends_where_the_tree_has_proven_its_plan() -> None:
+    plan = rightofway.solve(_fleet(), "cbs", time_limit=None)
+    outcome = plan.run.outcome
+    assert outcome is not None
+    assert outcome.kind is OutcomeKind.OPTIMAL
+    assert _count_neighbourhoods(plan) < ITERATIONS_PER_ROBOT * ROBOTS / 4
+
+
+def test_an_end_by_nodes_gives_one_plan() -> None:
+    plans = [
+        rightofway.solve(_fleet(), "cbs", time_limit=None, options={"nodes": 7}) for _ in range(2)
+    ]
+    assert plans[0].tracks == plans[1].tracks
+    assert plans[0].run.outcome == plans[1].run.outcome
