@@ -1,11 +1,14 @@
 """Files are read strictly as text; JSON becomes plain data, or its line or key is reported."""
 
+import gc
 from decimal import Decimal
 from pathlib import Path
 
 import pytest
 
 from rightofway.errors import InputError
+from rightofway.io.layouts import read_layout
+from rightofway.io.layouts.xml_tree import Element, parse_xml
 from rightofway.io.text import parse_json, read_text
 
 
@@ -95,3 +98,25 @@ def test_json_keys_given_twice_are_told_with_their_place() -> None:
 def test_whole_numbers_of_any_length_are_read_at_once() -> None:
     digits = "9" * 1_000_000
     assert parse_json(f"[{digits}]") == [digits]
+
+
+@pytest.mark.parametrize("was_enabled", [True, False])
+def test_garbage_is_collected_after_a_file_as_before_also_a_wrong_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, was_enabled: bool
+) -> None:
+    """No collection begins while a layout is read; a fault leaves no pause behind."""
+    seen = list[bool]()
+
+    def parse(text: str) -> Element:
+        seen.append(gc.isenabled())
+        return parse_xml(text)
+
+    monkeypatch.setattr("rightofway.io.layouts.formats.parse_xml", parse)
+    (tmp_path / "wrong.graphml").write_text("<graphml><graph><node/></graph></graphml>")
+    (gc.enable if was_enabled else gc.disable)()
+    try:
+        with pytest.raises(InputError):
+            read_layout(tmp_path / "wrong.graphml")
+        assert (gc.isenabled(), set(seen)) == (was_enabled, {False})
+    finally:
+        gc.enable()

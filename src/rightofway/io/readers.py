@@ -8,7 +8,7 @@ from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, name_file
 from rightofway.files import as_path
 from rightofway.io.scenario.reader import Loaded, read_classic, read_scenario
-from rightofway.io.text import read_text
+from rightofway.io.text import pause_garbage_collection, read_text
 from rightofway.model import Plan, Scenario
 
 WORKBOOKS = (".xlsx", ".xlsm", ".xls", ".ods")
@@ -64,7 +64,7 @@ def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
         text = read_text(path)
         _refuse_foreign(text)
         refuse_layout(path, text)
-    with open_document(path, text) as document:
+    with pause_garbage_collection(), open_document(path, text) as document:
         return read_scenario(document, path.parent)
 
 

@@ -8,6 +8,7 @@ keys, decimals as floats, and aliases that expand without end ("billion laughs")
 
 from __future__ import annotations
 
+import gc
 import json
 import math
 import os
@@ -15,6 +16,8 @@ import re
 import stat
 import sys
 from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from decimal import Decimal
 from pathlib import Path
@@ -507,3 +510,18 @@ def _is_spread(key: str, value: Any) -> bool:
 def format_json_line(value: Any) -> str:
     """Return a value as JSON text on one line."""
     return _ENCODER.encode(value)
+
+
+@contextmanager
+def pause_garbage_collection() -> Iterator[None]:
+    """Look for no cycles of objects inside: a file becomes millions of objects, all of which stay.
+
+    Threads may overlap: the first one that paused the collection resumes it.
+    """
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()

@@ -16,7 +16,14 @@ from rightofway.io.layouts import csv_pair, graphml, lif, nav2, open_rmf, opentc
 from rightofway.io.layouts.xml_tree import Element, parse_xml
 from rightofway.io.locations import add_lines
 from rightofway.io.movingai import load_map
-from rightofway.io.text import is_regular, parse_json, parse_yaml, read_text, refuse_long
+from rightofway.io.text import (
+    is_regular,
+    parse_json,
+    parse_yaml,
+    pause_garbage_collection,
+    read_text,
+    refuse_long,
+)
 from rightofway.phrases import Phrase, say_count
 from rightofway.site.layout import Layout
 from rightofway.site.occupancy import CellMap, Occupancy
@@ -125,7 +132,7 @@ def read_layout(path: Path | str) -> Layout | Occupancy | CellMap:
         If the format is not known, and with every fault, its place and remedy.
     """
     path = Path(path)
-    with name_file(str(path)):
+    with name_file(str(path)), pause_garbage_collection():
         _refuse_picture(path)
         text = read_text(path)
         opened = _open(text)
