@@ -112,21 +112,23 @@ StepTables::TableId StepTables::table_of(VertexId target) {
         by_target_[index(target)] = static_cast<TableId>(cells_.size());
         cells_.push_back(new_cells());
         searches_.push_back({{place_[index(target)]}, 0});
-        write(cells_.back(), place_[index(target)], 0);
+        is_wide_ ? write<true>(cells_.back(), place_[index(target)], 0)
+                 : write<false>(cells_.back(), place_[index(target)], 0);
     }
     return by_target_[index(target)];
 }
 
-void StepTables::write(Byte* table, Place place, std::int32_t steps) const {
-    if (is_wide_) {
+template <bool is_wide>
+void StepTables::write(Byte* table, Place place, std::int32_t steps) {
+    if constexpr (is_wide) {
         *reinterpret_cast<std::uint16_t*>(table + place) = static_cast<std::uint16_t>(steps + 1);
-        return;
+    } else {
+        if (base(table, place) == 0) {  // breadth-first order: the first count is the least
+            *reinterpret_cast<std::uint16_t*>(table + place / line_size * line_size) =
+                static_cast<std::uint16_t>(steps + 1);
+        }
+        table[place] = static_cast<Byte>(steps + 2 - base(table, place));
     }
-    if (base(table, place) == 0) {  // breadth-first order: the first count is the least
-        *reinterpret_cast<std::uint16_t*>(table + place / line_size * line_size) =
-            static_cast<std::uint16_t>(steps + 1);
-    }
-    table[place] = static_cast<Byte>(steps + 2 - base(table, place));
 }
 
 // Takes a table from a block of zeroed memory, which the system mostly provides page by page at the
@@ -152,12 +154,13 @@ StepTables::Byte* StepTables::new_cells() {
 }
 
 std::int32_t StepTables::search_on(TableId table, VertexId from) {
-    while (!searches_[index(table)].frontier.empty()) {
-        next_level(table, scratch_);
-        if (const std::int32_t steps = read(cells_[index(table)], place_[index(from)]);
-            steps >= 0) {
-            return steps;
-        }
+    search_up_to(table, from, reached_);
+    if (const std::int32_t steps = read(cells_[index(table)], place_[index(from)]); steps >= 0) {
+        return steps;
+    }
+    if (!searches_[index(table)].frontier.empty()) {
+        throw std::overflow_error("robots: more than " + std::to_string(most_steps) +
+                                  " edges lead to a place (use a coarser map)");
     }
     return unreachable;
 }
@@ -165,15 +168,10 @@ std::int32_t StepTables::search_on(TableId table, VertexId from) {
 // No two threads share a table.
 void StepTables::search_all(std::span<const Request> requests) {
     const auto search_share = [&](std::size_t share, std::size_t n_shares) {
-        std::vector<Place> scratch;
+        std::vector<Place> reached;
         for (const auto& [table, from] : requests) {
-            if (static_cast<std::size_t>(table) % n_shares != share) {
-                continue;
-            }
-            const Search& search = searches_[index(table)];
-            while (read(cells_[index(table)], place_[index(from)]) < 0 &&
-                   !search.frontier.empty() && search.depth < most_steps) {
-                next_level(table, scratch);
+            if (static_cast<std::size_t>(table) % n_shares == share) {
+                search_up_to(table, from, reached);
             }
         }
     };
@@ -187,23 +185,41 @@ void StepTables::search_all(std::span<const Request> requests) {
     others.join();
 }
 
-void StepTables::next_level(TableId table, std::vector<Place>& scratch) {
+// Counts level by level until the count of a vertex is known, no vertex is left, or the next count
+// would not fit. Most of the time of a first plan is spent here, so the inner loop asks for the kind
+// of table once, and `reached` has room for all vertices from the beginning.
+void StepTables::search_up_to(TableId table, VertexId from, std::vector<Place>& reached) {
+    is_wide_ ? search_up_to<true>(table, from, reached)
+             : search_up_to<false>(table, from, reached);
+}
+
+template <bool is_wide>
+void StepTables::search_up_to(TableId table, VertexId from, std::vector<Place>& reached) {
     Search& search = searches_[index(table)];
-    if (++search.depth > most_steps) {
-        throw std::overflow_error("robots: more than " + std::to_string(most_steps) +
-                                  " edges lead to a place (use a coarser map)");
-    }
     Byte* const cells = cells_[index(table)];
-    scratch.clear();
-    for (const Place place : search.frontier) {
-        for (EdgeId k = arriving_[index(place)]; k < arriving_[index(place + 1)]; ++k) {
-            if (read(cells, source_[index(k)]) < 0) {
-                write(cells, source_[index(k)], search.depth);
-                scratch.push_back(source_[index(k)]);
+    const auto is_known = [cells](Place place) {
+        return is_wide ? *reinterpret_cast<const std::uint16_t*>(cells + place) != 0
+                       : cells[place] != 0;
+    };
+    reached.resize(place_.size());
+    std::size_t end = search.frontier.size();
+    std::copy(search.frontier.begin(), search.frontier.end(), reached.begin());
+    std::size_t next = 0;
+    while (!is_known(place_[index(from)]) && next < end && search.depth < most_steps) {
+        ++search.depth;
+        for (const std::size_t end_of_level = end; next < end_of_level; ++next) {
+            const Place place = reached[next];
+            for (EdgeId k = arriving_[index(place)]; k < arriving_[index(place + 1)]; ++k) {
+                const Place source = source_[index(k)];
+                if (!is_known(source)) {
+                    write<is_wide>(cells, source, search.depth);
+                    reached[end++] = source;
+                }
             }
         }
     }
-    search.frontier.assign(scratch.begin(), scratch.end());
+    search.frontier.assign(reached.begin() + static_cast<std::ptrdiff_t>(next),
+                           reached.begin() + static_cast<std::ptrdiff_t>(end));
 }
 
 SearchEnd reach_all(const Problem& problem, StepTables& tables, const StopCondition& is_over) {

@@ -73,12 +73,15 @@ class StepTables {
     static std::uint16_t base(const Byte* table, Place place) {
         return *reinterpret_cast<const std::uint16_t*>(table + place / line_size * line_size);
     }
-    void write(Byte* table, Place place, std::int32_t steps) const;
+    template <bool is_wide>
+    static void write(Byte* table, Place place, std::int32_t steps);
 
     void find_places(const Graph& graph);
     Byte* new_cells();
     std::int32_t search_on(TableId table, VertexId from);
-    void next_level(TableId table, std::vector<Place>& scratch);
+    void search_up_to(TableId table, VertexId from, std::vector<Place>& reached);
+    template <bool is_wide>
+    void search_up_to(TableId table, VertexId from, std::vector<Place>& reached);
 
     bool is_wide_;
     std::vector<Place> place_;      // of each vertex
@@ -91,7 +94,7 @@ class StepTables {
     std::vector<std::unique_ptr<Byte, Free>> blocks_;
     Byte* next_cells_ = nullptr;  // in the last block
     std::size_t n_free_ = 0;      // free bytes in the last block
-    std::vector<Place> scratch_;
+    std::vector<Place> reached_;  // of the latest search
 };
 
 // `found` if each robot, driving alone, can reach all of its stages.
