@@ -132,13 +132,13 @@ bool SpaceUtilization::search(const Leg& leg, Tick when, Poll& poll) {
         for (EdgeId e = graph.indptr[index(top.vertex)]; e < graph.indptr[index(top.vertex + 1)];
              ++e) {
             const VertexId head = graph.indices[index(e)];
+            const std::int64_t cost = best.cost + edge_cost_[index(e)] + into_cost_[index(head)];
+            if (best_[index(head)].round == round_ && best_[index(head)].cost <= cost) {
+                continue;  // most heads: the way back, or a way round
+            }
             const Tick then = best.when + problem_.drive(leg.robot, e);
             const bool has_ended = head != target && ended_from_[index(head)] <= then;
-            open(head,
-                 {best.cost + edge_cost_[index(e)] + into_cost_[index(head)] +
-                      (has_ended ? cost_ended : 0),
-                  then, e, round_},
-                 table);
+            open(head, {cost + (has_ended ? cost_ended : 0), then, e, round_}, table);
         }
     }
     return false;

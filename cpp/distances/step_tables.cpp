@@ -186,11 +186,10 @@ void StepTables::search_all(std::span<const Request> requests) {
 }
 
 // Counts level by level until the count of a vertex is known, no vertex is left, or the next count
-// would not fit. Most of the time of a first plan is spent here, so the inner loop asks for the kind
-// of table once, and `reached` has room for all vertices from the beginning.
+// would not fit. Most of the time of a first plan is spent here, so the inner loop asks for the
+// kind of table once, and `reached` has room for all vertices from the beginning.
 void StepTables::search_up_to(TableId table, VertexId from, std::vector<Place>& reached) {
-    is_wide_ ? search_up_to<true>(table, from, reached)
-             : search_up_to<false>(table, from, reached);
+    is_wide_ ? search_up_to<true>(table, from, reached) : search_up_to<false>(table, from, reached);
 }
 
 template <bool is_wide>
