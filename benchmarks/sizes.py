@@ -11,7 +11,7 @@ neighbourhoods, without a clock: the figures of `docs/space.md`.
 
 ``python -m benchmarks.sizes ccbs FOLDER [ROBOTS ...]`` plans tasks of Continuous-CBS (Andreychuk et
 al., 2019), whose roadmaps are at github.com/PathPlanning/Continuous-CBS: a folder with map.xml and
-1_task.xml. The super-dense one is read with RIGHTOFWAY_MOST_CHARACTERS=60000000.
+1_task.xml.
 
 ``python -m benchmarks.sizes FOLDER [SCENARIO ...]`` wants a folder of the MovingAI benchmark, with
 ``maps`` and ``scens`` in it. SCENARIO is a file with a real layout, as ``rightofway convert``

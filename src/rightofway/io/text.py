@@ -34,7 +34,7 @@ MAX_BYTES = 2**29
 LIMIT = "RIGHTOFWAY_MOST_CHARACTERS"
 """The variable of the environment that raises the limit on layouts."""
 
-MAX_CHARACTERS = 50_000_000
+MAX_CHARACTERS = 60_000_000
 """The longest layout that is read without it: a file takes twenty times its size of memory."""
 
 PIECE = 2**20
