@@ -159,7 +159,7 @@ def _order(own: RobotLedger, entry: Entry) -> None:
         own.order_count, own.order_jobs = own.order_count + 1, 0
         own.token = None
         stands_at = entry.get("stands_at")
-        if own.cancel is not None:  # a new order drops a cancel under way: it is asked anew
+        if own.cancel is not None:  # a new order drops a cancel under way: it is asked for again
             own.cancel = Cancel(stands_at=stands_at)
     sent = own.orders[order.order_id]
     end = sent.offset + order.nodes[-1].sequence_id // 2
