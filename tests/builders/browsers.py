@@ -80,7 +80,8 @@ class Viewer:
         self.page.evaluate(FRAMES)
 
     def text(self, selector: str) -> str:
-        """Return the text that stands in an element."""
+        """Return the text that stands in an element, once what was done last is painted."""
+        self.painted()
         return self.page.inner_text(selector)
 
 
