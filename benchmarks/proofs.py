@@ -44,6 +44,11 @@ def fleet(folder: Path | None, name: str, robots: int, seed: int, *, classic: bo
         scenario = parse_scenario(make_scenario_document({"random": grid}, drawn, robots, seed))
     else:
         scenario = movingai_fleet(folder, name, robots, seed)
+    return deal(scenario, classic=classic)
+
+
+def deal(scenario: Scenario, *, classic: bool) -> Scenario:
+    """Return a fleet of one way trips with speeds dealt in turn, and the rules of these tables."""
     speeds = EQUAL if classic else SPEEDS
     dealt = tuple(
         replace(robot, speed=speeds[k % len(speeds)]) for k, robot in enumerate(scenario.robots)
