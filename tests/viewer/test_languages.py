@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -102,7 +103,7 @@ def test_the_page_of_an_inspection_says_findings_in_german(
 def test_the_address_and_the_choice_say_the_language(show: Opener) -> None:
     viewer = show(door(), "#tick=3", title="door", locale="en-GB")
     assert viewer.text("#tab-robots").startswith("Robots")
-    with viewer.page.expect_navigation():
+    with viewer.page.expect_navigation(url=re.compile("lang=de")):
         viewer.page.locator("#language").select_option("de")
     assert viewer.text("#tab-robots").startswith("Roboter")
     assert viewer.tick == 3
