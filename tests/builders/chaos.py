@@ -12,6 +12,7 @@ import random
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cache, lru_cache, partial
 from itertools import pairwise
 from typing import Any
@@ -37,7 +38,7 @@ from rightofway.control.operator import Operator
 from rightofway.cyclic import make_excerpt, plan_of_laps, run_laps
 from rightofway.cyclic.result import CyclicResult
 from rightofway.errors import GaveUp, InputError, NoPlanExists
-from rightofway.model import Plan, Rules, Scenario
+from rightofway.model import Plan, Rules, Scenario, Stop
 from rightofway.model.steady_state import keep_within
 from rightofway.precedence import Arrival, Part, ReleaseGraph
 from tests.builders.fleets import random_fleet
@@ -97,6 +98,8 @@ class Chaos:
         failed work, or puts it elsewhere; eight times as often work fails. Others pass it.
     shuffles
         Whether orders lose their order, too. No rule keeps robots safe where they are also reset.
+    works_at_home
+        Whether every second robot works at its home before it sets out.
     """
 
     events: int = 500
@@ -112,6 +115,7 @@ class Chaos:
     laps: int = 0
     people: float = 0.0
     shuffles: bool = False
+    works_at_home: bool = False
 
 
 KINDS = {
@@ -140,6 +144,9 @@ KINDS = {
     "people": Chaos(people=0.04),
     "people, all": Chaos(people=0.04, kills=0.03, resets=0.01, wrong=0.1, cancels=0.01, jobs=0.02),
     "people in laps": Chaos(people=0.04, laps=2, jobs=0.01),
+    "work at home": Chaos(
+        people=0.04, kills=0.03, cancels=0.02, laps=2, jobs=0.02, works_at_home=True
+    ),
 }
 """Kinds of chaos by name."""
 
@@ -157,12 +164,25 @@ def chaotic_plan(seed: int, kind: str = "plain") -> Plan:
         rules = Rules(rotations=False)
         number, size, robots = draw.getrandbits(32), draw.choice([4, 5]), draw.randint(2, 5)
         fleet = random_fleet(number, size=size, robots=robots, rules=rules, apart=True)
+        if KINDS[kind].works_at_home:
+            fleet = with_work_at_home(fleet)
         try:
             if KINDS[kind].laps and draw.random() < 0.7:
                 return laps_plan(fleet)
             return rightofway.solve(fleet, "prioritized")
         except (NoPlanExists, GaveUp, InputError):
             continue
+
+
+def with_work_at_home(fleet: Scenario) -> Scenario:
+    """Return a fleet of which every second robot works at its home before it sets out."""
+    robots = [
+        replace(robot, stops=(Stop(at=robot.home, work=Fraction(2)), *robot.stops))
+        if number % 2 == 0
+        else robot
+        for number, robot in enumerate(fleet.robots)
+    ]
+    return replace(fleet, robots=tuple(robots))
 
 
 def first_come(fleet: Scenario) -> CyclicResult:
@@ -600,6 +620,7 @@ class Observer:
         self._job_of: list[dict[str, str]] = [{} for _ in robots]  # by the id of its action
         self.withdrawn = set[tuple[int, str]]()
         self._looked_at: list[object] = [None for _ in robots]
+        self._laps = [0 for _ in robots]  # that are done or planned
         self._open: list[set[str]] = [set() for _ in robots]  # jobs that are not known to be done
         self._vertex = {scenario.roadmap.name(k): k for k in range(scenario.roadmap.n_vertices)}
         self._shapes = cache(self._shapes_along)
@@ -654,7 +675,11 @@ class Observer:
         return frozenset([*((v,) for v in vertices), *edges, *((-1 - zone,) for zone in zones)])
 
     def _look_at_jobs(self, robot: int, own: RobotLedger) -> None:
-        """Tell whether a job is lost: neither done nor in the route (I6)."""
+        """Tell whether a job or a lap is lost: neither done nor in the route (I6)."""
+        laps = own.laps_done + sum(end > own.arrived for end in own.route.lap_ends)
+        if laps < self._laps[robot]:
+            raise Fault(f"robot {robot} has lost {self._laps[robot] - laps} laps")
+        self._laps[robot] = laps
         key = (id(own.route), len(own.jobs_of), own.jobs_done)
         if key == self._looked_at[robot]:
             return
@@ -760,10 +785,10 @@ def _detour(
     roadmap, vertices = scenario.roadmap, _vertices(scenario, route)
     heads_of = partial(_heads_for, scenario, robot)
     last = len(vertices) - 1
-    laps = {lap_end - route.first for lap_end in route.lap_ends}
+    laps = Counter(lap_end - route.first for lap_end in route.lap_ends)
     goals = [k for k in range(end + 1, last + 1) if route.jobs[k] or k in {*laps, last}]
     path, jobs = vertices[: end + 1], list(route.jobs[: end + 1])
-    lap_ends = [lap_end for lap_end in laps if lap_end <= end]
+    lap_ends = [lap_end for lap_end in laps.elements() if lap_end <= end]
     for goal in goals:
         way = _random_way(heads_of, path[-1], vertices[goal], draw)
         if way is None or (len(way) == 1 and (route.jobs[goal] or goal in laps)):
@@ -774,8 +799,7 @@ def _detour(
         jobs += [()] * (len(way) - 1)
         if way[1:]:
             jobs[-1] = route.jobs[goal]
-        if goal in laps:
-            lap_ends.append(len(path) - 1)
+        lap_ends += [len(path) - 1] * laps[goal]
     return replace(
         route,
         places=tuple(map(roadmap.name, path)),

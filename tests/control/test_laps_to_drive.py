@@ -14,6 +14,7 @@ from rightofway.control.laps import LapsToDrive, build_graph_behind_released
 from rightofway.control.routes import make_routes_to_drive
 from rightofway.cyclic import find_best_timetable
 from rightofway.errors import InputError
+from rightofway.io import parse_scenario
 from rightofway.model import Plan
 from rightofway.precedence import ReleaseGraph
 from tests.builders.chaos import MemoryJournal, laps_plan
@@ -41,6 +42,118 @@ def test_laps_go_on_for_ever_and_all_jobs_are_done(plan: Plan) -> None:
     for own in dispatcher.ledger.robots:
         assert own.laps_done > 20
         assert own.jobs_done - own.laps_done in {0, 1}  # one job a lap
+
+
+def laps_that_begin_with_work_at_home(*, is_steady: bool) -> Plan:
+    """Return laps of two robots round a ring; R1 loads at home N0, then unloads at N2."""
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {"grid": ["...", ".@.", "..."]},
+        "rules": {"rotations": False, "laps": 1 if is_steady else 2},
+        "robots": [
+            {
+                "name": "R1",
+                "home": "N0",
+                "stops": [{"at": "N0", "work": 2}, {"at": "N2", "work": 1}],
+            },
+            {"name": "R2", "home": "N8", "target": "N6"},
+        ],
+    }
+    scenario = parse_scenario(document)
+    return laps_plan(scenario) if is_steady else rightofway.solve(scenario, "prioritized")
+
+
+@pytest.mark.parametrize("is_steady", [False, True], ids=["whole", "steady"])
+def test_work_at_home_that_begins_a_lap_is_done_in_each_lap(is_steady: bool) -> None:
+    dispatcher = begun(laps_that_begin_with_work_at_home(is_steady=is_steady), MemoryJournal())
+    floor = Floor(dispatcher)
+    floor.drive(200)
+    own = dispatcher.ledger.robots[0]
+    assert own.laps_done > 5
+    assert own.jobs_done - 2 * own.laps_done in {0, 1, 2}  # two jobs a lap, and those of this one
+    floor.send(dispatcher.replan())  # what follows begins with the first lap of the plan
+    floor.drive(200)
+    assert own.laps_done > 10
+    assert own.jobs_done - 2 * own.laps_done in {0, 1, 2}
+
+
+def test_a_robot_that_waits_at_home_drives_out_and_back_before_it_works_there() -> None:
+    """R2 is off the floor, and R1 comes to the end of its laps; then R2 is placed again.
+
+    What R1 holds, an order that was sent, gets no more work.
+    """
+    dispatcher = begun(laps_that_begin_with_work_at_home(is_steady=False), MemoryJournal())
+    floor = Floor(dispatcher)
+    floor.drive(5)
+    own = dispatcher.ledger.robots[0]
+    floor.send(floor.operator.operate("remove", "R2"))
+    floor.drive(100)
+    jobs, laps = own.jobs_done, own.laps_done
+    assert own.held == ("N0",)
+    assert own.route.end - 1 == own.arrived
+    floor.robots[1].forget()
+    floor.robots[1].place = "N8"
+    floor.send(floor.operator.place_robot("R2", "N8"))
+    floor.drive(200)
+    assert own.laps_done > laps + 5
+    assert own.jobs_done - jobs - 2 * (own.laps_done - laps) in {0, 1, 2}
+
+
+def laps_on_a_ring() -> Floor:
+    """Return R1 of the ring alone, which is to bring something to N2 in each of three laps."""
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {"grid": ["...", ".@.", "..."]},
+        "rules": {"rotations": False, "laps": 3},
+        "robots": [{"name": "R1", "home": "N0", "target": "N2", "work": 1}],
+    }
+    return Floor(begun(rightofway.solve(parse_scenario(document), "prioritized"), MemoryJournal()))
+
+
+def test_a_lap_whose_work_is_withdrawn_ends_with_the_lap_before() -> None:
+    """Of the first three laps R1 has work in the first and in the third: it comes home twice."""
+    floor = laps_on_a_ring()
+    own = floor.dispatcher.ledger.robots[0]
+    job = own.route.jobs[6][0]
+    floor.send(floor.operator.withdraw_job(f"R1/{job}"))
+    while own.arrived != 8:
+        floor.drive(1)
+    assert (own.laps_done, own.jobs_done) == (3, 2)
+    again = FleetControl(floor.dispatcher.control._journal)
+    assert again.ledger.robots[0].laps_done == 3
+
+
+def test_a_lap_whose_work_is_withdrawn_while_its_robot_is_at_home_is_over() -> None:
+    """R1 has made one lap and is held when the work of its second one is withdrawn."""
+    floor = laps_on_a_ring()
+    own = floor.dispatcher.ledger.robots[0]
+    while own.released < 4:
+        floor.drive(1)
+    floor.send(floor.operator.operate("hold", "R1"))
+    floor.drive(20)
+    assert (own.arrived, own.released, own.laps_done) == (4, 4, 1)
+    job = own.route.jobs[6 - own.route.first][0]
+    floor.send(floor.operator.withdraw_job(f"R1/{job}"))
+    assert own.laps_done == 2
+    again = FleetControl(floor.dispatcher.control._journal)
+    assert again.ledger.robots[0].laps_done == 2
+
+
+def test_a_lap_is_counted_once_where_a_robot_is_placed_before_it_has_worked_at_its_end() -> None:
+    """R1 comes home, which ends a lap, and is taken off the floor before it loads for the next."""
+    dispatcher = begun(laps_that_begin_with_work_at_home(is_steady=True), MemoryJournal())
+    floor = Floor(dispatcher)
+    own = dispatcher.ledger.robots[0]
+    while own.laps_done < 1:
+        floor.drive(1)
+    assert own.route.get_jobs(own.arrived)
+    assert not own.finished.issuperset(own.route.get_jobs(own.arrived))
+    floor.send(floor.operator.operate("remove", "R1"))
+    floor.robots[0].forget()
+    floor.send(floor.operator.place_robot("R1", "N0"))
+    floor.drive(100)
+    assert own.laps_done > 5
+    assert own.jobs_done - 2 * own.laps_done in {0, 1, 2}
 
 
 def test_what_a_control_knows_and_keeps_does_not_grow(tmp_path: Path) -> None:
@@ -77,9 +190,9 @@ def test_the_next_period_has_the_rights_of_way_of_the_plan() -> None:
     robots = [RobotLedger(route) for route in make_routes_to_drive(plan)]
     for own in robots:
         own.take_route(own.route)
-    routes = laps.extend(robots, ahead=100)
-    assert routes is not None
-    graph = build_graph_behind_released(plan.scenario, routes, [0, 0])
+    more = laps.extend(robots, ahead=100)
+    assert more is not None
+    graph = build_graph_behind_released(plan.scenario, more.routes, [0, 0])
     once = ReleaseGraph.of(plan.scenario, plan.tracks)
     for part in once.list_waiting_parts():
         if part.number:

@@ -44,8 +44,7 @@ def list_stops_to_make(own: RobotLedger, released: int) -> list[StopToMake]:
         place = own.route.get_place(visit)
         rows = zip(own.route.get_jobs(visit), own.route.get_work(visit), strict=True)
         stops += [StopToMake(place, job, work) for job, work in rows if job not in own.finished]
-        if visit in own.route.lap_ends:
-            stops.append(StopToMake(place, ends_lap=True))
+        stops += [StopToMake(place, ends_lap=True)] * own.route.lap_ends.count(visit)
     return stops
 
 

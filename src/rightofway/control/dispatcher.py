@@ -95,9 +95,13 @@ class Dispatcher:
     def _dispatch(self) -> list[Message]:
         """Add laps where robots come to the end of theirs."""
         robots = self.ledger.robots
-        routes = self._laps.extend(robots) if self._laps else None
-        if routes is None:
+        more = self._laps.extend(robots) if self._laps else None
+        if more is None:
             return []
+        routes, missed = more
+        if missed:
+            with suppress(GaveUp):  # they set out without the work with which their lap begins
+                return self._plan_laps(routes, missed)
         planned = [own.route.end - 1 for own in robots]
         messages = self.control.splice(routes, self._build_graph(routes))
         closed = self.ledger.closed_edges
@@ -108,6 +112,22 @@ class Dispatcher:
                 with suppress(GaveUp):  # robots stop before what is closed
                     messages += self._plan_rest(self.list_stops())
         return messages
+
+    def _plan_laps(
+        self, routes: Sequence[RouteToDrive], missed: Mapping[int, Sequence[StopToMake]]
+    ) -> list[Message]:
+        """Plan laps that were added, with work where robots wait: they come there once more."""
+        rows = zip(self.ledger.robots, routes, strict=True)
+        robots = [replace(own, route=route) for own, route in rows]
+        committed = self.control.list_committed()
+        stops = [
+            [*missed.get(robot, ()), *list_stops_to_make(own, end)]
+            for robot, (own, end) in enumerate(zip(robots, committed, strict=True))
+        ]
+        closed = self.ledger.closed_edges
+        return self.control.splice(
+            *self._rest.plan(robots, committed, stops, closed, [*self._passed])
+        )
 
     def _build_graph(self, routes: Sequence[RouteToDrive]) -> ReleaseGraph:
         """Return who waits for whom in the order of planned times, behind what is released."""

@@ -12,11 +12,13 @@ the first visit of the plan, after all that is planned until then.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
+from rightofway.control.commitments import StopToMake
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive, make_routes_to_drive
 from rightofway.errors import InputError
@@ -39,13 +41,29 @@ class _Group:
     visits
         For each of them how many of its last visits are a period.
     jobs
-        For each of them how many jobs these visits have.
+        For each of them how many jobs a period has.
     """
 
     robots: tuple[int, ...]
     period: int
     visits: tuple[int, ...]
     jobs: tuple[int, ...]
+
+
+class MoreLaps(NamedTuple):
+    """Routes with one more period.
+
+    Attributes
+    ----------
+    routes
+        Of all robots, from the visits on at which they have arrived.
+    missed
+        For robots that wait where their next lap begins, the work with which it begins: no order
+        that was sent gets more work, so these robots have to come there once more.
+    """
+
+    routes: list[RouteToDrive]
+    missed: dict[int, list[StopToMake]]
 
 
 class LapsToDrive:
@@ -73,11 +91,11 @@ class LapsToDrive:
         robots = [RobotLedger(route) for route in self._routes]
         for own, route in zip(robots, self._routes, strict=True):
             own.take_route(route)
-        extended = self.extend(robots, ahead=10**9)
-        if extended is None:
+        more = self.extend(robots, ahead=10**9)
+        if more is None:
             raise InputError.at("plan", "no robot moves (laps need stops away from home)")
         if cycle := build_graph_behind_released(
-            plan.scenario, extended, [0] * len(names)
+            plan.scenario, more.routes, [0] * len(names)
         ).find_rotation():
             those = ", ".join(names[robot] for robot in sorted({part.robot for part in cycle}))
             message = f"{those} move round a circle at one instant from one lap to the next"
@@ -106,13 +124,14 @@ class LapsToDrive:
         return groups
 
     def _group(self, robots: Sequence[int], period: int, visits: Sequence[int]) -> _Group:
+        routes = [self._routes[robot] for robot in robots]
         jobs = [
-            sum(map(len, self._routes[robot].jobs[-count:]))
-            for robot, count in zip(robots, visits, strict=True)
+            len(route.jobs[0]) + sum(map(len, route.jobs[-count:]))
+            for route, count in zip(routes, visits, strict=True)
         ]
         return _Group(robots=tuple(robots), period=period, visits=tuple(visits), jobs=tuple(jobs))
 
-    def extend(self, robots: Sequence[RobotLedger], ahead: int = 0) -> list[RouteToDrive] | None:
+    def extend(self, robots: Sequence[RobotLedger], ahead: int = 0) -> MoreLaps | None:
         """Return all routes with the next period of each group that needs one; None if none does.
 
         Parameters
@@ -122,13 +141,8 @@ class LapsToDrive:
         ahead
             Visits and jobs that shall be left to each robot beyond what is released, if more than
             those of a period.
-
-        Returns
-        -------
-        list of RouteToDrive
-            Routes from the visits on at which robots have arrived.
         """
-        routes = [own.route for own in robots]
+        routes, missed = [own.route for own in robots], dict[int, list[StopToMake]]()
         needy = [
             group
             for group in self._groups
@@ -151,9 +165,15 @@ class LapsToDrive:
                     begin = lap.end - 1 - visits
                 else:
                     later, begin = latest + 1, 0
-                next_lap = _number_lap(lap, begin, route.end - 1, robots[robot].next_job)
-                routes[robot] = route.join(next_lap, later)
-        return [route.cut_before(own.arrived) for own, route in zip(robots, routes, strict=True)]
+                numbers = itertools.count(robots[robot].next_job)
+                first = [
+                    StopToMake(lap.places[0], f"job{next(numbers)}", work) for work in lap.work[0]
+                ]
+                if first and robots[robot].released == route.end - 1:
+                    missed[robot], first = first, []
+                routes[robot] = route.join(_next_lap(route, lap, begin, first, numbers), later)
+        rows = zip(robots, routes, strict=True)
+        return MoreLaps([route.cut_before(own.arrived) for own, route in rows], missed)
 
     def find_planned_visit(self, robot: int, visit: int) -> tuple[int, int]:
         """Return how often a robot in step has come to the end of the plan, and a visit of it.
@@ -187,16 +207,29 @@ def _is_short(own: RobotLedger, visits: int, jobs: int) -> bool:
     return sum(map(len, left)) <= jobs
 
 
-def _number_lap(lap: RouteToDrive, begin: int, first: int, next_job: int) -> RouteToDrive:
-    """Return the visits of a lap from one on, with numbers and jobs of a route that goes on."""
-    numbers = itertools.count(next_job)
-    part, shift = lap.cut_before(begin), first - begin
+def _next_lap(
+    route: RouteToDrive,
+    lap: RouteToDrive,
+    begin: int,
+    first: Sequence[StopToMake],
+    numbers: Iterator[int],
+) -> RouteToDrive:
+    """Return the visits of a lap from one on, with numbers and jobs of a route that goes on.
+
+    The first one is the last of the route, with the work at its end and that with which the lap
+    begins.
+    """
+    part, last = lap.cut_before(begin), route.end - 1
     jobs = (tuple(f"job{next(numbers)}" for _ in names) for names in part.jobs[1:])
     return replace(
         part,
-        first=first,
-        jobs=(part.jobs[0], *jobs),
-        lap_ends=tuple(end + shift for end in part.lap_ends),
+        first=last,
+        jobs=((*route.jobs[-1], *(stop.job for stop in first)), *jobs),
+        work=((*route.work[-1], *(stop.work for stop in first)), *part.work[1:]),
+        lap_ends=(
+            *(end for end in route.lap_ends if end == last),
+            *(end + last - begin for end in part.lap_ends if end > begin),
+        ),
         in_step=True,
     )
 

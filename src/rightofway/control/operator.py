@@ -178,9 +178,10 @@ class Operator:
         place = at or said
         self._scenario.roadmap.get_vertex(place)  # refuses what is none
         first, stops = own.route.end, self._dispatcher.list_stops()
-        stops[robot] = list_stops_to_make(own, own.arrived - 1)
-        if stops[robot] and stops[robot][0].ends_lap:
-            del stops[robot][0]  # it was counted when the robot arrived
+        # A lap that ends where the robot has arrived was counted, its work there may not be done.
+        laps_ahead = tuple(end for end in own.route.lap_ends if end > own.arrived)
+        ahead = replace(own, route=replace(own.route, lap_ends=laps_ahead))
+        stops[robot] = list_stops_to_make(ahead, own.arrived - 1)
         begun = replace(own, route=make_route_from(own.route, place), is_off=False)
         begun.arrived = begun.released = first
         return self._replan(stops, placed={robot: begun}, text=f"{name} goes on from {place}")

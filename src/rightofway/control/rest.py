@@ -347,15 +347,15 @@ class RestPlanner:
         serves = make_route(whole.roadmap, whole.problem.itineraries[index], track).serves[1:]
         jobs = [*map(list, route.jobs), *([] for _ in range(last + 1, len(track)))]
         work = [*map(list, route.work), *([] for _ in range(last + 1, len(track)))]
-        lap_ends = set(route.lap_ends)
+        lap_ends = list(route.lap_ends)
         for stop, visit in zip(stops, serves, strict=True):
             if stop.job and visit == last:
                 raise GaveUp(f"{stop.job} would be done at a node that was sent already")
             if stop.job:
                 jobs[visit].append(stop.job)
                 work[visit].append(stop.work)
-            if stop.ends_lap and visit > last:
-                lap_ends.add(route.first + visit)
+            if stop.ends_lap:
+                lap_ends.append(route.first + visit)
         return replace(
             route,
             places=tuple(map(whole.roadmap.name, track.vertices.tolist())),

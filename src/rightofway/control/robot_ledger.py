@@ -93,11 +93,16 @@ class RobotLedger:
     def take_route(self, route: RouteToDrive) -> None:
         """Go on along another route; drop what is known of jobs and orders before it.
 
+        A lap of which nothing is left to drive is over.
+
         Parameters
         ----------
         route
             What is released, and what follows.
         """
+        self.laps_done += route.lap_ends.count(self.arrived) - self.route.lap_ends.count(
+            self.arrived
+        )
         self.route, jobs = route, route.all_jobs
         numbers = (int(job.removeprefix("job")) for job in jobs)
         self.next_job = max(self.next_job, max(numbers, default=-1) + 1)

@@ -30,7 +30,8 @@ class RouteToDrive:
         When each visit is planned to begin [ticks]: only the order of these times counts. Empty
         where nobody plans.
     lap_ends
-        Numbers of the visits at which a lap ends.
+        Numbers of the visits at which a lap ends, one for each lap: of a lap without work nothing
+        may be left to drive.
     in_step
         Whether the end is that of a lap of the plan, so that its next lap may follow.
     """
@@ -108,26 +109,23 @@ class RouteToDrive:
         )
 
     def join(self, after: RouteToDrive, later: int) -> RouteToDrive:
-        """Return the route up to the visit with which another one begins, and that one behind it.
+        """Return the route until another one begins, and that one from its first visit on.
 
         Parameters
         ----------
         after
-            The other route; its first visit is one of this route.
+            The other route; its first visit is one of this route, which begins when it did.
         later
             How much later its other visits begin [ticks].
         """
         index = self._index(after.first)
         return replace(
             self,
-            places=(*self.places[: index + 1], *after.places[1:]),
-            jobs=(*self.jobs[: index + 1], *after.jobs[1:]),
-            work=(*self.work[: index + 1], *after.work[1:]),
+            places=(*self.places[:index], *after.places),
+            jobs=(*self.jobs[:index], *after.jobs),
+            work=(*self.work[:index], *after.work),
             enter=(*self.enter[: index + 1], *(tick + later for tick in after.enter[1:])),
-            lap_ends=(
-                *(end for end in self.lap_ends if end <= after.first),
-                *(end for end in after.lap_ends if end > after.first),
-            ),
+            lap_ends=(*(end for end in self.lap_ends if end < after.first), *after.lap_ends),
             in_step=after.in_step,
         )
 
