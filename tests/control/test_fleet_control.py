@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import pytest
 
+import rightofway
 from rightofway.control import (
     FleetControl,
     InstantAction,
@@ -20,6 +21,7 @@ from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.operator import OPERATIONS
 from rightofway.control.routes import make_routes_to_drive
 from rightofway.errors import InputError
+from rightofway.io import parse_scenario
 from rightofway.precedence import Arrival, Part, ReleaseGraph
 from tests.builders.chaos import MemoryJournal, chaotic_plan
 from tests.builders.floors import Floor
@@ -166,6 +168,33 @@ def test_a_splice_loses_no_job() -> None:
     idle = replace(routes[0], jobs=((),) * len(routes[0].jobs))
     with pytest.raises(InputError, match=r"routes\[0\]: job0 is in no visit"):
         control.splice([idle, routes[1]], control.ledger.graph)
+
+
+def test_a_splice_leads_along_no_lane_from_which_a_robot_is_barred() -> None:
+    """R1 drives A B C B A; the lane from A to C is barred for it, and none leads from B to D."""
+    lanes = [["A", "B"], ["B", "C"], {"from": "A", "to": "C", "barred": ["wide"]}]
+    places = {"A": [0, 0], "B": [1, 1], "C": [2, 0], "D": [3, 0]}
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {"roadmap": {"vertices": places, "edges": lanes}},
+        "rules": {"rotations": False},
+        "robots": [{"name": "R1", "home": "A", "target": "C", "type": "wide"}],
+    }
+    plan = rightofway.solve(parse_scenario(document), "prioritized")
+    dispatcher = Dispatcher(FleetControl(MemoryJournal()), plan)
+    dispatcher.begin("run")
+    control, [route] = dispatcher.control, make_routes_to_drive(plan)
+    for places_of_other, message in (
+        (("A", "C", "B", "A"), r"routes\[0\]: R1 may not drive from A to C"),
+        (("A", "B", "D", "A"), r"routes\[0\]: R1 may not drive from B to D"),
+        (("A", "E", "A"), r"routes\[0\]: R1 may not drive from A to E"),
+    ):
+        jobs = ((), ("job0",), *((),) * (len(places_of_other) - 2))
+        other = replace(route, places=places_of_other, jobs=jobs)
+        graph = ReleaseGraph([len(places_of_other)], {})
+        with pytest.raises(InputError, match=message):
+            control.splice([other], graph)
+    control.splice([route], control.ledger.graph)
 
 
 def test_a_rotation_is_refused_with_the_way_out() -> None:

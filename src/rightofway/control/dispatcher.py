@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from functools import cache
 from itertools import pairwise
 
 from rightofway.control.commitments import StopToMake, find_last_open, list_stops_to_make
@@ -21,7 +22,7 @@ from rightofway.control.messages import Message
 from rightofway.control.rest import RestPlanner
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive, make_routes_to_drive
-from rightofway.errors import GaveUp
+from rightofway.errors import GaveUp, InputError
 from rightofway.model import Plan
 from rightofway.precedence import Part, ReleaseGraph
 
@@ -63,7 +64,7 @@ class Dispatcher:
         self._rest = RestPlanner(plan.scenario, planner, time_limit)
         self._stuck_for: dict[int, int] = {}  # calls of `pass_stuck` in a row, by robot
         self._passed = frozenset[int]()  # robots that the rest is planned round
-        control.dispatch = self._dispatch
+        control.dispatch, control.may_drive = self._dispatch, cache(self._may_drive)
 
     @property
     def ledger(self) -> Ledger:
@@ -91,6 +92,16 @@ class Dispatcher:
         graph = ReleaseGraph.of(self.plan.scenario, self.plan.tracks)
         names = [robot.name for robot in self.plan.scenario.robots]
         self.control.begin(run, make_routes_to_drive(self.plan), graph, names)
+
+    def _may_drive(self, robot: int, tail: str, head: str) -> bool:
+        """Return whether a lane leads from one vertex to another, and the robot is not barred."""
+        scenario = self.plan.scenario
+        roadmap, ticks = scenario.roadmap, scenario.problem.itineraries[robot].edge_ticks
+        try:
+            edge = roadmap.find_edge(roadmap.get_vertex(tail), roadmap.get_vertex(head))
+        except InputError:
+            return False
+        return edge is not None and bool(ticks[roadmap.class_of_edge[edge]] >= 0)
 
     def _dispatch(self) -> list[Message]:
         """Add laps where robots come to the end of theirs."""

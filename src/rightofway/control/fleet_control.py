@@ -28,7 +28,7 @@ from rightofway.control.proofs import (
 from rightofway.control.releases import find_last_part, is_in_base
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive
-from rightofway.control.splices import refuse_changes, refuse_rotation
+from rightofway.control.splices import refuse_changes, refuse_rotation, refuse_ways
 from rightofway.precedence import Arrival, ReleaseGraph
 
 LOOK_AHEAD = 4
@@ -73,6 +73,9 @@ class FleetControl:
     dispatch
         Is called after whatever comes in, and returns what is to be sent because there is more to
         do; a dispatcher sets it.
+    may_drive
+        Tells of each robot whether it may drive from a vertex to another one, by their names; a
+        dispatcher, which knows the map, sets it.
     """
 
     def __init__(
@@ -93,6 +96,7 @@ class FleetControl:
         self._reminded = set[int]()  # robots that were sent again what they have not answered
         self._just_sent = set[int]()  # robots that the next reminder leaves out
         self.dispatch: Callable[[], list[Message]] = list
+        self.may_drive: Callable[[int, str, str], bool] = lambda *_: True
         self._since_snapshot = 0
         for entry in journal.read_entries():
             self.ledger.apply(entry)
@@ -121,11 +125,13 @@ class FleetControl:
         Raises
         ------
         InputError
-            If robots of the plan move round a circle at one instant.
+            If robots of the plan move round a circle at one instant, or drive where they may not.
         """
         names = tuple(names) or tuple(f"robot {number}" for number in range(len(routes)))
+        committed = [0] * len(routes)
         refuse_rotation(graph, names)
-        entry = plan_entry("plan", run, routes, graph, committed=[0] * len(routes), names=names)
+        refuse_ways(routes, committed, names, self.may_drive)
+        entry = plan_entry("plan", run, routes, graph, committed=committed, names=names)
         self._commit(entry)
 
     def start(self) -> list[Message]:
@@ -167,7 +173,8 @@ class FleetControl:
         Raises
         ------
         InputError
-            If a route changes what is released, a job is lost, or robots move round a circle.
+            If a route changes what is released, a job is lost, robots move round a circle, or one
+            drives where it may not.
         """
         robots, names = self.ledger.robots, self.ledger.names
         committed = self.list_committed()
@@ -175,6 +182,7 @@ class FleetControl:
         refuse_changes(robots, routes, committed, withdrawn, placed)
         for robot in placed:
             committed[robot] = max(robots[robot].route.first, routes[robot].first)
+        refuse_ways(routes, committed, names, self.may_drive)
         entry = plan_entry("splice", self.ledger.run, routes, graph, committed=committed)
         begins = [{"kind": "placed", "robot": k, "visit": routes[k].first} for k in placed]
         self._commit(*begins, {**entry, "withdrawn": [list(job) for job in withdrawn]}, *notes)

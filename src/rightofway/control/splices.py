@@ -1,15 +1,16 @@
-"""What a splice must keep (rule 10): what is released, each job, an order without a cycle."""
+"""What a splice must keep (rule 10): what is released, each job, lanes, an order of no cycle."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
+from itertools import pairwise
 
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive
 from rightofway.errors import InputError
 from rightofway.precedence import ReleaseGraph
 
-__all__ = ["refuse_changes", "refuse_rotation"]
+__all__ = ["refuse_changes", "refuse_rotation", "refuse_ways"]
 
 
 def refuse_changes(
@@ -55,6 +56,38 @@ def refuse_changes(
         unwanted = {job for other, job in withdrawn if other == robot}
         if lost := sorted(old.all_jobs - own.finished - new.all_jobs - unwanted):
             raise InputError.at(("routes", robot), f"{lost[0]} is in no visit (keep each job)")
+
+
+def refuse_ways(
+    routes: Sequence[RouteToDrive],
+    committed: Sequence[int],
+    names: Sequence[str],
+    may_drive: Callable[[int, str, str], bool],
+) -> None:
+    """Refuse routes along which a robot may not drive.
+
+    Parameters
+    ----------
+    routes
+        The new routes.
+    committed
+        The last part of each robot that they have to keep; what is before was looked at earlier.
+    names
+        Of the robots.
+    may_drive
+        Tells whether a robot may drive from one place to the next.
+
+    Raises
+    ------
+    InputError
+        If no lane leads from one place to the next, or the robot is barred from it.
+    """
+    for robot, (route, end) in enumerate(zip(routes, committed, strict=True)):
+        for tail, head in dict.fromkeys(pairwise(route.stretch(end, route.end))):
+            if not may_drive(robot, tail, head):
+                message = f"{names[robot]} may not drive from {tail} to {head}"
+                remedy = "take lanes that are there and not barred for it"
+                raise InputError.at(("routes", robot), f"{message} ({remedy})")
 
 
 def refuse_rotation(graph: ReleaseGraph, names: Sequence[str]) -> None:
