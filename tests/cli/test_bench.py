@@ -235,7 +235,7 @@ def test_parquet_has_the_same_rows_and_goes_on_too(cli: Cli) -> None:
         (["suite.toml", "-o", "rows.txt"], "'rows.txt' does not end in .csv or .parquet"),
         (["suite.toml", "-o", "no/rows.csv"], "there is no directory 'no' (make it first)"),
         (["suite.toml", "--report", "r.pdf"], "'r.pdf' does not end in .html or .md"),
-        (["suite.toml", "--jobs", "0"], "0 is not in the range x>=1"),
+        (["suite.toml", "--jobs", "0"], "0 does not fit (give a whole number of 1 or more)"),
         (["suite.toml", "--jobs", "2", "--dask", "tcp://x:1"], "choose one"),
         (["suite.toml", "-o", "other.csv"], "other.csv:1: this is no file of results as"),
     ],

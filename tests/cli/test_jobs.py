@@ -45,6 +45,17 @@ def journal(tmp_path: Path) -> Iterator[Path]:
     control.join()
 
 
+def test_any_file_but_a_journal_is_refused_at_once_and_nothing_is_written(cli: Cli) -> None:
+    """A command to it would wait for an answer, and leave a file of commands beside it."""
+    plan = Path("plan.json")
+    plan.write_text("{}", encoding="utf-8")
+    ended = cli("jobs", "plan.json", "list")
+    assert (ended.code, ended.out) == (2, "")
+    assert ended.err.startswith("plan.json: cannot be read as a journal: ")
+    assert ended.err.endswith("(name the journal of rightofway drive)\n")
+    assert list(Path.cwd().iterdir()) == [plan.absolute()]
+
+
 def test_jobs_are_added_listed_changed_and_withdrawn(cli: Cli, journal: Path) -> None:
     assert (
         cli("jobs", journal, "add", "--at", "N7", "--work", "2").out == "R1/job1 at N7 is added\n"
@@ -78,7 +89,7 @@ def test_what_cannot_be_done_is_refused_with_the_reason(cli: Cli, journal: Path)
 def test_usage_that_asks_for_nothing_is_refused(
     cli: Cli, tmp_path: Path, words: tuple[str, ...], message: str
 ) -> None:
-    (tmp_path / "a.journal").touch()
+    SqliteJournal(tmp_path / "a.journal").close()
     ended = cli("jobs", tmp_path / "a.journal", *words)
     assert ended.code == 2
     assert message in ended.err
@@ -86,7 +97,7 @@ def test_usage_that_asks_for_nothing_is_refused(
 
 def test_a_control_that_does_not_run_answers_later(cli: Cli, tmp_path: Path) -> None:
     assert cli("jobs", tmp_path / "no.journal", "list").code == 2
-    (tmp_path / "a.journal").touch()
+    SqliteJournal(tmp_path / "a.journal").close()
     ended = cli("jobs", tmp_path / "a.journal", "hold", "--wait", "0")
     assert ended.code == 3
     assert "it is carried out when the control runs" in ended.err

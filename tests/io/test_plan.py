@@ -310,7 +310,7 @@ def _set(*path: str | int) -> Callable[[dict[str, Any], Any], None]:
             {"file": "door.map"},
             ["scenario.map.file: 'door.map' is relative to no file"],
         ),
-        (_set("scenario"), [], ["scenario: [] is no document (begin with format: rightofway-sc"]),
+        (_set("scenario"), [], ["scenario: [] is no scenario (begin with format: rightofway-sc"]),
     ],
 )
 def test_what_cannot_be_a_plan_is_told_with_its_place(

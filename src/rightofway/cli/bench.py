@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from rightofway.cli.completion import complete_files
-from rightofway.cli.options import as_json_option, require_writable
+from rightofway.cli.options import Whole, as_json_option, require_writable
 from rightofway.cli.terminal import put_json, put_report, say, say_written
 from rightofway.phrases import Phrase
 from rightofway.report.lines import Table
@@ -32,7 +32,7 @@ Examples:
               help="Add rows to this file; cases with a row in it are not run again.")  # fmt: skip
 @click.option("--report", metavar="REPORT", callback=require_writable(".html", ".md", stdout=False),
               help="Write a report with plots (HTML or Markdown) at the end.")  # fmt: skip
-@click.option("--jobs", type=click.IntRange(1), metavar="N",
+@click.option("--jobs", type=Whole(1), metavar="N",
               help="Number of cases that run at a time; by default one for each core.")  # fmt: skip
 @click.option("--dask", metavar="ADDRESS",
               help="Run on a cluster: the address of a Dask scheduler.")  # fmt: skip

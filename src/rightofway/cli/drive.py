@@ -19,11 +19,13 @@ from rightofway.cli.completion import PLANS, complete_files
 from rightofway.cli.inputs import add_foreign_options, read_plan
 from rightofway.cli.options import (
     ListingCommand,
+    Whole,
     as_json_option,
     choose_quantities,
     delay_texts,
     list_delays,
     make_delays_option,
+    read_positive,
     seed_option,
     ticks_option,
 )
@@ -53,10 +55,8 @@ Examples:
 """
 
 
-def _factor(_context: click.Context, _parameter: click.Parameter, given: float) -> float:
-    if not given > 0:
-        raise click.BadParameter(f"{given:g} is not positive (give a factor, or inf for no pause)")
-    return given
+def _factor(_context: click.Context, _parameter: click.Parameter, given: str) -> float:
+    return read_positive(given, "give a factor, or inf for no pause")
 
 
 def _count(_context: click.Context, _parameter: click.Parameter, given: str | None) -> int | None:
@@ -95,11 +95,11 @@ def _count(_context: click.Context, _parameter: click.Parameter, given: str | No
               help="Serve a page on which to watch the robots and to hold them; it stays when they"
               " have ended, until Ctrl-C.")  # fmt: skip
 @add_page_options
-@click.option("--metrics", type=click.IntRange(1, 65535), metavar="PORT",
+@click.option("--metrics", type=Whole(1, 65535), metavar="PORT",
               help="Serve metrics for Prometheus at a port of this machine.")  # fmt: skip
 @click.option("--stay", is_flag=True,
               help="Go on when all robots have come to the end of their way.")  # fmt: skip
-@click.option("--time-scale", type=float, default=10, show_default=True, callback=_factor,
+@click.option("--time-scale", default="10", show_default=True, callback=_factor,
               metavar="FACTOR",
               help="With --demo, seconds of the plan in each second, or its time units where it has"
               " no unit; inf for no pause.")  # fmt: skip

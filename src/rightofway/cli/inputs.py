@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from rightofway.cli.options import Whole
 from rightofway.cli.terminal import say_of
-from rightofway.errors import InputError
 
 if TYPE_CHECKING:
     from rightofway.io import Loaded
@@ -21,7 +21,7 @@ FILES = "rightofway.files."
 count_option = click.option(
     "-k",
     "--count",
-    type=click.IntRange(1),
+    type=Whole(1),
     metavar="K",
     help="Take the first K robots of a .scen file; all by default.",
 )
@@ -34,15 +34,7 @@ def read_scenario(path: str, count: int | None = None) -> Scenario:
     """
     from rightofway.io import load_with_notes
 
-    refuse_missing_example(path)
     return _noted(load_with_notes(path, count=count), path)
-
-
-def refuse_missing_example(path: str) -> None:
-    """Refuse an example of help or documentation that is not in the user's folder yet."""
-    if path.startswith("examples/") and not Path(path).exists():
-        message = "there is no such file (rightofway examples --copy . writes the examples)"
-        raise InputError.at("", message, path)
 
 
 def _keep_file(context: click.Context, parameter: click.Parameter, given: str | None) -> None:
@@ -89,7 +81,6 @@ def read_either(path: str, count: int | None = None, own: Collection[str] = ()) 
     """Read a plan or a scenario; ``-`` is standard input."""
     from rightofway.io import Loaded, load_either
 
-    refuse_missing_example(path)
     opened = load_either(path, count=count, **({} if path in own else _files()))
     return _noted(opened, path) if isinstance(opened, Loaded) else opened
 

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rightofway.cli.completion import SCENARIOS, complete_files
-from rightofway.cli.inputs import refuse_missing_example
-from rightofway.cli.options import as_json_option, require_writable
+from rightofway.cli.options import Whole, as_json_option, require_writable
 from rightofway.cli.outputs import PAGE_SUFFIXES, put_text, refuse_outputs
 from rightofway.cli.terminal import (
     format_json,
@@ -60,7 +59,7 @@ Examples:
 )
 @click.option(
     "--limit",
-    type=click.IntRange(1),
+    type=Whole(1),
     default=5,
     show_default=True,
     metavar="N",
@@ -94,7 +93,6 @@ def inspect(
     from rightofway.metrics import inspect as inspected
     from rightofway.report.inspection import report_inspection
 
-    refuse_missing_example(source)
     refuse_outputs(source, output, as_json=as_json)
     choice = Choice(level=level, vehicle_type=vehicle_type, cell_size=cell_size)
     sites = read_sites(source, choice, fleet)

@@ -79,7 +79,7 @@ def jobs(
     carries the command out at its next start.
     """
     if not Path(journal).exists():
-        raise InputError.at(journal, "is no file (name the journal of rightofway drive)")
+        raise InputError.at(journal, "there is no such file (name the journal of rightofway drive)")
     if action == "add" and at is None:
         raise click.UsageError("a job is somewhere (give --at)")
     if (
@@ -100,7 +100,9 @@ def jobs(
     ):
         raise click.UsageError(f"{action} needs a NAME")
     from rightofway.control.commands import Commands
+    from rightofway.control.journal import JournalReader
 
+    JournalReader(Path(journal)).close()
     commands = Commands(Path(journal))
     values = {"name": name, "at": at, "to": to, "work": work, "robot": robot}
     given = {key: value for key, value in values.items() if value is not None}

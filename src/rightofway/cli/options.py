@@ -85,25 +85,48 @@ class Time(NumberType):
         return number
 
 
-def _seconds(_context: click.Context, _parameter: click.Parameter, given: float) -> float | None:
+class Whole(click.IntRange):
+    """A whole number from ``min`` on, up to ``max`` where there is one."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
+        """Return the number."""
+        try:
+            return super().convert(value, param, ctx)
+        except click.BadParameter:
+            bounds = (
+                f"of {self.min} or more" if self.max is None else f"from {self.min} to {self.max}"
+            )
+            self.fail(f"{value} does not fit (give a whole number {bounds})", param, ctx)
+
+
+def read_positive(given: str, remedy: str) -> float:
+    """Return a number above 0, perhaps infinite, or refuse the value of an option."""
+    try:
+        number = float(given)
+    except ValueError:
+        raise click.BadParameter(f"{given!r} is not a number ({remedy})") from None
+    if not number > 0:
+        raise click.BadParameter(f"{number:g} is not positive ({remedy})")
+    return number
+
+
+def _seconds(_context: click.Context, _parameter: click.Parameter, given: str) -> float | None:
     """Return a time limit [s]; None for no limit."""
-    if not given > 0:
-        raise click.BadParameter(f"{given:g} is not positive (give seconds, or inf for no limit)")
-    return None if given == math.inf else given
+    seconds = read_positive(given, "give seconds, or inf for no limit")
+    return None if seconds == math.inf else seconds
 
 
-def _seed(_context: click.Context, _parameter: click.Parameter, given: int) -> int:
+def _seed(_context: click.Context, _parameter: click.Parameter, given: str) -> int:
     from rightofway.model.given import LARGEST_SEED
 
-    if not 0 <= given <= LARGEST_SEED:
+    if not (given.isascii() and given.isdecimal() and int(given[:11]) <= LARGEST_SEED):
         raise click.BadParameter(f"{given} is no seed (give a number from 0 to {LARGEST_SEED})")
-    return given
+    return int(given)
 
 
 time_limit_option = click.option(
     "--time-limit",
-    type=float,
-    default=10,
+    default="10",
     show_default=True,
     callback=_seconds,
     metavar="SECONDS",
@@ -113,8 +136,7 @@ time_limit_option = click.option(
 
 seed_option = click.option(
     "--seed",
-    type=int,
-    default=0,
+    default="0",
     show_default=True,
     callback=_seed,
     metavar="N",

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rightofway.cli.options import as_json_option, choose_quantities
+from rightofway.cli.options import Whole, as_json_option, choose_quantities
 from rightofway.cli.terminal import get_language, put_json, put_report
 from rightofway.phrases import Phrase
 from rightofway.report.examples import find_examples_folder, read_first_sentence
@@ -57,7 +57,7 @@ class _Table:
 
 
 @click.command(epilog=PAPER_EXAMPLES, short_help="Compare the tables of the paper with ours.")
-@click.argument("tables", nargs=-1, type=click.IntRange(1, TABLES), metavar="[NUMBERS]")
+@click.argument("tables", nargs=-1, type=Whole(1, TABLES), metavar="[NUMBERS]")
 @click.option("--log", is_flag=True, help="Print the decisions below each table.")
 @as_json_option("rows")
 def paper(tables: tuple[int, ...], *, log: bool, as_json: bool) -> int:

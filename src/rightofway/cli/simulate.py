@@ -8,6 +8,7 @@ from rightofway.cli.completion import PLANS, complete_files
 from rightofway.cli.inputs import add_foreign_options, read_plan
 from rightofway.cli.options import (
     ListingCommand,
+    Whole,
     as_json_option,
     choose_quantities,
     delay_texts,
@@ -47,7 +48,7 @@ Examples:
 @click.argument("plan", type=click.Path(), shell_complete=complete_files(*PLANS))
 @add_foreign_options
 @make_delays_option("exponential:0.2")
-@click.option("--runs", type=click.IntRange(1), default=1000, show_default=True, metavar="N",
+@click.option("--runs", type=Whole(1), default=1000, show_default=True, metavar="N",
               help="Number of runs.")  # fmt: skip
 @seed_option
 @click.option("--switch", is_flag=True,
@@ -59,7 +60,7 @@ Examples:
 @click.option("-o", "--output", metavar="FILE", callback=require_writable(".json"),
               help="Write the outcome to this file (.json); - for standard output.")  # fmt: skip
 @make_page_option("one run beside the plan")
-@click.option("--run", type=click.IntRange(0), metavar="K",
+@click.option("--run", type=Whole(0), metavar="K",
               help="Run that the page plays, from 0; by default the one of median lateness.",
               )  # fmt: skip
 @ticks_option

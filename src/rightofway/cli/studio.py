@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from rightofway.cli.completion import SCENARIOS, complete_files
-from rightofway.cli.inputs import refuse_missing_example
+from rightofway.cli.options import Whole
 from rightofway.cli.terminal import complain
 from rightofway.errors import InputError
 
@@ -26,13 +26,13 @@ Examples:
 @click.option("--host", default="127.0.0.1", show_default=True, metavar="ADDRESS",
               help="Address to listen on. Other machines than this one need the token that is"
               " in the printed address.")  # fmt: skip
-@click.option("--port", type=click.IntRange(1, 65535), metavar="PORT",
+@click.option("--port", type=Whole(1, 65535), metavar="PORT",
               help="Port to listen on; a free one by default.")  # fmt: skip
 @click.option("--certificate", type=click.Path(dir_okay=False), metavar="FILE",
               help="Certificate in PEM format: the connection is encrypted (https).")  # fmt: skip
 @click.option("--key", type=click.Path(dir_okay=False), metavar="FILE",
               help="Private key of the certificate, where it is in a file of its own.")  # fmt: skip
-@click.option("--planners", type=click.IntRange(1, 64), default=1, show_default=True, metavar="N",
+@click.option("--planners", type=Whole(1, 64), default=1, show_default=True, metavar="N",
               help="Plans to work on at once, each in a process of its own.")  # fmt: skip
 @click.option("--no-browser", is_flag=True, help="Do not open a browser.")
 @click.option("--api-only", is_flag=True, help="Serve the API without the page.")
@@ -61,7 +61,6 @@ def studio(
     from rightofway.studio.serve import serve, split_folder_and_file
     from rightofway.studio.session import Studio
 
-    refuse_missing_example(path)
     folder, file = split_folder_and_file(Path(path))
     serve(
         Studio(folder, file=file, planners=planners, keeps=not no_history),

@@ -15,6 +15,7 @@ from rightofway.cli.completion import PLANS, complete_files
 from rightofway.cli.inputs import add_foreign_options, read_plan
 from rightofway.cli.options import (
     Time,
+    Whole,
     as_json_option,
     choose_quantities,
     require_writable,
@@ -113,7 +114,7 @@ def _shown(
 @click.option("--events", is_flag=True,
               help="List each visit instead: robot, place, purpose, enter, leave,"
                    " waits for.")  # fmt: skip
-@click.option("--decision", type=click.IntRange(1), metavar="N",
+@click.option("--decision", type=Whole(1), metavar="N",
               help="Show both movement groups of the planner's N-th decision.")  # fmt: skip
 @click.option("--all", "everything", is_flag=True,
               help="Write everything to a workbook: summary, table, diagram, events, collisions,"

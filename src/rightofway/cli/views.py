@@ -19,6 +19,7 @@ from rightofway.cli.inputs import (
 )
 from rightofway.cli.options import (
     Time,
+    Whole,
     as_json_option,
     choose_quantities,
     require_writable,
@@ -68,7 +69,7 @@ Examples:
 @click.argument("plans", type=click.Path(), nargs=-1, required=True, metavar="PLAN...",
                 shell_complete=complete_files(*PLANS))  # fmt: skip
 @add_foreign_options
-@click.option("--limit", type=click.IntRange(0), default=1000, show_default=True, metavar="N",
+@click.option("--limit", type=Whole(0), default=1000, show_default=True, metavar="N",
               help="Faults to list for each plan; all are counted.")  # fmt: skip
 @ticks_option
 @as_json_option("report")
@@ -138,7 +139,7 @@ def _report_data(plan: Plan, report: Report) -> dict[str, Any]:
 @click.option("--at", type=Time(), metavar="TIME",
               help="Time that the picture shows, in the scenario's unit; the start by default.",
               )  # fmt: skip
-@click.option("--tick", type=click.IntRange(0), metavar="TICK", help="The same as a tick.")
+@click.option("--tick", type=Whole(0), metavar="TICK", help="The same as a tick.")
 @click.option("--diagram", is_flag=True, help="Draw the space-time diagram under the picture.")
 @click.option("--background", type=click.Path(), metavar="FILE",
               help="Under the map of the page: a ROS map or a building (.yaml), whose picture lies"

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from rightofway.cli.options import Whole
 from rightofway.cli.terminal import complain
 from rightofway.errors import InputError
 from rightofway.files import write_whole
@@ -28,7 +29,7 @@ def add_page_options(command: Any) -> Any:
             click.option("--host", default="127.0.0.1", show_default=True, metavar="ADDRESS",
                          help="Where the page of --live or --replay listens. Other machines than"
                          " this one need the token that is in the printed address."),
-            click.option("--port", type=click.IntRange(1, 65535), metavar="PORT",
+            click.option("--port", type=Whole(1, 65535), metavar="PORT",
                          help="The port of that page; a free one by default."),
         )
     ):  # fmt: skip

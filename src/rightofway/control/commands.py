@@ -52,7 +52,7 @@ class Commands:
                 " (number INTEGER PRIMARY KEY AUTOINCREMENT, command TEXT, answer TEXT)"
             )
         except sqlite3.Error as error:
-            message = f"cannot be used for commands: {error} (name the journal of a control)"
+            message = f"cannot be used for commands: {error} (name the journal of rightofway drive)"
             raise InputError.at(str(path), message) from error
 
     def ask(self, command: Mapping[str, Any]) -> int:

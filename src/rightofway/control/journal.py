@@ -206,7 +206,7 @@ class JournalReader:
             self._database.execute("PRAGMA query_only = TRUE")
             self._database.execute("SELECT 1 FROM entries LIMIT 1")
         except sqlite3.Error as error:
-            message = f"cannot be read as a journal: {error} (name the journal of a control)"
+            message = f"cannot be read as a journal: {error} (name the journal of rightofway drive)"
             raise InputError.at(str(path), message) from error
         self._moment = "moment" if _has_moments(self._database) else "NULL"
 

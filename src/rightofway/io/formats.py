@@ -19,7 +19,8 @@ def check_format(document: Any, known: str) -> dict[str, Any]:
     """
     line = f'format = "{known}"' if known == SUITE_FORMAT else f"format: {known}"
     if not isinstance(document, dict):
-        fault = "nothing is in it" if document is None else f"{quote(document)} is no document"
+        kind = known.removeprefix("rightofway-").partition("/")[0]
+        fault = "nothing is in it" if document is None else f"{quote(document)} is no {kind}"
         raise InputError.at("", f"{fault} (begin with {line})")
     if "format" not in document:
         if any(find_nearest(str(key).lower(), ["format"]) for key in document):

@@ -60,8 +60,7 @@ def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
 
     with name_file(str(path)):
         _refuse_count(count)
-        refuse_layout(path)
-        text = read_text(path)
+        text = _read_text(path)
         _refuse_foreign(text)
         refuse_layout(path, text)
     with pause_garbage_collection(), open_document(path, text) as document:
@@ -146,6 +145,18 @@ def load_either(
         return read_scenario(document, path.parent)
 
 
+def _read_text(path: Path) -> str:
+    """Return the text of a file; pictures and pages are refused."""
+    from rightofway.io.layouts import refuse_layout
+
+    refuse_layout(path)
+    text = read_text(path)
+    if text[:9].lower() == "<!doctype":
+        message = "this is a page (give the scenario or the plan that it was made of)"
+        raise InputError.at("", message)
+    return text
+
+
 def _refuse_foreign(text: str) -> None:
     from rightofway.io.foreign import format_of_text
 
@@ -169,8 +180,7 @@ def _foreign(
     from rightofway.io.layouts import refuse_layout
 
     with name_file(str(path)):
-        refuse_layout(path)
-        text = read_text(path)
+        text = _read_text(path)
         places = {"map_file": map_file, "scen": scen}
         files = [
             None if given is None else as_path(given, place) for place, given in places.items()

@@ -60,6 +60,7 @@ SPREAD_KEYS |= {"planner", "decisions", "reroutes", "steady"}
 """Values of these keys are spread over lines in JSON; each item in them stays on one line."""
 
 _ENCODER = json.JSONEncoder(ensure_ascii=False, allow_nan=False)
+_BEGIN = re.compile(r"(\s*#[^\n]*\n)*\s*format\s*:")
 _TOML_PLACE = re.compile(r"(?P<what>.*) \(at line (?P<line>\d+), (?P<column>.*)\)", re.DOTALL)
 
 # What is read as a number here is read as one by YAML 1.1 and 1.2 alike; all else stays text.
@@ -73,7 +74,11 @@ _WORDS = {
 
 
 def parse_document(text: str, path: Path) -> Any:
-    """Return the data of a YAML or JSON file, recognized by its name, else by its start."""
+    """Return the data of a YAML or JSON file, recognized by its name, else by its start.
+
+    A file that is named otherwise, is no YAML and does not begin with a format is plain text, and
+    returned as it is: its reader says which document it wants.
+    """
     suffix = path.suffix.lower()
     if suffix == ".map":
         message = "a map has no robots (write a scenario with map: {file: ...}, or give a .scen)"
@@ -81,9 +86,19 @@ def parse_document(text: str, path: Path) -> Any:
     if suffix == ".toml":
         message = "TOML is for the suites of benchmarks (write scenarios and plans as YAML or JSON)"
         raise InputError.at("", message)
+    if suffix == ".csv":
+        remedy = f"write a scenario with robots: {{table: {path.name}}}"
+        raise InputError.at("", f"a table of robots has no map ({remedy})")
     looks_like_json = text.lstrip().startswith(("{", "["))
     is_json = suffix == ".json" or (suffix not in {".yaml", ".yml"} and looks_like_json)
-    return parse_json(text) if is_json else parse_yaml(text)
+    if is_json:
+        return parse_json(text)
+    try:
+        return parse_yaml(text)
+    except InputError:
+        if suffix in {".yaml", ".yml", ""} or _BEGIN.match(text):
+            raise
+        return text
 
 
 @checks_arguments
@@ -232,11 +247,16 @@ def refuse_special(path: Path) -> None:
         raise InputError.at("", message)
 
 
+def find_remedy_for_missing(path: Path) -> str:
+    """Return what to do about a file that is not there."""
+    if path.parts[:1] == ("examples",):
+        return "rightofway examples --copy . writes the examples"
+    return "check the path"
+
+
 def _why_unreadable(error: Exception, path: Path) -> str:
     if isinstance(error, FileNotFoundError):
-        if path.parts[:1] == ("examples",):
-            return "there is no such file (write the examples with: rightofway examples --copy .)"
-        return "there is no such file (check the path)"
+        return f"there is no such file ({find_remedy_for_missing(path)})"
     if isinstance(error, IsADirectoryError):
         return "this is a directory (give a file in it)"
     reason = error.strerror if isinstance(error, OSError) else str(error)
@@ -376,7 +396,11 @@ def parse_yaml(text: str, *, number_keys: bool = False) -> Any:
             raise _fault(line, message) from None
         if "nesting" in (error.problem or ""):  # libyaml from 0.2.6 looks ahead, and counts first
             raise _too_deep(line) from None
-        raise _fault(line, f"{error.problem} (check the YAML there)") from None
+        begin = error.context_mark
+        problem = str(error.problem)
+        if begin and begin.line + 1 < line:
+            problem += f" for what begins in line {begin.line + 1}"
+        raise _fault(line, f"{problem} (check the YAML there)") from None
     except (yaml.YAMLError, ValueError, OverflowError) as error:
         reason = getattr(error, "reason", None) or "characters that no YAML file may hold"
         raise InputError.at("", f"{reason} (save the file as plain text)") from None
@@ -469,7 +493,8 @@ class _Builder:
             message = f"the key {quote(value)} is not text"
             raise _fault(line, f"{message} (put it in quotes, or add what is missing)")
         elif value in parent.value:
-            raise _fault(line, f"the key {quote(value)} is given twice (take one out)")
+            remedy = "write lists as [0, 1]" if value.endswith(")") else "take one out"
+            raise _fault(line, f"the key {quote(value)} is given twice ({remedy})")
         else:
             parent.key = value
 

@@ -170,7 +170,7 @@ class PlannerOptions:
 
 def describe_unknown(name: str, owner: str, known: list[str]) -> str:
     """Return a sentence on a name that is not known, with the nearest one that is."""
-    near = find_nearest(name, known)
+    near = find_nearest(name.lower(), known)
     hint = f"did you mean {near!r}? " if near else ""
     return f"{name!r} is unknown to {owner} ({hint}known: {', '.join(known) or 'none'})"
 

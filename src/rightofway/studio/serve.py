@@ -15,6 +15,7 @@ import uvicorn
 from fastapi import FastAPI
 
 from rightofway.errors import InputError
+from rightofway.io.text import find_remedy_for_missing
 from rightofway.phrases import Phrase
 from rightofway.studio.app import create_app, create_watch
 from rightofway.studio.connections import AT_ONCE, Connection, allow_descriptors
@@ -195,4 +196,5 @@ def split_folder_and_file(given: Path) -> tuple[Path, str | None]:
         return given, None
     if given.is_file():
         return given.parent, given.name
-    raise InputError.at("", "there is no such file or folder (check the path)", str(given))
+    message = f"there is no such file or folder ({find_remedy_for_missing(given)})"
+    raise InputError.at("", message, str(given))

@@ -186,16 +186,18 @@ class PlacedRobot:
 
 def read_robots(data: Any, base: Path | None) -> ListedFleet | FleetRows:
     """Return robots with their places as written, or the rows of a file that they stand on."""
-    from rightofway.io.scenario.shape import FleetDocument
+    from rightofway.io.scenario.shape import FLEETS, FleetDocument
 
-    if isinstance(data, list) and data:
+    if data in (None, [], {}):
+        raise InputError.at("", f"is empty (give {FLEETS})")
+    if isinstance(data, list):
         return ListedFleet(
             robots=[read_robot(index, robot_data) for index, robot_data in enumerate(data)]
         )
     if not isinstance(data, dict):
-        remedy = "give a list of robots, {scen: a file} or {table: a file}"
-        message = f"{quote(data)} is no fleet ({remedy})"
-        raise InputError.at("", message)
+        raise InputError.at("", f"{quote(data)} is no fleet (give {FLEETS})")
+    if "scen" not in data:
+        raise InputError.at("", f"has neither scen nor table (give {FLEETS})")
     document = validate(FleetDocument, data)
     with locate_faults("scen"):
         file = find_file_beside(base, document.scen)

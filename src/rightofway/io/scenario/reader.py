@@ -99,6 +99,8 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
     from rightofway.io.scenario.shape import MapDocument, ScenarioFrame
 
     def loaded_map_of(data: Any) -> LoadedMap | None:
+        if isinstance(data, str | list):
+            raise InputError.at("", f"{quote(data)} has no key (write {_guess_map(data)})")
         drawn = validate(MapDocument, data)
         if drawn.cell_size == "adaptive":  # may take seconds: first what is quick to check
             wrong = Faults()
@@ -176,6 +178,14 @@ def _find_map_beside(path: Path, row: ScenRow) -> Path:
             return file
     message = f"its map {quote(name)} is neither beside it nor in ../maps (put it there)"
     raise InputError.at("", message)
+
+
+def _guess_map(data: str | list[Any]) -> str:
+    """Return how a map is written that a document gives without saying of which kind it is."""
+    if isinstance(data, list) or "\n" in data:
+        return "map: {grid: …}"
+    key = "file" if data.lower().endswith(".map") else "layout"
+    return f"map: {{{key}: {quote(data)}}}"
 
 
 def _rules_of(data: Any) -> Rules:

@@ -371,6 +371,10 @@ class RobotDocument(Document):
         return super().get_own_attributes(owner) | size
 
 
+FLEETS = "a list of robots, {scen: file} or {table: file}"
+"""How robots are given."""
+
+
 @add_attributes(Robot, but="speed")
 class FleetDocument(Document):
     """Robots R1, R2, ... from the rows of a MovingAI .scen file."""
@@ -438,7 +442,7 @@ class ScenarioFrame(Document):
     homes: Literal["parking"] = make_optional(
         "parking: robots without a home start from the parking and charging places of a layout"
     )
-    robots: Any = Field(description="a list of robots, {scen: file} or {table: file}")
+    robots: Any = Field(description=FLEETS)
     rules: Any = make_optional("classic, or rules for the whole fleet")
     closures: Any = make_optional("a list of {at or edge, from, until, radius}")
 
