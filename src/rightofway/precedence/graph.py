@@ -13,7 +13,7 @@ of the right of way is the one that the edge leads to.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import groupby, pairwise
 from typing import Literal
@@ -27,9 +27,9 @@ from rightofway.model import BookingRules, Problem, Route, Tick, Track, make_rou
 from rightofway.native import BookedRows, ClosedPlaces, bind_closures, bind_rows, bind_rules
 from rightofway.precedence.segments import (
     IncompatiblePair,
+    LinkedSegments,
     Segment,
     find_shared_segment,
-    link_segments,
 )
 from rightofway.site import VertexId
 
@@ -100,7 +100,7 @@ class PrecedenceGraph:
     ) -> None:
         self.routes = tuple(routes)
         self._has_sizes = rows is not None
-        self._segments: dict[tuple[int, int], Mapping[tuple[int, int], Segment]] = {}
+        self._segments: dict[tuple[int, int], LinkedSegments] = {}
         self._frozen = frozenset(frozen)
         self._delays_frozen = False
         lengths = [len(route) for route in routes]
@@ -221,7 +221,9 @@ class PrecedenceGraph:
         """Return the segment around two visits that are in conflict if both are at one time."""
         (i, index_i), (j, index_j) = self.place(visit), self.place(other)
         if self._has_sizes:
-            return self._segments_of(i, j)[index_i, index_j]
+            segment = self._segments_of(i, j).find(index_i, index_j)
+            assert segment is not None, "the visits exclude each other"
+            return segment
         return find_shared_segment(self.routes[i], index_i, self.routes[j], index_j)
 
     def find_segment_of_right(self, first: Visit, second: Visit) -> Segment:
@@ -233,17 +235,17 @@ class PrecedenceGraph:
         return next(
             segment
             for index_j in (starts, starts - 1)
-            if (segment := segments.get((index_i, index_j))) is not None
+            if (segment := segments.find(index_i, index_j)) is not None
             and (index_i, starts) in segment.list_meetings()
         )
 
-    def _segments_of(self, i: int, j: int) -> Mapping[tuple[int, int], Segment]:
-        """Return the segments of two robots by the indices of the visits in them."""
+    def _segments_of(self, i: int, j: int) -> LinkedSegments:
+        """Return the segments of two robots, by the indices of the visits in them."""
         if (i, j) not in self._segments:
             begin_i, begin_j = self.get_visit(i, 0), self.get_visit(j, 0)
             indices = self._kernel.incompatible(i, j) - [begin_i, begin_j, begin_i, begin_j]
-            pairs = [IncompatiblePair(*pair) for pair in indices.tolist()]
-            self._segments[i, j] = link_segments(self.routes[i], self.routes[j], pairs)
+            pairs = map(IncompatiblePair._make, indices.tolist())
+            self._segments[i, j] = LinkedSegments(self.routes[i], self.routes[j], pairs)
         return self._segments[i, j]
 
     def checkpoint(self) -> int:

@@ -15,7 +15,7 @@ of linked pairs.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from operator import mul, neg
 from typing import Literal, NamedTuple
@@ -114,22 +114,37 @@ def _implying(waits: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
     return implying
 
 
-def link_segments(
-    first: Route, other: Route, pairs: Iterable[IncompatiblePair]
-) -> Mapping[tuple[int, int], Segment]:
-    """Return the segment of each pair of incompatible visits of two robots."""
-    left = {(pair.i, pair.j): pair for pair in pairs}
-    segments: dict[tuple[int, int], Segment] = {}
-    while left:
-        _, pair = left.popitem()
-        linked = [pair]
-        for pair in linked:  # grows
-            around = [(pair.i + di, pair.j + dj) for di in (-1, 0, 1) for dj in (-1, 0, 1)]
-            near = [left[at] for at in around if at in left]
-            linked += [left.pop((shared.i, shared.j)) for shared in near if pair.is_linked(shared)]
-        segment = _segment_of(first, other, tuple(zip(*sorted(linked), strict=True)))
-        segments |= dict.fromkeys(((shared.i, shared.j) for shared in linked), segment)
-    return segments
+class LinkedSegments:
+    """The segments of two robots, each linked when it is first asked for.
+
+    A graph asks for few of them: most pairs of visits of a plan are never in conflict.
+    """
+
+    def __init__(self, first: Route, other: Route, pairs: Iterable[IncompatiblePair]) -> None:
+        self._first, self._other = first, other
+        self._pairs = {(pair.i, pair.j): pair for pair in pairs}
+        self._segments: dict[tuple[int, int], Segment] = {}
+
+    def find(self, i: int, j: int) -> Segment | None:
+        """Return the segment of two visits, None where they do not exclude each other."""
+        segment = self._segments.get((i, j))
+        if segment is None and (pair := self._pairs.get((i, j))) is not None:
+            segment = self._link(pair)
+        return segment
+
+    def _link(self, pair: IncompatiblePair) -> Segment:
+        pairs, linked, seen = self._pairs, [pair], {(pair.i, pair.j)}
+        for reached in linked:  # grows
+            i, j = reached.i, reached.j
+            around = [(i + di, j + dj) for di in (-1, 0, 1) for dj in (-1, 0, 1)]
+            near = [pairs[at] for at in around if at in pairs and at not in seen]
+            new = [other for other in near if reached.is_linked(other)]
+            seen.update((other.i, other.j) for other in new)
+            linked += new
+        columns = tuple(zip(*sorted(linked), strict=True))
+        segment = _segment_of(self._first, self._other, columns)
+        self._segments |= dict.fromkeys(seen, segment)
+        return segment
 
 
 def _segment_of(first: Route, other: Route, columns: tuple[Sequence[int], ...]) -> Segment:
