@@ -614,7 +614,7 @@ class Observer:
 
     def __init__(self, scenario: Scenario, robots: Sequence[SimulatedRobot]) -> None:
         self.scenario, self.robots = scenario, robots
-        self._excludes = _excludes(scenario)
+        self._excludes = _floor(scenario).excludes
         self._contents: dict[tuple[str, int], Order] = {}
         self._arrived = [0 for _ in robots]
         self._job_of: list[dict[str, str]] = [{} for _ in robots]  # by the id of its action
@@ -622,9 +622,10 @@ class Observer:
         self._looked_at: list[object] = [None for _ in robots]
         self._laps = [0 for _ in robots]  # that are done or planned
         self._open: list[set[str]] = [set() for _ in robots]  # jobs that are not known to be done
-        self._vertex = {scenario.roadmap.name(k): k for k in range(scenario.roadmap.n_vertices)}
+        self._vertex = _floor(scenario).vertex
         self._shapes = cache(self._shapes_along)
         self._seen: list[tuple[object, ...]] = []
+        self._ways: list[tuple[tuple[str, ...], ...]] = [() for _ in robots]  # driven, booked
 
     def see_message(self, message: Message) -> None:
         """Hold an order against what was sent with its ids before (I4)."""
@@ -635,22 +636,24 @@ class Observer:
 
     def look(self, control: FleetControl) -> None:
         """Compare what robots hold, truly and by the journal (I1, I2, I5), and their jobs."""
-        bases, booked = [], []
+        is_same = True
         for robot, (own, real) in enumerate(zip(control.ledger.robots, self.robots, strict=True)):
-            base = (real.place, *(node.place for node in real.ahead))
-            held = own.held
             if not self._arrived[robot] <= own.arrived <= own.released:
                 raise Fault(f"robot {robot} has arrived at {own.arrived} of {own.released}")
             self._arrived[robot] = own.arrived
             if own.is_off:
                 base, held = (), ()
-            if not _is_within(base, held):
-                raise Fault(f"robot {robot} has base {base}, but the journal says {held}")
-            bases.append(base)
-            booked.append(held)
+            else:
+                base, held = (real.place, *[node.place for node in real.ahead]), own.held
+            if self._ways[robot] != (base, held):
+                if not _is_within(base, held):
+                    raise Fault(f"robot {robot} has base {base}, but the journal says {held}")
+                self._ways[robot], is_same = (base, held), False
             self._look_at_jobs(robot, own)
-        self._compare(bases, "drive")
-        self._compare(booked, "are booked")
+        if not is_same:
+            bases, booked = zip(*self._ways, strict=True)
+            self._compare(bases, "drive")
+            self._compare(booked, "are booked")
 
     def _compare(self, ways: Sequence[tuple[str, ...]], verb: str) -> None:
         key = tuple(ways)
@@ -724,9 +727,42 @@ class Observer:
                 raise Fault(f"robot {robot} ends at {real.place}")
 
 
-@lru_cache(maxsize=4)
-def _excludes(scenario: Scenario) -> Callable[[int, Shape, int, Shape], bool]:
-    return cache(partial(incompatible, scenario))
+class _Floor:
+    """What is asked of a scenario time and again, answered once."""
+
+    def __init__(self, scenario: Scenario) -> None:
+        self._roadmap, self._itineraries = scenario.roadmap, scenario.problem.itineraries
+        self.excludes = cache(partial(incompatible, scenario))
+        self.list_heads, self._part = cache(self._heads), cache(self._booked)
+        self.names = list(map(scenario.roadmap.name, range(scenario.roadmap.n_vertices)))
+        self.vertex = {name: k for k, name in enumerate(self.names)}
+
+    def list_vertices(self, route: RouteToDrive) -> list[int]:
+        """Return the vertices of a route, from its first."""
+        return [self.vertex[place] for place in route.places]
+
+    def list_parts(self, route: RouteToDrive) -> list[tuple[Shape, ...]]:
+        """Return what each visit of a route books, with the drive to it."""
+        way = self.list_vertices(route)
+        return [self._part(tail, vertex) for tail, vertex in zip([None, *way], way, strict=False)]
+
+    def _booked(self, tail: int | None, vertex: int) -> tuple[Shape, ...]:
+        shapes: list[Shape] = [(vertex,)]
+        zones = set(zones_around(self._roadmap, vertex))
+        if tail is not None:
+            shapes.append((tail, vertex))
+            zones |= zones_with(self._roadmap, (tail, vertex))
+        return (*shapes, *((-1 - zone,) for zone in zones))
+
+    def _heads(self, robot: int, vertex: int) -> list[int]:
+        """Return where a robot can drive from a vertex: it may be barred from lanes."""
+        roadmap, ticks = self._roadmap, self._itineraries[robot].edge_ticks
+        edges = slice(int(roadmap.indptr[vertex]), int(roadmap.indptr[vertex + 1]))
+        ends, classes = roadmap.heads[edges].tolist(), roadmap.class_of_edge[edges].tolist()
+        return [head for head, kind in zip(ends, classes, strict=True) if ticks[kind] >= 0]
+
+
+_floor = lru_cache(maxsize=4)(_Floor)
 
 
 def _is_within(base: tuple[str, ...], held: tuple[str, ...]) -> bool:
@@ -748,15 +784,16 @@ def another_plan(
     firsts = [own.arrived for own in robots]
     kept = [own.route.cut_before(own.arrived) for own in robots]
     ends = [end - first for end, first in zip(control.list_committed(), firsts, strict=True)]
-    detour = partial(_detour, scenario, draw)
+    floor = _floor(scenario)
+    detour = partial(_detour, floor, draw)
     for attempt in range(6):
         routes = [
             route if attempt % 2 or draw.random() < 0.5 else detour(robot, route, end)
             for robot, (route, end) in enumerate(zip(kept, ends, strict=True))
         ]
-        order = _played(scenario, routes, ends, draw)
+        order = _played(floor, routes, ends, draw)
         if order is not None:
-            graph = graph_of_order(scenario, routes, ends, order)
+            graph = _graph_of_order(floor, routes, ends, order)
             if graph.find_rotation():
                 continue
             return [
@@ -774,16 +811,11 @@ def _timed(route: RouteToDrive, robot: int, end: int, order: Sequence[Part]) -> 
     return replace(route, enter=enter, in_step=False)
 
 
-def _vertices(scenario: Scenario, route: RouteToDrive) -> list[int]:
-    return [int(scenario.roadmap.get_vertex(place)) for place in route.places]  # from its first
-
-
 def _detour(
-    scenario: Scenario, draw: random.Random, robot: int, route: RouteToDrive, end: int
+    floor: _Floor, draw: random.Random, robot: int, route: RouteToDrive, end: int
 ) -> RouteToDrive:
     """Return the route with random ways between the places of its later jobs, and its end."""
-    roadmap, vertices = scenario.roadmap, _vertices(scenario, route)
-    heads_of = partial(_heads_for, scenario, robot)
+    vertices, heads_of = floor.list_vertices(route), partial(floor.list_heads, robot)
     last = len(vertices) - 1
     laps = Counter(lap_end - route.first for lap_end in route.lap_ends)
     goals = [k for k in range(end + 1, last + 1) if route.jobs[k] or k in {*laps, last}]
@@ -802,19 +834,11 @@ def _detour(
         lap_ends += [len(path) - 1] * laps[goal]
     return replace(
         route,
-        places=tuple(map(roadmap.name, path)),
+        places=tuple(map(floor.names.__getitem__, path)),
         jobs=tuple(jobs),
         work=tuple((0,) * len(names) for names in jobs),
         lap_ends=tuple(lap_end + route.first for lap_end in sorted(lap_ends)),
     )
-
-
-def _heads_for(scenario: Scenario, robot: int, vertex: int) -> list[int]:
-    """Return where a robot can drive from a vertex: it may be barred from lanes."""
-    roadmap, ticks = scenario.roadmap, scenario.problem.itineraries[robot].edge_ticks
-    edges = slice(int(roadmap.indptr[vertex]), int(roadmap.indptr[vertex + 1]))
-    ways = zip(roadmap.heads[edges].tolist(), roadmap.class_of_edge[edges].tolist(), strict=True)
-    return [head for head, edge_class in ways if ticks[edge_class] >= 0]
 
 
 def _out_and_back(
@@ -848,19 +872,8 @@ def _random_way(
     return way[::-1]
 
 
-def _part(scenario: Scenario, vertices: Sequence[int], k: int) -> list[Shape]:
-    shapes: list[Shape] = [(vertices[k],)]
-    roadmap = scenario.roadmap
-    zones = set(zones_around(roadmap, vertices[k]))
-    if k:
-        edge = (vertices[k - 1], vertices[k])
-        shapes.append(edge)
-        zones |= zones_with(roadmap, edge)
-    return [*shapes, *((-1 - zone,) for zone in zones)]
-
-
 def _played(
-    scenario: Scenario,
+    floor: _Floor,
     routes: Sequence[RouteToDrive],
     ends: Sequence[int],
     draw: random.Random,
@@ -869,21 +882,20 @@ def _played(
 
     Numbers count from where robots have arrived.
     """
-    excludes = _excludes(scenario)
-    ways = [_vertices(scenario, route) for route in routes]
+    ways = [floor.list_parts(route) for route in routes]
     at, order = [0] * len(routes), list[Part]()
     held = [
-        {shape for k in range(at[r], end + 1) for shape in _part(scenario, ways[r], k)}
-        for r, end in enumerate(ends)
+        {shape for part in way[: end + 1] for shape in part}
+        for way, end in zip(ways, ends, strict=True)
     ]
     movable = [r for r in range(len(routes)) if at[r] < len(ways[r]) - 1]
     while movable:
         draw.shuffle(movable)
         for robot in movable:
             k = at[robot] + 1
-            part = _part(scenario, ways[robot], k)
+            part = ways[robot][k]
             is_free = k <= ends[robot] or not any(
-                excludes(robot, mine, other, theirs)
+                floor.excludes(robot, mine, other, theirs)
                 for other in range(len(routes))
                 if other != robot
                 for mine in part
@@ -899,7 +911,7 @@ def _played(
         held[robot] = {
             shape
             for p in range(k, max(ends[robot], k) + 1)
-            for shape in _part(scenario, ways[robot], p)
+            for shape in ways[robot][p]
             if p > k or len(shape) == 1
         }
         if k == len(ways[robot]) - 1:
@@ -907,26 +919,25 @@ def _played(
     return order
 
 
-def graph_of_order(
-    scenario: Scenario, routes: Sequence[RouteToDrive], ends: Sequence[int], order: Sequence[Part]
+def _graph_of_order(
+    floor: _Floor, routes: Sequence[RouteToDrive], ends: Sequence[int], order: Sequence[Part]
 ) -> ReleaseGraph:
     """Return who waits for whom where the parts behind the committed ones go in an order.
 
     Numbers count from where robots have arrived; those of the graph are the routes' own.
     """
     firsts = [route.first for route in routes]
-    excludes = _excludes(scenario)
-    ways = [_vertices(scenario, route) for route in routes]
+    ways = [floor.list_parts(route) for route in routes]
     before = [Part(r, k) for r, end in enumerate(ends) for k in range(end + 1)]
     waits: dict[Part, list[Arrival]] = {}
     for part in order:
         latest: dict[int, int] = {}
-        for mine in _part(scenario, ways[part.robot], part.number):
+        for mine in ways[part.robot][part.number]:
             for other in before:
                 if other.robot == part.robot:
                     continue
-                for theirs in _part(scenario, ways[other.robot], other.number):
-                    if excludes(part.robot, mine, other.robot, theirs):
+                for theirs in ways[other.robot][other.number]:
+                    if floor.excludes(part.robot, mine, other.robot, theirs):
                         is_edge = len(theirs) == 2
                         left = other.number + (not is_edge)
                         latest[other.robot] = max(latest.get(other.robot, 0), left)

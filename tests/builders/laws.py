@@ -43,6 +43,10 @@ ROUND = (3, 100)
 """Cases of the first round, and of a round at most; each round draws with a seed of its own."""
 
 
+class Over(BaseException):
+    """The budget is over amid a round; Hypothesis takes no such exception for a case that fails."""
+
+
 class Left(Exception):
     """A case that the law does not judge."""
 
@@ -137,9 +141,9 @@ class LawRun:
             if again:
                 self._round(test, strategies, session, int(again[0]), int(again[1]))
                 return
-            number, cases = 0, ROUND[0]
+            number, cases, end = 0, ROUND[0], start + self.seconds
             while self._goes_on(process_time() - start):
-                self._round(test, strategies, session, number, cases)
+                self._round(test, strategies, session, number, cases, end=end)
                 number, self.spent = number + 1, process_time() - start
                 pace = (self.judged + self.left.total()) / max(self.spent, 1e-3)
                 cases = min(max(int(pace * (self.seconds - self.spent)), ROUND[0]), ROUND[1])
@@ -148,9 +152,12 @@ class LawRun:
             self.properties.append(("law", self.row()))
         self._refuse_emptiness()
 
+    @property
+    def _has_enough(self) -> bool:
+        return self.judged >= FEWEST or self.left.total() >= MOST_LEFT
+
     def _goes_on(self, spent: float) -> bool:
-        few = self.judged < FEWEST and self.left.total() < MOST_LEFT
-        return few or spent < self.seconds
+        return not self._has_enough or spent < self.seconds
 
     def _round(
         self,
@@ -159,8 +166,15 @@ class LawRun:
         session: str,
         number: int,
         cases: int,
+        *,
+        end: float = math.inf,
     ) -> None:
+        fails = False
+
         def case(**drawn: Any) -> None:
+            nonlocal fails
+            if process_time() > end and not fails and self._has_enough:
+                raise Over
             for name, value in drawn.items():
                 if isinstance(value, Scenario):
                     note(Described(name, value))
@@ -168,6 +182,9 @@ class LawRun:
                 test(**drawn)
             except (Left, UnsatisfiedAssumption, pytest.skip.Exception) as reason:
                 self.left[str(reason) or "assumed"] += 1
+            except BaseException:
+                fails = True  # and Hypothesis goes on to the least case that does
+                raise
             else:
                 self.judged += 1
 
@@ -182,6 +199,8 @@ class LawRun:
         own = zlib.crc32(f"{self.law} {session} {number}".encode())
         try:
             seed(own)(drawing(given(**strategies)(case)))()
+        except Over:
+            return
         except BaseException as error:
             again = f"pytest '{self.law}' -m '' --law-seed {session}:{number}:{cases}"
             error.add_note(f"the same cases again: {again}")
