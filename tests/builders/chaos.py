@@ -641,9 +641,9 @@ class Observer:
             if not self._arrived[robot] <= own.arrived <= own.released:
                 raise Fault(f"robot {robot} has arrived at {own.arrived} of {own.released}")
             self._arrived[robot] = own.arrived
-            if own.is_off:
-                base, held = (), ()
-            else:
+            base: tuple[str, ...] = ()
+            held: tuple[str, ...] = ()
+            if not own.is_off:
                 base, held = (real.place, *[node.place for node in real.ahead]), own.held
             if self._ways[robot] != (base, held):
                 if not _is_within(base, held):

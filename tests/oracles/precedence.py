@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import accumulate, combinations, pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -48,7 +49,7 @@ class Conflict(NamedTuple):
         return self.tick, self.kind, self.visit_a, self.visit_b
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class System:
     """Routes, and the rules for what a visit books."""
 
@@ -59,17 +60,17 @@ class System:
     swaps_conflict: bool = True
     active: tuple[bool, ...]
 
-    @property
+    @cached_property
     def first_visit(self) -> list[int]:
         """Where each robot's visits begin, and where all end."""
         return list(accumulate((len(route) for route in self.routes), initial=0))
 
-    @property
+    @cached_property
     def vertex(self) -> list[int]:
         """Where each visit is."""
         return [vertex for route in self.routes for vertex in route]
 
-    @property
+    @cached_property
     def robot(self) -> list[int]:
         """Whose each visit is."""
         return [r for r, route in enumerate(self.routes) for _ in route]
