@@ -355,4 +355,6 @@ def test_the_page_has_no_serious_fault_and_fits(
     assert serious(viewer) == []
     assert english_on(viewer) == []
     assert viewer.is_as_wide_as(width)
+    readout = viewer.box("#readout")
+    assert readout["x"] + readout["width"] <= width
     assert viewer.complaints == []

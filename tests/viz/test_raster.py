@@ -14,12 +14,14 @@ from PIL import Image, ImageColor
 from rightofway.errors import InputError
 from rightofway.io import parse_scenario
 from rightofway.model import Plan, Robot, Scenario, Stop
+from rightofway.quantities import Quantities, Units
 from rightofway.site import Edge, VertexId, make_roadmap
 from rightofway.site.drawing import Drawing, Picture
 from rightofway.solve import solve
 from rightofway.viz import Film, write_gif, write_png
 from rightofway.viz.palette import DARK, LIGHT, choose_colours
 from rightofway.viz.raster.canvas import Pen, Scene
+from rightofway.viz.raster.diagram import find_label_step
 from rightofway.viz.raster.map import draw_robots, to_the_right
 from rightofway.viz.raster.names import MapNames
 from rightofway.viz.raster.sizes import compute_sizes
@@ -119,6 +121,19 @@ def test_the_diagram_comes_below(tmp_path: Path, plan: Plan) -> None:
         assert full.height > bare.height + 26
         below = full.crop((0, bare.height, full.width, full.height))
         assert len(below.getcolors(1 << 24) or []) > 4
+
+
+@pytest.mark.parametrize(
+    ("tick", "least", "label"),
+    [
+        (Fraction(361, 100_000), 6000, "30 s"),  # 8310.2… ticks, which nobody sees one by one
+        (Fraction(1, 3), 1.2, "1 s"),  # three ticks; half a second is no whole number of them
+        (Fraction(1, 3), 3.5, "2 s"),
+    ],
+)
+def test_labels_of_a_diagram_are_round_times(tick: Fraction, least: float, label: str) -> None:
+    quantities = Quantities(units=Units(time="s"), tick=tick)
+    assert quantities.format_duration(find_label_step(quantities, least)) == label
 
 
 def test_a_negative_tick_is_refused(tmp_path: Path) -> None:

@@ -31,6 +31,9 @@ LEAST_ROW = 16.0
 LABEL_GAP = 72.0
 """Between two labelled moments, at least [pixels]."""
 
+MOST_MARKED = 14
+"""Ticks between two labels, from which on nobody sees that a label stands between two ticks."""
+
 MINUTES = (1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1440)
 ROUND_SECONDS = (*map(Fraction, (10, 20, 30)), *(Fraction(60 * minutes) for minutes in MINUTES))
 """Times between labels, where the scenario says what its times are [s]."""
@@ -93,9 +96,9 @@ class Diagram:
         theme, end = self.scene.theme, self.scene.end
         quantities = self.scene.plan.scenario.quantities
         write = quantities.format_duration if quantities.units.time else quantities.format_cell
-        step = _label_step(quantities, LABEL_GAP / (self.right - self.left) * end)
-        for tick in range(0, end + 1, step):
-            x = self._x(tick)
+        step = find_label_step(quantities, LABEL_GAP / (self.right - self.left) * end)
+        for tick in (number * step for number in range(int(end / step) + 1)):
+            x = self._x(float(tick))
             pen.draw_line([(x, 0), (x, self.bottom)], theme.line, 1)
             pen.write_text((x, self.bottom + 7), write(tick), theme.muted, size=12, anchor="ma")
         pen.draw_line([(self.left, self.bottom), (self.right, self.bottom)], theme.wall, 1)
@@ -184,8 +187,8 @@ def _row_heights(places: Sequence[float], room: float) -> list[float]:
     return [0.0, *np.cumsum(np.maximum(steps * low, least)).tolist()]
 
 
-def _label_step(quantities: Quantities, least: float) -> int:
-    """Return the ticks between two labels: a round time, if that is a whole number of ticks."""
+def find_label_step(quantities: Quantities, least: float) -> Fraction:
+    """Return the ticks between two labels: a round time, whole ticks where each could be seen."""
     below = [Fraction(digit, 10**power) for power in (3, 2, 1, 0) for digit in (1, 2, 5)]
     decimal = [
         *below,
@@ -196,7 +199,7 @@ def _label_step(quantities: Quantities, least: float) -> int:
         unit = quantities.units.seconds * quantities.tick
         times = [time / unit for time in (*below, *ROUND_SECONDS)]
     fitting = [step for step in (*times, *decimal) if step >= max(least, 1)]
-    return int(next(step for step in fitting if step.denominator == 1))
+    return next(step for step in fitting if step.denominator == 1 or least > MOST_MARKED)
 
 
 def _counts(trips: Sequence[Trip], end: int, samples: int) -> NDArray[np.int64]:

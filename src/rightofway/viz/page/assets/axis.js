@@ -1,11 +1,14 @@
+import { fraction, product } from "./quantities.js";
 import { line, shortened } from "./shapes.js";
 
+/** @import { Fraction } from "./quantities.js" */
 /** @import { Plan } from "./plan.js" */
 /** @import { Theme } from "./theme.js" */
 /** @import { Words } from "./words.js" */
 
 export const AXIS_HEIGHT = 20;
 const LABEL_GAP = 72; // pixels between two labelled moments, at least
+const MARK_GAP = 5; // pixels between two ticks that have marks, at least
 
 /** Where a diagram is painted, and where a tick is on it. Slider and diagrams share its ends. */
 export class Area {
@@ -46,26 +49,36 @@ export class Area {
 /** Times between labels, from ten seconds on. */
 const ROUND_SECONDS = [10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600, 7200, 18000, 36000, 86400];
 
+/** Round numbers: the digits 1, 2 and 5 with zeros. */
+const ROUND = Array.from({ length: 18 }, (_, k) => k - 3).flatMap((power) =>
+  [1, 2, 5].map((digit) => Number(`${digit}e${power}`)),
+);
+
+/** @param {Fraction} options */
+const isWhole = ([top, bottom]) => top % bottom === 0n;
+
 /**
- * Ticks between two labels: a round time where that is a whole number of ticks.
+ * Ticks between two labels: a round time, which is a whole number of ticks where these have marks.
  *
- * @param {Area} area
- * @param {Plan} plan
+ * @param {number} least
+ * @param {Pick<Plan, "tick" | "quantities">} plan
+ * @param {boolean} hasMarks
+ * @returns {Fraction}
  */
-function labelStep(area, plan) {
-  const least = (LABEL_GAP / (area.right - area.left)) * area.end;
-  const perUnit = plan.tick.denominator / plan.tick.numerator;
-  const round = [];
-  for (let power = -3; power < 15; power++)
-    for (const digit of [1, 2, 5]) round.push(digit * 10 ** power);
-  /** @param {number} ticks */
-  const whole = (ticks) => Math.abs(ticks - Math.round(ticks)) < 1e-6 && ticks >= least;
-  const { seconds } = plan.quantities;
-  const inUnit = seconds ? Number(seconds[0]) / Number(seconds[1]) : 1;
-  const times = seconds
-    ? [...round.filter((time) => time < 10), ...ROUND_SECONDS].map((time) => time / inUnit)
-    : round;
-  return Math.max(times.map((units) => units * perUnit).find(whole) ?? round.find(whole) ?? 1, 1);
+export function labelStep(least, { tick, quantities }, hasMarks) {
+  const [top, bottom] = quantities.seconds ?? [1n, 1n];
+  /** @type {Fraction} */
+  const perTime = [BigInt(tick.denominator) * bottom, BigInt(tick.numerator) * top];
+  const times = quantities.seconds
+    ? [...ROUND.filter((time) => time < 10), ...ROUND_SECONDS]
+    : ROUND;
+  /** @param {Fraction} ticks */
+  const fits = (ticks) =>
+    Number(ticks[0]) / Number(ticks[1]) >= least && (!hasMarks || isWhole(ticks));
+  return (
+    times.map((time) => product(fraction(time), perTime)).find(fits) ??
+    ROUND.map(fraction).find((ticks) => fits(ticks) && isWhole(ticks)) ?? [1n, 1n]
+  );
 }
 
 /**
@@ -79,15 +92,19 @@ function labelStep(area, plan) {
  * @param {boolean} [hasLabels]
  */
 export function paintAxis(context, area, plan, theme, words, hasLabels = true) {
-  const step = Math.round(labelStep(area, plan));
   const perTick = (area.right - area.left) / area.end;
+  const hasMarks = perTick >= MARK_GAP;
+  const [top, bottom] = labelStep(LABEL_GAP / perTick, plan, hasMarks);
+  const step = Number(top) / Number(bottom);
+  const moments = Array.from({ length: Math.floor(area.end / step) + 1 }, (_, k) => ({
+    tick: k * step,
+    exact: `${BigInt(k) * top}/${bottom}`,
+  }));
   context.strokeStyle = theme.line;
   context.lineWidth = 1;
   context.beginPath();
-  for (let tick = 0; tick <= area.end; tick += step) {
-    line(context, area.x(tick), area.top, area.x(tick), area.bottom);
-  }
-  if (perTick >= 5) {
+  for (const { tick } of moments) line(context, area.x(tick), area.top, area.x(tick), area.bottom);
+  if (hasMarks) {
     for (let tick = 0; tick <= area.end; tick++) {
       line(context, area.x(tick), area.bottom, area.x(tick), area.bottom + 4);
     }
@@ -99,8 +116,8 @@ export function paintAxis(context, area, plan, theme, words, hasLabels = true) {
   context.fillStyle = theme.muted;
   context.textBaseline = "top";
   context.textAlign = "center";
-  for (let tick = 0; tick <= area.end; tick += step) {
-    context.fillText(words.time(tick), area.x(tick), area.bottom + 6);
+  for (const { tick, exact } of moments) {
+    context.fillText(words.time(exact), area.x(tick), area.bottom + 6);
   }
 }
 

@@ -41,6 +41,8 @@ export class MapRobots {
       for (const robot of this.#haunted)
         this.#ghost(context, robot, this.#radius(robot, scale), scale);
     if (this.choice.robotIndex < 0) {
+      if (this.choice.robots.length <= FEW)
+        for (const robot of this.choice.robots) this.#wish(context, robot, scale);
       for (const robot of this.choice.robots)
         this.#robot(context, robot, this.#radius(robot, scale), scale);
     } else {
@@ -211,8 +213,6 @@ export class MapRobots {
    * @param {number} scale
    */
   #waiting(context, robot, x, y, radius, scale) {
-    if (this.choice.robots.length <= FEW && this.choice.robotIndex < 0)
-      this.#wish(context, robot, x, y, scale);
     const width = Math.max(radius * 0.26, 1 / scale);
     context.fillStyle = this.theme.floor;
     disc(context, x, y, radius);
@@ -254,15 +254,15 @@ export class MapRobots {
   }
 
   /**
-   * A dotted line to the vertex that a waiting robot is kept from.
+   * A dotted line to the vertex that a waiting robot is kept from, below all robots.
    *
    * @param {CanvasRenderingContext2D} context
    * @param {Robot} robot
-   * @param {number} x
-   * @param {number} y
    * @param {number} scale
    */
-  #wish(context, robot, x, y, scale) {
+  #wish(context, robot, scale) {
+    if (this.motion.activity[robot.index] !== WAIT) return;
+    const [x, y] = [this.motion.x[robot.index], this.motion.y[robot.index]];
     const visit = robot.phases.visit[this.motion.phase[robot.index]];
     const planned = robot instanceof FloorRobot ? robot.planned : robot;
     const next = robot.vertices[visit + 1] ?? planned.vertices[visit + 1];

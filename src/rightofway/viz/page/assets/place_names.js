@@ -165,7 +165,7 @@ export class PlaceNames {
       const box = free.find((each) => this.#lanes.isFree(...each)) ?? free[0];
       if (!box) continue;
       this.names.take(...box);
-      spots.push({ name, box, font, ink: this.theme.zone, halo: this.#halo });
+      spots.push({ name, box, font, ink: this.theme.ink, halo: this.#halo });
     }
   }
 
@@ -350,7 +350,7 @@ export class PlaceNames {
     const mayCover = hasCells || (mark && (mark.robots.length > 0 || scale >= NAMED_CELL));
     if (this.plan.roadmap.rows && scale >= NAMED_CELL) {
       const inset = Math.min(Math.max((scale - 60) * 0.1, 1.5), 7); // beside the corner of a home
-      const [left, top] = [x - scale / 2 + inset, y - scale / 2 + inset];
+      const [left, top] = [x - scale / 2 + inset, y - scale / 2 + inset - 3]; // letters are lower
       return wide < scale - 2 * inset ? [left, top, left + wide, top + high] : null;
     }
     const radius = Math.max(this.sizes.lane / 2, this.sizes.vertex, mark ? this.#reach(mark) : 0);

@@ -99,7 +99,7 @@ export class Quantities {
    */
   duration(ticks) {
     const time = this.#time(ticks);
-    return this.seconds ? this.#clock(times(time, this.seconds)) : texts.timeUnits(decimal(time));
+    return this.seconds ? this.#clock(product(time, this.seconds)) : texts.timeUnits(decimal(time));
   }
 
   /**
@@ -138,7 +138,7 @@ export class Quantities {
   running(ticks, digits = 1) {
     const time = this.#time(ticks);
     return this.seconds
-      ? this.#clock(times(time, this.seconds), (part) => fixed(part, digits))
+      ? this.#clock(product(time, this.seconds), (part) => fixed(part, digits))
       : fixed(time, digits);
   }
 
@@ -168,7 +168,7 @@ export class Quantities {
 
   /** @param {number | string} ticks */
   #time(ticks) {
-    return times(fraction(ticks), this.#perTick);
+    return product(fraction(ticks), this.#perTick);
   }
 
   /**
@@ -202,10 +202,12 @@ export class Quantities {
 }
 
 /**
+ * What two fractions make, multiplied.
+ *
  * @param {Fraction} options
  * @param {Fraction} other
  * @returns {Fraction}
  */
-function times([top, bottom], [otherTop, otherBottom]) {
+export function product([top, bottom], [otherTop, otherBottom]) {
   return [top * otherTop, bottom * otherBottom];
 }

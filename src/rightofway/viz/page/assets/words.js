@@ -102,7 +102,7 @@ export class Words {
   /**
    * A time where there is little room: "6 min 23 s"; a bare number where no unit is known.
    *
-   * @param {number} ticks
+   * @param {number | string} ticks
    */
   time(ticks) {
     return this.plan.quantities.short(ticks);

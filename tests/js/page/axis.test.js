@@ -1,0 +1,39 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { labelStep } from "../../../src/rightofway/viz/page/assets/axis.js";
+import { Quantities } from "../../../src/rightofway/viz/page/assets/quantities.js";
+
+/**
+ * Labels at the first three moments after the begin.
+ *
+ * @param {[number, number]} tick
+ * @param {string | null} time
+ * @param {number} least
+ * @param {boolean} hasMarks
+ */
+function labels([numerator, denominator], time, least, hasMarks) {
+  const quantities = new Quantities({ length: null, time }, [numerator, denominator]);
+  const [top, bottom] = labelStep(
+    least,
+    { tick: { numerator, denominator }, quantities },
+    hasMarks,
+  );
+  return [1n, 2n, 3n].map((k) => quantities.short(`${k * top}/${bottom}`));
+}
+
+test("ticks that nobody sees do not keep a time from being round", () => {
+  // 0.00361 s a tick: 30 s are 8310.2… ticks; 3610 s would be the first whole number of them
+  assert.deepEqual(labels([361, 100000], "s", 6000, false), ["30 s", "1 min", "1 min 30 s"]);
+  assert.deepEqual(labels([361, 100000], null, 6000, false), ["50", "100", "150"]);
+});
+
+test("where ticks have marks, a label stands at one of them", () => {
+  // a third of a second: 1 s are 3 ticks, 2 s are 6; half a second is none
+  assert.deepEqual(labels([1, 3], "s", 1.2, true), ["1 s", "2 s", "3 s"]);
+  assert.deepEqual(labels([1, 3], "s", 3.5, true), ["2 s", "4 s", "6 s"]);
+});
+
+test("where no round time is a whole number of ticks, the ticks are round", () => {
+  // 2 ticks of 7/11 are 14/11; 7 time units would be 11 ticks
+  assert.deepEqual(labels([7, 11], null, 1.5, true), ["1.27", "2.55", "3.82"]);
+});
