@@ -37,8 +37,8 @@ pairs : bool
 pair_nodes : int
     Nodes at most to solve each pair of robots, whose losses raise the bounds of nodes; 0: none.
 joint_states : int
-    Joint states at most to solve a pair that needs more nodes, and for each fifty nodes to solve
-    a whole fleet of few robots; 0: no such search.
+    Joint states at most, and again for each fifty nodes, for all pairs that need more nodes; and for
+    each fifty nodes for a whole fleet of few robots. 0: no such search.
 factor : int
     A plan that costs at most this factor times the bound is enough, 1 or more. [millionths]
 latest : int

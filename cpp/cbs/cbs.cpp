@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int64_t no_factor = 1'000'000;  // a factor of 1 [millionths]
 
-// After how many nodes of the tree as many joint states are searched as a pair may have.
+// For how many nodes of the tree `joint_states` are searched.
 constexpr std::int64_t nodes_per_states = 50;
 
 }  // namespace
@@ -159,6 +159,9 @@ SearchEnd ConflictTree::run(Tick upper, Tick enough, std::int64_t most_nodes,
                 }
             }
             ++n_nodes_;
+            if (losses_ != nullptr) {
+                losses_->allow(joint_states(nodes_per_states + n_nodes_));
+            }
             if (split(node, upper, is_over)) {
                 if (node.cost <= most_cost()) {
                     found_ = std::move(node.tracks);
@@ -355,6 +358,12 @@ void ConflictTree::replace(Node& node, RobotId robot, const ConstrainedTrack* tr
     meet_others(node, robot, *track, node.conflicts);
 }
 
+// How many joint states match some nodes of the tree.
+std::int64_t ConflictTree::joint_states(std::int64_t n_nodes) const {
+    const std::int64_t states = options_.joint_states;
+    return states > never / n_nodes ? never : states * n_nodes / nodes_per_states;
+}
+
 // Searches the joint states of a whole fleet of few robots, with as many states as match the nodes
 // of the tree: it decides where the tree does not, as it ends also where there is no plan. Null if
 // it decides nothing; the bound is raised by it.
@@ -364,8 +373,8 @@ std::optional<SearchEnd> ConflictTree::search_joint_states(Tick upper,
         n_nodes_ < next_joint_search_) {
         return std::nullopt;
     }
-    const std::int64_t states = options_.joint_states * next_joint_search_ / nodes_per_states;
-    JointPlan plan = tracks_.together(robots_, sets_, most_, states, is_over);
+    JointPlan plan =
+        tracks_.together(robots_, sets_, most_, joint_states(next_joint_search_), is_over);
     next_joint_search_ *= 2;
     bound_ = std::max(bound_, std::min(plan.bound, upper));
     if (plan.end == SearchEnd::stopped) {

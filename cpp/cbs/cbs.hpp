@@ -103,6 +103,7 @@ class ConflictTree {
     void clear(Node& node, const StopCondition& is_over);
     const ConstrainedTrack* clearest(const Node& node, RobotId robot, const StopCondition& is_over);
     void take_best(Node& node, const StopCondition& is_over);
+    std::int64_t joint_states(std::int64_t n_nodes) const;
     std::optional<SearchEnd> search_joint_states(Tick upper, const StopCondition& is_over);
     std::optional<TrackConflict> choose(Node& node, const StopCondition& is_over);
     std::optional<TrackConflict> split_pair(const Node& node, RobotId first, RobotId second,

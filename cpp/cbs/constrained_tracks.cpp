@@ -180,6 +180,7 @@ JointPlan ConstrainedTracks::together(std::span<const RobotId> robots, std::span
     }
     JointPlan plan;
     plan.end = joint_.run(members, most_nodes, is_over);
+    plan.n_states = joint_.n_states();
     plan.bound = plan.end == SearchEnd::proven_none ? never : joint_.bound();
     for (std::size_t k = 0; plan.end == SearchEnd::found && k < robots.size(); ++k) {
         ConstrainedTrack track;

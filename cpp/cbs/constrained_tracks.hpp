@@ -45,6 +45,7 @@ struct ConstrainedTrack {
 // Tracks of some robots.
 struct JointPlan {
     SearchEnd end = SearchEnd::stopped;
+    std::int64_t n_states = 0;                    // searched
     Tick bound = 0;                               // of their costs; `never` if there is no plan
     std::vector<const ConstrainedTrack*> tracks;  // where the search found a plan
 };

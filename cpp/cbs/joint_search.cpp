@@ -37,10 +37,9 @@ bool exclude(const Problem& problem, std::span<const std::int32_t> left,
 SearchEnd JointSearch::run(std::span<const GroupMember> members, std::int64_t most_nodes,
                            const StopCondition& is_over, const KnownPlan* known) {
     is_over_ = &is_over;
-    n_steps_ = 0;
+    n_states_ = n_steps_ = 0;
     prepare(members, known);
     start();
-    std::int64_t n_expanded = 0;
     while (!open_.empty()) {
         const std::int32_t node = open_.pop().node;
         const Node& here = nodes_[index(node)];
@@ -56,9 +55,10 @@ SearchEnd JointSearch::run(std::span<const GroupMember> members, std::int64_t mo
             goal_ = node;
             return SearchEnd::found;
         }
-        if (n_expanded++ >= most_nodes) {
+        if (n_states_ >= most_nodes) {
             return SearchEnd::stopped;
         }
+        ++n_states_;
         expand(node);
     }
     return SearchEnd::proven_none;

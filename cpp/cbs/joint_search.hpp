@@ -80,6 +80,7 @@ class JointSearch {
 
     // No plan costs less, by the weights of the robots, surcharges included.
     Tick bound() const { return bound_ / parts_; }
+    std::int64_t n_states() const { return n_states_; }
     // Of the plan found; only with a known plan.
     Tick actions() const { return nodes_[index(goal_)].cost % parts_; }
     // The track of a member in the plan found.
@@ -195,6 +196,7 @@ class JointSearch {
     Tick bound_ = 0;
     std::int32_t goal_ = none;
     const StopCondition* is_over_ = nullptr;
+    std::int64_t n_states_ = 0;
     std::int64_t n_steps_ = 0;
     // Of the node at hand.
     std::int32_t node_ = none;

@@ -6,6 +6,14 @@
 #include "cbs/cbs.hpp"
 
 namespace rightofway {
+namespace {
+
+// A pair is searched with few states at first, and with four times as many when it comes to that
+// again: those that need many keep none from others.
+constexpr std::int64_t first_states = 1000;
+constexpr std::int64_t growth = 4;
+
+}  // namespace
 
 std::size_t PairLosses::Hash::operator()(const Key& key) const {
     std::uint64_t hash = 0;
@@ -18,37 +26,56 @@ std::size_t PairLosses::Hash::operator()(const Key& key) const {
 
 PairLoss& PairLosses::of(const Key& key, const StopCondition& is_over) {
     const auto known = known_.find(key);
-    if (known != known_.end()) {
-        return known->second;
+    if (known == known_.end()) {
+        return known_.emplace(key, solve(key, {never, never}, is_over)).first->second;
     }
-    return known_.emplace(key, PairLoss{least_loss(key, {never, never}, is_over)}).first->second;
+    if (!known->second.is_exact) {
+        search_states(key, {never, never}, known->second, is_over);
+    }
+    return known->second;
 }
 
-// What two robots lose together at least if neither costs more than this; `never` if they cannot.
-// A tree of few nodes is enough for most pairs, and takes less time than their joint states.
-Tick PairLosses::least_loss(const Key& key, std::array<Tick, 2> costs,
-                            const StopCondition& is_over) {
+// What two robots lose together at least if neither costs more than this.
+PairLoss PairLosses::solve(const Key& key, std::array<Tick, 2> most, const StopCondition& is_over) {
     ConflictTree tree(tracks_, {key.robots.begin(), key.robots.end()}, options_, nullptr);
-    tree.limit(costs);
+    tree.limit(most);
     if (!tree.start(key.sets, is_over)) {
-        return never;
+        return {never, true};
     }
     const Tick alone = tree.bound();
     const SearchEnd end = tree.run(never, never, options_.pair_nodes, is_over);
     if (end == SearchEnd::proven_none) {
-        return never;
+        return {never, true};
     }
-    Tick bound = tree.bound();
-    for (std::size_t side = 0; side < 2 && options_.latest < never; ++side) {
-        costs[side] =
-            std::min(costs[side], tracks_.problem().weight(key.robots[side]) * options_.latest);
+    PairLoss loss{tree.bound() - alone, end == SearchEnd::found};
+    if (!loss.is_exact) {
+        search_states(key, most, loss, is_over);
     }
-    if (end == SearchEnd::stopped && options_.joint_states > 0) {
-        const JointPlan joint =
-            tracks_.together(key.robots, key.sets, costs, options_.joint_states, is_over);
-        bound = std::max(bound, joint.bound);
+    return loss;
+}
+
+// Raises the loss of a pair by its joint states, once there are as many as it may need: twice as
+// many as the same robots needed under other constraints, where a search of them ended.
+void PairLosses::search_states(const Key& key, std::array<Tick, 2> most, PairLoss& loss,
+                               const StopCondition& is_over) {
+    const std::int64_t first = std::min(first_states, options_.joint_states);
+    std::int64_t& needed = needed_.try_emplace({key.robots, {}}, first).first->second;
+    if (needed == 0 || n_states_ + needed > most_states_) {
+        return;
     }
-    return bound >= never ? never : bound - alone;
+    Tick alone = 0;
+    for (std::size_t side = 0; side < 2; ++side) {
+        const RobotId robot = key.robots[side];
+        alone += tracks_.best(robot, key.sets[side], is_over)->cost;
+        if (options_.latest < never) {
+            most[side] = std::min(most[side], tracks_.problem().weight(robot) * options_.latest);
+        }
+    }
+    const JointPlan plan = tracks_.together(key.robots, key.sets, most, needed, is_over);
+    n_states_ += plan.n_states;
+    loss.is_exact = plan.end != SearchEnd::stopped;
+    needed = loss.is_exact ? std::max(first, 2 * plan.n_states) : growth * needed;
+    loss.together = std::max(loss.together, plan.bound >= never ? never : plan.bound - alone);
 }
 
 Tick PairLosses::together(std::array<RobotId, 2> robots, std::array<SetId, 2> sets,
@@ -73,12 +100,12 @@ std::array<Tick, 2> PairLosses::either(std::array<RobotId, 2> robots, std::array
     for (std::size_t side = 0; side < 2; ++side) {
         std::array<Tick, 2> most{never, never};
         most[1 - side] = least[1 - side];
-        ends[side] = std::max(loss.together, least_loss(key, most, is_over));
+        ends[side] = std::max(loss.together, solve(key, most, is_over).together);
     }
     const auto below = [&](std::size_t side) {
         return ends[side] >= never ? never : least[side] + ends[side] - 1;
     };
-    if (least_loss(key, {below(0), below(1)}, is_over) >= never) {
+    if (solve(key, {below(0), below(1)}, is_over).together >= never) {
         loss.either = ends;
     } else {
         // Losses that add up to less than what both lose together are not possible either.

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import re
 from fractions import Fraction
+from inspect import signature
 
 import rightofway
 from rightofway.bench.fleets import make_scenario_document
 from rightofway.io import parse_scenario
 from rightofway.model import OutcomeKind, Plan, Scenario
 from rightofway.planners.cbs import ITERATIONS_PER_ROBOT
+from rightofway.planners.options import CbsOptions
+from rightofway.search import ConflictBasedSearch
 
 ROBOTS = 20
 
@@ -47,3 +50,17 @@ def test_an_end_by_nodes_gives_one_plan() -> None:
     ]
     assert plans[0].tracks == plans[1].tracks
     assert plans[0].run.outcome == plans[1].run.outcome
+
+
+def test_the_planner_and_the_search_have_the_same_defaults() -> None:
+    """Answers of options are words, those of the search are claims."""
+    said = CbsOptions()
+    of_search = {
+        name: given.default
+        for name, given in signature(ConflictBasedSearch.__init__).parameters.items()
+    }
+    for switch in ("bypass", "clear", "targets", "pairs"):
+        assert (getattr(said, switch) == "yes") is of_search[switch]
+    assert (said.cardinal == "first") is of_search["cardinal"]
+    for count in ("pair_nodes", "joint_states"):
+        assert getattr(said, count) == of_search[count]

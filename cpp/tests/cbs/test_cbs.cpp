@@ -13,6 +13,16 @@ using test::Fleet;
 
 const StopCondition never_over = [] { return false; };
 
+const CbsOptions all{.cardinal = true,
+                     .bypass = true,
+                     .clear = true,
+                     .targets = true,
+                     .pairs = true,
+                     .pair_nodes = 100,
+                     .joint_states = 10'000,
+                     .factor = 1'000'000,
+                     .latest = never};
+
 TEST_CASE(
     "two robots that swap the ends of a corridor with a bay lose what one needs for the bay") {
     // R0 goes from 0 to 2, R1 from 2 to 0; one has to go into the bay 3 and come back: 2 ticks,
@@ -22,7 +32,8 @@ TEST_CASE(
     SharedDistances distances(problem);
     for (const std::int64_t pair_nodes : {0, 100}) {
         ConstrainedTracks tracks(problem, distances);
-        const CbsOptions options{.pair_nodes = pair_nodes};
+        CbsOptions options = all;
+        options.pair_nodes = pair_nodes;
         PairLosses losses(tracks, options);
         ConflictTree tree(tracks, {0, 1}, options, pair_nodes > 0 ? &losses : nullptr);
         REQUIRE(tree.start(std::vector<SetId>{0, 0}, never_over));
@@ -35,12 +46,31 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("pairs search no more joint states than they are allowed, and later raise their bound") {
+    const Fleet fleet({4, {{0, 1}, {1, 2}, {1, 3}}}, {{0, {{2}}}, {2, {{0}}}});
+    const Problem problem = fleet.problem();
+    SharedDistances distances(problem);
+    ConstrainedTracks tracks(problem, distances);
+    CbsOptions options = all;
+    options.pair_nodes = 1;
+    options.joint_states = 3;
+    PairLosses losses(tracks, options);
+    const auto loss = [&] { return losses.together({0, 1}, {0, 0}, never_over); };
+    CHECK(loss() < 3);
+    CHECK(losses.n_states() == 3);
+    CHECK(loss() < 3);
+    CHECK(losses.n_states() == 3);
+    losses.allow(100);
+    CHECK(loss() == 3);
+    CHECK(losses.n_states() <= 15);
+}
+
 TEST_CASE("a known plan of least cost is proven, and nothing below it is found") {
     const Fleet fleet({4, {{0, 1}, {1, 2}, {1, 3}}}, {{0, {{2}}}, {2, {{0}}}});
     const Problem problem = fleet.problem();
     SharedDistances distances(problem);
     ConstrainedTracks tracks(problem, distances);
-    ConflictTree tree(tracks, {0, 1}, {}, nullptr);
+    ConflictTree tree(tracks, {0, 1}, all, nullptr);
     REQUIRE(tree.start(std::vector<SetId>{0, 0}, never_over));
     CHECK(tree.run(7, never, 1000, never_over) == SearchEnd::proven_none);
     CHECK(tree.bound() == 7);

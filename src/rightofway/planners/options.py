@@ -319,6 +319,6 @@ class CbsOptions(PlannerOptions):
     ] = 20
     joint_states: Annotated[
         int,
-        "Joint states to solve a pair that needs more nodes and, for each fifty nodes, a fleet of"
-        " at most four robots; 0: none.",
+        "Joint states for all pairs that need more nodes, again for each fifty nodes; and for each"
+        " fifty nodes for a fleet of at most four robots; 0: none.",
     ] = 10_000

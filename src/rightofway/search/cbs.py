@@ -46,8 +46,8 @@ class ConflictBasedSearch:
     pair_nodes
         Nodes at most to solve each pair of robots, whose losses raise the bounds of nodes; 0: none.
     joint_states
-        Joint states at most to solve a pair that needs more nodes, and for each fifty nodes to
-        solve a whole fleet of at most four robots; 0: no such search.
+        Joint states at most, and again for each fifty nodes, for all pairs that need more nodes;
+        and for each fifty nodes for a whole fleet of at most four robots. 0: no such search.
     factor
         A plan that costs at most this factor times the bound is enough; 1 or more.
     latest
