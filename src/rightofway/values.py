@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
+from functools import cache
 from numbers import Rational, Real
 from typing import Any, Literal, TypeVar
 
@@ -37,13 +38,17 @@ def read_exact(value: object, *, digits: int = DIGITS) -> Fraction:
     ValueError
         For anything else: words, true and false, NaN, infinity, 1/0, and numbers out of range.
     """
-    if isinstance(value, Rational) and not isinstance(value, bool):
+    if not isinstance(value, str) and isinstance(value, Rational) and not isinstance(value, bool):
         return _in_range(Fraction(int(value.numerator), int(value.denominator)), value, digits)
     text = str(value) if isinstance(value, str | Decimal | float) else ""
+    most = 2 * COORDINATE_DIGITS  # to compute 1e999999999 would fill the memory
+    whole, _, decimals = text.partition(".")
+    figures = whole + decimals
+    if figures.isdecimal() and figures.isascii() and len(text) <= most:  # a map has a million
+        return _in_range(Fraction(int(figures), 10 ** len(decimals)), value, digits)
     match = _NUMBER.fullmatch(text)
     if not match:
         raise ValueError(f"{quote(value)} is not a number (write it like 3, 0.5 or 1/3)")
-    most = 2 * COORDINATE_DIGITS  # to compute 1e999999999 would fill the memory
     if len(text) > most or abs(int(match["exponent"] or "0")) > most:
         raise _out_of_range(value, digits)
     try:
@@ -55,13 +60,19 @@ def read_exact(value: object, *, digits: int = DIGITS) -> Fraction:
 def read_coordinate(value: object) -> Fraction:
     """Return a coordinate exactly, as `read_exact` does, with as many decimals as a float has."""
     number = read_exact(value, digits=COORDINATE_DIGITS)
-    if abs(number) > 10**DIGITS:
+    if abs(number.numerator) > 10**DIGITS * number.denominator:
         raise ValueError(f"{quote(value)} is out of range (give at most {DIGITS} digits)")
     return number
 
 
+@cache
+def _compute_most(digits: int) -> int:
+    most: int = 10**digits
+    return most
+
+
 def _in_range(number: Fraction, value: object, digits: int) -> Fraction:
-    if max(abs(number.numerator), number.denominator) > 10**digits:
+    if max(abs(number.numerator), number.denominator) > _compute_most(digits):
         raise _out_of_range(value, digits)
     return number
 

@@ -149,3 +149,13 @@ def test_conversion_to_scen_says_that_closures_are_left_out(tmp_path: Path) -> N
     scenario = fleet.add_closure(at="N1", until=1).build_scenario()
     notes = write_scen(scenario, tmp_path / "a.scen", map_name="a.map")
     assert "closures are left out" in notes
+
+
+def test_two_lanes_that_are_barred_alike_say_it_each(tmp_path: Path) -> None:
+    """YAML of ours has no aliases, which readers may refuse."""
+    fleet = rightofway.FleetBuilder(ends="none").add_vertex("A", 0, 0).add_vertex("B", 4, 0)
+    fleet = fleet.add_edge("A", "B", barred=["heavy"]).add_robot("R1", home="A", target="B")
+    write_scenario(fleet.build_scenario(), tmp_path / "a.yaml")
+    text = (tmp_path / "a.yaml").read_text(encoding="utf-8")
+    assert text.count("barred: [heavy]") == 2
+    assert not {"&", "*"} & set(text)

@@ -122,7 +122,7 @@ class Source:
 @lru_cache(maxsize=2**16, typed=True)  # the numbers of a site repeat
 def _number(value: Hashable) -> Fraction:
     number = read_coordinate(value.strip() if isinstance(value, str) else value)
-    if abs(number) > 10 ** (DIGITS // 2):
+    if abs(number.numerator) > 10 ** (DIGITS // 2) * number.denominator:
         raise ValueError(f"{quote(value)} is out of range (check the unit)")
     return (
         number if BILLION % number.denominator == 0 else Fraction(round(number * BILLION), BILLION)

@@ -68,16 +68,19 @@ def choose_clock(durations: Iterable[Fraction]) -> Clock:
     Where the shortest duration would be longer than `MAX_TICKS_OF_SHORTEST` ticks, the tick is that
     fraction of it and the clock is not exact. Without any positive duration the tick is one unit.
     """
-    positive = {duration for duration in durations if duration.numerator > 0}
-    if not positive:
+    # Fractions are slow to hash and to compare, and a map may have a million durations.
+    ratios = {
+        (duration.numerator, duration.denominator)
+        for duration in durations
+        if duration.numerator > 0
+    }
+    if not ratios:
         return Clock(tick=Fraction(1))
     # The greatest common divisor of fractions in lowest terms.
-    tick = Fraction(
-        math.gcd(*(duration.numerator for duration in positive)),
-        math.lcm(*(duration.denominator for duration in positive)),
-    )
-    least = min(map(float, positive))  # fractions are slow to compare
-    shortest = min(duration for duration in positive if float(duration) == least)
+    numerators, denominators = map(set, zip(*ratios, strict=True))
+    tick = Fraction(math.gcd(*numerators), math.lcm(*denominators))
+    least = min(above / below for above, below in ratios)
+    shortest = min(Fraction(*ratio) for ratio in ratios if ratio[0] / ratio[1] == least)
     if shortest / tick > MAX_TICKS_OF_SHORTEST:
         return Clock(tick=shortest / MAX_TICKS_OF_SHORTEST, exact=False)
     return Clock(tick=tick)

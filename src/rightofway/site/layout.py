@@ -262,7 +262,8 @@ def _tabulate_slowest(
         frozenset(known_types).difference(known_types if kind.types is None else kind.types)
         for kind in lanes.kinds
     ]
-    as_fractions = [Fraction(length, BILLION) * metre for length in lengths.tolist()]
+    above, below = metre.numerator, BILLION * metre.denominator
+    as_fractions = [Fraction(length * above, below) for length in lengths.tolist()]
     classes = [
         EdgeClass(length=as_fractions[rank], max_speed=limits[kind], barred=barred[kind])
         for rank, kind in zip(*(part.tolist() for part in np.divmod(known, len(lanes.kinds))),

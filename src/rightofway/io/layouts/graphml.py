@@ -29,7 +29,8 @@ def read(root: Element) -> Layout:
     """
     draft = LayoutDraft("GraphML graph")
     level = draft.begin_level()
-    keys = {key.need("id").value: key.need("attr.name", "id").value for key in root.list_all("key")}
+    keys = {key.need("id").value: key.need("attr.name", "id").value.lower()
+            for key in root.list_all("key")}  # fmt: skip
     for graph in root.list_all("graph"):
         is_directed = graph.value.get("edgedefault") != "undirected"
         for node in graph.list_descendants("node"):
@@ -43,8 +44,8 @@ def _attributes(element: Element, keys: dict[str, str]) -> Source:
     """Return the values of an element by name in lower case; a key that is not declared counts."""
     attributes = {key.lower(): value for key, value in element.value.items()}
     for data in element.list_all("data"):
-        key = data.need("key").value
-        attributes[keys.get(key, key).lower()] = data.content.strip() or None
+        key = data.value.get("key") or data.need("key").value
+        attributes[keys.get(key) or key.lower()] = data.content.strip() or None
     return Source(attributes, element.path, element.line)
 
 
@@ -74,10 +75,9 @@ def _pair(pair: Source) -> Point:
 
 
 def _add_edge(level: LevelDraft, edge: Element, keys: dict[str, str], is_directed: bool) -> None:
-    own, ends = (
-        _attributes(edge, keys),
-        (edge.need("source").read_text(), edge.need("target").read_text()),
-    )
+    own, (tail, head) = _attributes(edge, keys), map(edge.value.get, ("source", "target"))
+    if tail is None or head is None:
+        edge.need("source" if tail is None else "target")
     directed = own.get("directed")
     is_one_way = is_directed if directed is None else directed.read_flag()
-    add_lanes(level, own, *ends, not is_one_way)
+    add_lanes(level, own, tail, head, not is_one_way)

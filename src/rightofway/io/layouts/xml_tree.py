@@ -40,13 +40,33 @@ class Element(Source):
         for child in self.children:
             if child.name == name:
                 yield child
-            yield from child.list_descendants(name)
+            if child.children:
+                yield from child.list_descendants(name)
 
 
 def _without_namespaces(attributes: dict[str, str]) -> dict[str, str]:
-    if " " not in "".join(attributes):
-        return attributes
-    return {key.rpartition(" ")[2]: value for key, value in attributes.items()}
+    for key in attributes:
+        if " " in key:
+            return {key.rpartition(" ")[2]: value for key, value in attributes.items()}
+    return attributes
+
+
+class _LocalNames(dict[str, str]):
+    """Names without their namespaces; a million elements have a handful."""
+
+    def __missing__(self, name: str) -> str:
+        self[name] = name.rpartition(" ")[2]
+        return self[name]
+
+
+def _make_size_fault(line: int, most: int | None) -> InputError:
+    """Return the fault of a file with more than so many elements; None for one that is too deep."""
+    if most is None:
+        message = f"its elements are more than {MAX_DEPTH} deep (is it the right file?)"
+    else:
+        remedy = f"set {LIMIT}={2 * CHARACTERS_PER_ELEMENT * most} for twice as many"
+        message = f"the file has more than {most} elements ({remedy})"
+    return InputError.at(Location(line=line), message)
 
 
 def parse_xml(text: str) -> Element:
@@ -63,6 +83,7 @@ def parse_xml(text: str) -> Element:
     document = Element({})
     opened, count = [document], 0
     texts = defaultdict[int, list[str]](list)  # by depth; most elements of a million have none
+    local_names = _LocalNames()
     most = choose_limit() // CHARACTERS_PER_ELEMENT
 
     def start(name: str, attributes: dict[str, str]) -> None:
@@ -70,20 +91,16 @@ def parse_xml(text: str) -> Element:
         line, count = parser.CurrentLineNumber, count + 1
         if count % STEPS_BETWEEN_LOOKS == 0:
             check_work(READING)
-        if len(opened) > MAX_DEPTH:
-            message = f"its elements are more than {MAX_DEPTH} deep (is it the right file?)"
-            raise InputError.at(Location(line=line), message)
-        if count > most:
-            remedy = f"set {LIMIT}={2 * CHARACTERS_PER_ELEMENT * most} for twice as many"
-            message = f"the file has more than {most} elements ({remedy})"
-            raise InputError.at(Location(line=line), message)
-        element = Element(_without_namespaces(attributes), (), line, name.rpartition(" ")[2])
+        if len(opened) > MAX_DEPTH or count > most:
+            raise _make_size_fault(line, most if count > most else None)
+        element = Element(_without_namespaces(attributes), (), line, local_names[name], [])
         opened[-1].children.append(element)
         opened.append(element)
 
     def end(_name: str) -> None:
-        pieces = texts.pop(len(opened), ())
-        opened.pop().content = "".join(pieces)
+        depth, element = len(opened), opened.pop()
+        if depth in texts:
+            element.content = "".join(texts.pop(depth))
 
     def characters(data: str) -> None:
         if not data.isspace():  # between a million elements there are as many line ends

@@ -6,6 +6,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.files import as_path, write_whole
@@ -15,7 +17,7 @@ from rightofway.model import Robot, Scenario
 from rightofway.model.attributes import list_plain_attributes
 from rightofway.model.given import require_scenario
 from rightofway.quantities import Units
-from rightofway.site import EdgeClass, Roadmap, VertexId
+from rightofway.site import EdgeClass, Roadmap
 from rightofway.site.drawing import Picture
 from rightofway.values import format_number
 
@@ -93,7 +95,11 @@ def format_yaml(document: dict[str, Any]) -> str:
     import yaml
 
     class Dumper(yaml.SafeDumper):
-        """Writes text of several lines as a block."""
+        """Writes text of several lines as a block, and each value where it stands."""
+
+        def ignore_aliases(self, data: object) -> bool:  # noqa: ARG002
+            """Return whether a value that stands in two places is written twice."""
+            return True
 
     def block(dumper: yaml.SafeDumper, text: str) -> yaml.ScalarNode:
         style = "|" if "\n" in text else None
@@ -184,20 +190,17 @@ def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
     for vertex, types in roadmap.barred_vertices.items():
         vertices[name(vertex)] = {"at": positions[vertex], "barred": sorted(types)}
     curves = {
-        (tail, head): {"curve": [[format_number(part) for part in point] for point in points]}
+        (int(tail), int(head)): {
+            "curve": [[format_number(part) for part in point] for point in points]
+        }
         for tail, head, points in roadmap.drawing.controls
     }
+    names, of_class = list(vertices), [_of_class(each) for each in roadmap.edge_classes]
+    tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
+    columns = (tails.tolist(), roadmap.heads.tolist(), roadmap.class_of_edge.tolist())
     edges = [
-        {
-            "from": name(tail),
-            "to": name(int(roadmap.heads[edge])),
-            "length": format_number(roadmap.get_edge_class(edge).length),
-            "both_ways": False,
-            **_of_class(roadmap.get_edge_class(edge)),
-            **curves.get((VertexId(tail), VertexId(int(roadmap.heads[edge]))), {}),
-        }
-        for tail in range(roadmap.n_vertices)
-        for edge in range(int(roadmap.indptr[tail]), int(roadmap.indptr[tail + 1]))
+        {"from": names[tail], "to": names[head], **of_class[kind], **curves.get((tail, head), {})}
+        for tail, head, kind in zip(*columns, strict=True)
     ]
     zones = [
         {
@@ -221,8 +224,8 @@ def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
 
 
 def _of_class(edge_class: EdgeClass) -> dict[str, Any]:
-    """Return what edges of a class have beside their length."""
-    data: dict[str, Any] = {}
+    """Return what the edges of a class have in common."""
+    data: dict[str, Any] = {"length": format_number(edge_class.length), "both_ways": False}
     if edge_class.max_speed is not None:
         data["max_speed"] = format_number(edge_class.max_speed)
     if edge_class.barred:
