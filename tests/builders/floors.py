@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from rightofway.control import Message, Order, SimulatedRobot
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.operator import Operator
@@ -10,11 +12,15 @@ __all__ = ["Floor"]
 
 
 class Floor:
-    """Robots that drive one after another, without any fault."""
+    """Robots that drive one after another, without any fault.
 
-    def __init__(self, dispatcher: Dispatcher) -> None:
+    They begin at their homes, or at the places given, and know of no order.
+    """
+
+    def __init__(self, dispatcher: Dispatcher, places: Sequence[str] = ()) -> None:
         self.dispatcher, self.operator = dispatcher, Operator(dispatcher)
-        self.robots = [SimulatedRobot(own.route.places[0]) for own in dispatcher.ledger.robots]
+        homes = [own.route.places[0] for own in dispatcher.ledger.robots]
+        self.robots = [SimulatedRobot(place) for place in places or homes]
         self.send(dispatcher.control.start())
 
     def send(self, messages: list[Message]) -> None:

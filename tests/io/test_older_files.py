@@ -1,7 +1,8 @@
-"""Scenarios, plans and suites that older development versions wrote mean what they meant.
+"""Files that older versions wrote mean what they meant.
 
-The files are in `tests/data/older`, one folder for each version, under the day of its commit. They
-stay as they are: a reader that refuses one breaks a promise (`docs/promises.md`).
+They are in `tests/data/older`, a folder for each version, under its number, or the day of its
+commit where it had none. `tests/builders/older_files.py` writes those of a release. They stay as
+they are: a reader that refuses one breaks a promise (`docs/promises.md`).
 """
 
 from __future__ import annotations
@@ -15,9 +16,15 @@ import pytest
 
 from rightofway import check, load, load_plan, write_plan
 from rightofway.bench import read_suite
+from rightofway.control import FleetControl, JournalReader, SqliteJournal
+from rightofway.control.dispatcher import Dispatcher
+from rightofway.control.identities import load_identities
+from rightofway.control.names import list_jobs
+from rightofway.control.recording import Recording
+from tests.builders.floors import Floor
+from tests.builders.older_files import OLDER
 from tests.builders.pages import ROOT
 
-OLDER = Path(__file__).parents[1] / "data" / "older"
 PLANS = sorted(OLDER.glob("*/*.json"))
 SCENARIOS = sorted(OLDER.glob("*/*.yaml"))
 
@@ -27,8 +34,10 @@ def under(paths: list[Path]) -> list[str]:
 
 
 def test_there_are_files_of_older_versions() -> None:
-    assert len(PLANS) >= 3
-    assert len(SCENARIOS) >= 3
+    """Those of 1.0.0 have each kind of file that has a promise."""
+    written = {path.name for path in (OLDER / "1.0.0").rglob("*") if path.is_file()}
+    assert written >= {"site.yaml", "site.json", "laps.json", "door.xlsx", "suite.toml"}
+    assert written >= {"door.journal", "robots.yaml"}
 
 
 @pytest.mark.parametrize("path", PLANS, ids=under(PLANS))
@@ -60,13 +69,65 @@ def test_an_older_scenario_is_that_of_its_plan(path: Path) -> None:
     assert load(path) == load_plan(path.with_suffix(".json")).scenario
 
 
-def test_an_older_suite_has_the_cases_that_it_had(tmp_path: Path) -> None:
-    """The version that wrote it counted 27, with 3 seeds: 3 counts and 2 fleets; 2 fleets; 1."""
-    [older] = OLDER.glob("*/suite.toml")
-    shutil.copy(older, tmp_path)
-    for name in ("maps", "door.yaml"):
-        (tmp_path / name).symlink_to(ROOT / "examples" / name)
+@pytest.mark.parametrize(
+    ("version", "by_map", "by_planner"),
+    [
+        # the version that wrote it counted 27, with 3 seeds: 3 counts and 2 fleets; 2 fleets; 1
+        ("2026-11-21", [18, 6, 3], {"two-level": 27}),
+        # 2 planners and 2 seeds: 2 counts; a scenario; another
+        ("1.0.0", [8, 4, 4], {"two-level": 8, "lns": 8}),
+    ],
+)
+def test_an_older_suite_has_the_cases_that_it_had(
+    tmp_path: Path, version: str, by_map: list[int], by_planner: dict[str, int]
+) -> None:
+    (tmp_path / "maps").symlink_to(ROOT / "examples" / "maps")
+    for path in (OLDER / version).iterdir():
+        if path.is_file():
+            shutil.copy(path, tmp_path)
     cases = read_suite(tmp_path / "suite.toml")
-    maps = Counter(case.labels["map"] for case in cases)
-    assert list(maps.values()) == [18, 6, 3]
-    assert {case.labels["planner"] for case in cases} == {"two-level"}
+    assert list(Counter(case.labels["map"] for case in cases).values()) == by_map
+    assert Counter(case.labels["planner"] for case in cases) == by_planner
+
+
+WORKBOOKS = sorted(OLDER.glob("*/*.xlsx"))
+
+
+@pytest.mark.parametrize("path", WORKBOOKS, ids=under(WORKBOOKS))
+def test_an_older_workbook_is_the_scenario_of_its_plan(path: Path) -> None:
+    assert load(path) == load_plan(path.with_suffix(".json")).scenario
+
+
+JOURNALS = sorted(OLDER.glob("*/control/*.journal"))
+
+
+@pytest.mark.parametrize("path", JOURNALS, ids=under(JOURNALS))
+def test_a_control_goes_on_with_an_older_journal(path: Path, tmp_path: Path) -> None:
+    """R2 had come to N1 of the door, R1 had got one more job, at N7, when the control ended."""
+    kept = Path(shutil.copy(path, tmp_path))
+    journal = SqliteJournal(kept)
+    plan = load_plan(path.parents[1] / "door.json")
+    dispatcher = Dispatcher(FleetControl(journal), plan)
+    assert dispatcher.ledger.arrived == [0, 1]
+    waiting = [(job["name"], job["at"]) for job in list_jobs(dispatcher.ledger)]
+    assert waiting == [("R1/job1", "N7"), ("R1/job0", "N6"), ("R2/job0", "N8")]
+    floor = Floor(dispatcher, ["N0", "N1"])
+    floor.drive(40)
+    assert list_jobs(dispatcher.ledger) == []
+    assert [robot.place for robot in floor.robots] == ["N0", "N2"]
+    journal.close()
+    recording = Recording(plan, JournalReader(kept))
+    recording.read_on()
+    assert recording.count > 0
+
+
+IDENTITIES = sorted(OLDER.glob("*/control/robots.yaml"))
+
+
+@pytest.mark.parametrize("path", IDENTITIES, ids=under(IDENTITIES))
+def test_older_identities_name_the_robots_that_they_named(path: Path) -> None:
+    first, second = load_identities(path, ["R1", "R2"])
+    assert (first.serial_number, first.version, first.map_id) == ("A-001", "2.1.0", "hall-1")
+    assert (second.serial_number, second.version) == ("A-002", "3.0.0")
+    assert (first.work.action, second.work.action) == ("pick", "drop")
+    assert first.deviation == 0.05
