@@ -23,7 +23,7 @@ from pathlib import Path
 from random import SystemRandom
 
 from rightofway.io import write_plan
-from tests.builders.brokers import Command, Mosquitto, wait_for
+from tests.builders.brokers import Command, Mosquitto, WarmCommand, wait_for
 from tests.builders.observers import Observer
 from tests.builders.warehouses import warehouse
 
@@ -32,8 +32,11 @@ __all__ = ["run_chaos_at_a_broker"]
 TROUBLES = {"late": 0.5, "stop": 0.05, "error": 0.05, "offline": 0.05, "reset": 0.05}
 """The largest share of each kind of trouble."""
 
-LONGEST = 300.0
+LONGEST = 600.0
 """Seconds after which a run counts as stuck."""
+
+BEHIND = 60.0
+"""Seconds that the observer may be behind, on a machine with much else to do."""
 
 KILLS = 12
 """Kills of a run, at most: afterwards it has to come to its end."""
@@ -65,14 +68,19 @@ def run_chaos_at_a_broker(seed: int, robots: int | None = None) -> Counter[str]:
             with Command(folder, "robots", *own).running():
                 wait_for((folder / "robots.yaml").exists, 120, "the file of identities")
                 asked = ("--broker", broker.url, "--identities", "robots.yaml")
-                with Command(folder, "drive", "plan.json", *asked).running() as drive:
+                with WarmCommand(folder, "drive", "plan.json", *asked).running() as drive:
                     _kill(drive, broker, observer, draw, counts)
                     assert drive.wait(LONGEST) == 0, drive.log[-3000:]
                 assert "is faulty" not in drive.log, drive.log[-3000:]
-            # What was finished while the observer was away, it has not seen: control has.
-            wanted = {f"robot{number}" for number in range(robots)}
-            missed = wanted - {robot for robot, _ in observer.finished}
-            assert len(missed) == 0 or counts["broker kills"], missed
+                # What was finished while the observer was away, it has not seen: control has.
+                wanted = {f"robot{number}" for number in range(robots)}
+
+                def list_missed() -> set[str]:
+                    return wanted - {robot for robot, _ in observer.finished}
+
+                if not counts["broker kills"]:
+                    wait_for(lambda: not list_missed(), BEHIND, "the observer to hear of all jobs")
+            missed = list_missed()
             assert len(observer.finished) == robots - len(missed), "a job was done twice"
             counts.update({f"{key}s": value for key, value in observer.counts.items()})
             observer.close()
@@ -114,7 +122,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.campaigns.broker", description=__doc__)
     parser.add_argument("count", type=int, help="runs to make; 0 for no end")
     parser.add_argument("--seed", type=int, default=SystemRandom().randrange(10**9))
-    parser.add_argument("--at-once", type=int, default=2, help="runs beside each other")
+    parser.add_argument("--at-once", type=int, default=6, help="runs beside each other")
     parser.add_argument("--seconds", type=float, default=math.inf, help="begin no run after them")
     given = parser.parse_args()
     _say(f"chaos-broker {given.count} --seed {given.seed}")
