@@ -195,7 +195,7 @@ def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
         }
         for tail, head, points in roadmap.drawing.controls
     }
-    names, of_class = list(vertices), [_of_class(each) for each in roadmap.edge_classes]
+    names, of_class = list(vertices), [_of_class(edge_class) for edge_class in roadmap.edge_classes]
     tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
     columns = (tails.tolist(), roadmap.heads.tolist(), roadmap.class_of_edge.tolist())
     edges = [
