@@ -9,6 +9,30 @@ constexpr std::int32_t walks = 10;
 constexpr std::size_t places_around = 40;
 constexpr std::size_t visits_around = 12;
 
+struct Drive {
+    VertexId next = -1;
+    std::int32_t ticks = 0;
+};
+
+// A drive from a vertex, at random among those after which the way to the end of a stage, the drive
+// included, is as asked for; none if there is none.
+template <typename Fits>
+Drive random_drive(const Roads& roads, const Trip& trip, std::size_t stage, VertexId place,
+                   Random& random, const Fits& fits) {
+    Drive drive;
+    std::size_t n_ways = 0;
+    for (EdgeId e = roads.graph.indptr[index(place)]; e < roads.graph.indptr[index(place + 1)];
+         ++e) {
+        const std::int32_t ticks = trip.pace[index(roads.length_class[index(e)])];
+        const VertexId head = roads.graph.indices[index(e)];
+        const Tick rest = trip.to_stage[stage].from(head);
+        if (ticks != barred && rest >= 0 && fits(ticks + rest) && random.below(++n_ways) == 0) {
+            drive = {head, ticks};
+        }
+    }
+    return drive;
+}
+
 }  // namespace
 
 Neighbourhoods::Neighbourhoods(SharedDistances& distances, const FleetPlan& plan,
@@ -117,7 +141,6 @@ void Neighbourhoods::blockers(std::size_t size, Random& random) {
     const auto& visits = plan_.track(robot).visits;
     const Trip& trip = reader_.read(robot);
     completion(trip, visits, &stage_of_);
-    const Roads& roads = problem_.roads();
     for (std::int32_t walk = 0; walk < walks && chosen_.size() < size; ++walk) {
         const std::size_t first = random.below(visits.size());
         VertexId place = visits[first].vertex;
@@ -139,20 +162,8 @@ void Neighbourhoods::blockers(std::size_t size, Random& random) {
                 ++stage;
                 continue;
             }
-            VertexId next = -1;
-            std::int32_t drive = 0;
-            std::size_t n_ways = 0;
-            for (EdgeId e = roads.graph.indptr[index(place)];
-                 e < roads.graph.indptr[index(place + 1)]; ++e) {
-                const std::int32_t ticks = trip.pace[index(roads.length_class[index(e)])];
-                const VertexId head = roads.graph.indices[index(e)];
-                const Tick rest = trip.to_stage[stage].from(head);
-                if (ticks != barred && rest >= 0 && rest + ticks == way &&
-                    random.below(++n_ways) == 0) {
-                    next = head;
-                    drive = ticks;
-                }
-            }
+            const auto [next, drive] = random_drive(problem_.roads(), trip, stage, place, random,
+                                                    [&](Tick rest) { return rest == way; });
             add_all(next, now + (problem_.rules().books_ahead ? 0 : drive), now + drive + 1, size);
             now += drive;
             place = next;
@@ -168,7 +179,6 @@ void Neighbourhoods::delay(std::size_t size, Random& random) {
     const auto& track = plan_.track(robot);
     const Trip& trip = reader_.read(robot);
     completion(trip, track.visits, &stage_of_);
-    const Roads& roads = problem_.roads();
     for (std::int32_t walk = 0; walk < walks && chosen_.size() < size; ++walk) {
         const std::size_t first = random.below(track.visits.size());
         VertexId place = track.visits[first].vertex;
@@ -182,20 +192,8 @@ void Neighbourhoods::delay(std::size_t size, Random& random) {
             track.visits[last].enter + trip.to_stage[stage].from(track.visits[last].vertex);
         Tick now = track.visits[first].enter;
         for (;;) {
-            VertexId next = -1;
-            std::int32_t drive = 0;
-            std::size_t n_ways = 0;
-            for (EdgeId e = roads.graph.indptr[index(place)];
-                 e < roads.graph.indptr[index(place + 1)]; ++e) {
-                const std::int32_t ticks = trip.pace[index(roads.length_class[index(e)])];
-                const VertexId head = roads.graph.indices[index(e)];
-                const Tick rest = trip.to_stage[stage].from(head);
-                if (ticks != barred && rest >= 0 && now + ticks + rest < until &&
-                    random.below(++n_ways) == 0) {
-                    next = head;
-                    drive = ticks;
-                }
-            }
+            const auto [next, drive] = random_drive(problem_.roads(), trip, stage, place, random,
+                                                    [&](Tick rest) { return now + rest < until; });
             if (next < 0 || chosen_.size() >= size) {
                 break;
             }

@@ -15,15 +15,15 @@ from rightofway.cyclic import RULES, CyclicResult, find_best_timetable, plan_of_
 from rightofway.cyclic.sensitivity import compute_parameter_effects
 from rightofway.cyclic.to_plan import unroll_laps
 from rightofway.errors import GaveUp, InputError, NoPlanExists
-from rightofway.model import Closure, Plan, Scenario, Tick
+from rightofway.model import Closure, Plan, Scenario
 from rightofway.planners import make_planning_problem
 from rightofway.site import VertexId
 from tests.builders.any_fleet import LAPS_REFUSE, any_fleet
 from tests.builders.fleets import grid_fleet
 from tests.builders.laws import law, leave
 from tests.oracles import judge
-from tests.oracles import periodic_space as oracle
 from tests.oracles.laps import largest_mean_cycle_is, replay
+from tests.oracles.periodic_space import SLOW, check_periods
 
 LAPS = any_fleet(
     robots=(2, 4), without={*LAPS_REFUSE, "zones"}, apart=True, joined=True
@@ -39,9 +39,6 @@ POINTS = any_fleet(robots=(2, 4), without={*LAPS_REFUSE, "sizes", "zones"}, apar
 TRIES = 8
 """Places that a law tries to close."""
 
-SLOW = 400
-"""Visits in a period that the slow oracles are not asked for."""
-
 
 def run_of(scenario: Scenario, rule: str) -> CyclicResult:
     """Return the laps of a fleet by a rule, or leave the case out."""
@@ -56,24 +53,6 @@ def run_of(scenario: Scenario, rule: str) -> CyclicResult:
 def without_values(refused: InputError) -> str:
     """Return why laps are refused; a robot may work at its home, or live on others' only way."""
     return str(refused).partition(": ")[2].partition(" (")[0].lstrip("RN0123456789 ")[:60]
-
-
-def check_periods(run: CyclicResult) -> None:
-    """Check each period against the oracle, and the bottleneck against the period."""
-    for group in run.groups:
-        graph, timetable = group.build_graph(), group.timetable
-        if graph is None or timetable is None or sum(map(len, timetable.enter)) > SLOW:
-            continue
-        cycles, period = oracle.cycles_of(timetable), int(timetable.period)
-        assert all(oracle.is_kept(cycle, period) for cycle in cycles)
-        assert not oracle.conflicts(run.scenario, cycles, period)
-        assert graph.compute_slack().min() >= 0
-        found = graph.find_critical_circuit()
-        assert oracle.load(run.scenario, timetable) <= found.cycle_time <= period
-        shortest = Tick(-(-found.cycle_time.numerator // found.cycle_time.denominator))
-        again = oracle.cycles_of(graph.compute_earliest(shortest))
-        assert all(oracle.is_kept(cycle, shortest) for cycle in again)
-        assert not oracle.conflicts(run.scenario, again, shortest)
 
 
 def stands_still(run: CyclicResult) -> bool:

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import strategies as st
 
-from rightofway.cyclic import CyclicResult, find_best_timetable, run_laps
+from rightofway.cyclic import find_best_timetable, run_laps
 from rightofway.cyclic.route import CyclicRoute, GroupContext, make_cyclic_routes, split_groups
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import BookingRules, Lap, Robot, Rules, Scenario, Stop, Tick
@@ -22,25 +22,7 @@ from rightofway.site import Edge, make_roadmap
 from tests.builders.laws import law
 from tests.builders.sizes import crossing
 from tests.oracles import periodic_space as oracle
-
-
-def check_result(run: CyclicResult) -> None:
-    """Check each period against the oracle, and the bottleneck against the period."""
-    for group in run.groups:
-        graph, timetable = group.build_graph(), group.timetable
-        if graph is None or timetable is None:
-            continue
-        cycles, period = oracle.cycles_of(timetable), int(timetable.period)
-        assert all(oracle.is_kept(cycle, period) for cycle in cycles)
-        assert not oracle.conflicts(run.scenario, cycles, period)
-        assert graph.compute_slack().min() >= 0
-        found = graph.find_critical_circuit()
-        assert oracle.load(run.scenario, timetable) <= found.cycle_time <= period
-        # The earliest timetable of the same orders keeps the rules, too.
-        shortest = Tick(-(-found.cycle_time.numerator // found.cycle_time.denominator))
-        again = oracle.cycles_of(graph.compute_earliest(shortest))
-        assert all(oracle.is_kept(cycle, shortest) for cycle in again)
-        assert not oracle.conflicts(run.scenario, again, shortest)
+from tests.oracles.periodic_space import check_periods
 
 
 def laps_of(scenario: Scenario) -> list[Lap]:
@@ -119,7 +101,7 @@ def test_crossing_lanes_get_the_least_period_of_one_lap_each(seed: int) -> None:
             find_best_timetable(scenario, time_limit=None, rounds=10)
         return
     run = find_best_timetable(scenario, time_limit=None, rounds=10)
-    check_result(run)
+    check_periods(run)
     assert sum((group.compute_rate() for group in run.groups), Fraction(0)) >= Fraction(2, least)
 
 

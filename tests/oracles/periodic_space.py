@@ -6,9 +6,13 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations, product
 from typing import NamedTuple
 
-from rightofway.model import Lap, Scenario
+from rightofway.cyclic import CyclicResult
+from rightofway.model import Lap, Scenario, Tick
 from rightofway.precedence import CyclicSchedule
 from tests.oracles.space import Shape, incompatible
+
+SLOW = 400
+"""Visits in a period for which this oracle is too slow."""
 
 
 class Cycle(NamedTuple):
@@ -132,3 +136,21 @@ def load(scenario: Scenario, timetable: CyclicSchedule) -> int:
         if len(times) > 1:
             most = max(most, sum(times) + headway * len(times))
     return most
+
+
+def check_periods(run: CyclicResult) -> None:
+    """Check the timetable of each group, the bottleneck, and the earliest one of its orders."""
+    for group in run.groups:
+        graph, timetable = group.build_graph(), group.timetable
+        if graph is None or timetable is None or sum(map(len, timetable.enter)) > SLOW:
+            continue
+        cycles, period = cycles_of(timetable), int(timetable.period)
+        assert all(is_kept(cycle, period) for cycle in cycles)
+        assert not conflicts(run.scenario, cycles, period)
+        assert graph.compute_slack().min() >= 0
+        critical = graph.find_critical_circuit().cycle_time
+        assert load(run.scenario, timetable) <= critical <= period
+        shortest = Tick(-(-critical.numerator // critical.denominator))
+        earliest = cycles_of(graph.compute_earliest(shortest))
+        assert all(is_kept(cycle, shortest) for cycle in earliest)
+        assert not conflicts(run.scenario, earliest, shortest)
