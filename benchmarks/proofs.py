@@ -1,20 +1,22 @@
 """How many fleets `cbs` proves optimal, or within a factor, and what that takes.
 
 ``python -m benchmarks.proofs [--folder FOLDER] [--factor F] [--seconds S] [--classic]
-[--gaps] FLEET ...``
+[--gaps [--makespan]] FLEET ...``
 takes fleets as MAP:ROBOTS: maps of the MovingAI benchmark, from a folder with ``maps`` and
-``scens`` in it, or grids that are drawn: ``24x20`` has 24 x 24 cells with 20 % walls. Robots have
-the speeds 1, 1/2, 1/3, 1/5 in turn, and `occupancy: both`; with ``--classic`` they have one speed,
-and `occupancy: one`. Trips are one way, without work.
+``scens`` in it, or grids that are drawn: ``24x20`` has 24 x 24 cells with 20 % walls. ``discs`` is
+a drawn roadmap of 900 vertices and some 7000 lanes that cross, with robots of radius 0.35. Robots
+have the speeds 1, 1/2, 1/3, 1/5 in turn, and `occupancy: both`; with ``--classic`` points have one
+speed, and `occupancy: one`. Trips are one way, without work.
 
 With ``--gaps`` the table says how far plans of `two-level`, `lns` and `auto` are above the optimum
 or, where `cbs` does not prove it, above the best lower bound; each planner has a third of the
-seconds.
+seconds. With ``--makespan`` all of them minimize the makespan, and the bound is of that.
 """
 
 from __future__ import annotations
 
 import argparse
+import re
 import time
 from dataclasses import replace
 from fractions import Fraction
@@ -22,27 +24,33 @@ from pathlib import Path
 
 import rightofway
 from benchmarks.common import SEEDS, movingai_fleet, table
+from benchmarks.sizes import Graph, document_of
 from rightofway.bench.fleets import make_scenario_document
 from rightofway.errors import GaveUp
 from rightofway.io import parse_scenario
-from rightofway.model import OutcomeKind, Rules, Scenario
+from rightofway.model import Objective, OutcomeKind, Rules, Scenario
 from rightofway.planners.bounds import prove_bound
 
 SPEEDS = (Fraction(1), Fraction(1, 2), Fraction(1, 3), Fraction(1, 5))
 EQUAL = (Fraction(1),)
+
+DISCS = Graph(vertices=900, degree=8.3, lane=10, robots=0, radius="0.35")
 
 PLANNERS = ("two-level", "lns", "auto")
 """Whose plans are compared with the optimum."""
 
 
 def fleet(folder: Path | None, name: str, robots: int, seed: int, *, classic: bool) -> Scenario:
-    """Return the first robots of a scenario of the benchmark, or of a grid drawn at random."""
-    if folder is None:
+    """Return the first robots of a scenario of the benchmark, or of a drawn grid or roadmap."""
+    if name == "discs":
+        scenario = parse_scenario(document_of(replace(DISCS, robots=robots), seed, "whole"))
+    elif re.fullmatch(r"\d+x\d+", name):
         side, walls = name.split("x")
         grid = {"width": int(side), "height": int(side), "walls": int(walls) / 100, "seed": seed}
         drawn = {"speeds": [1], "work": [0, 0], "by_seed": False, "rules": {}}
         scenario = parse_scenario(make_scenario_document({"random": grid}, drawn, robots, seed))
     else:
+        assert folder is not None, f"{name} is no drawn map: its benchmark needs --folder"
         scenario = movingai_fleet(folder, name, robots, seed)
     return deal(scenario, classic=classic)
 
@@ -73,21 +81,31 @@ def figures(scenario: Scenario, factor: Fraction, seconds: float) -> tuple[bool,
     return is_proven, [cost, f"{ratio:.3f}", f"{time.process_time() - began:.2f}"]
 
 
-def gaps(scenario: Scenario, seconds: float) -> tuple[bool, list[float | None]]:
+def gaps(
+    scenario: Scenario, seconds: float, objective: Objective
+) -> tuple[bool, list[float | None]]:
     """Return whether the optimum is proven, and how far each planner is above the best bound."""
     plans: list[rightofway.Plan | None] = []
+    options = {"objective": "makespan" if objective is Objective.MAKESPAN else "flowtime"}
     for planner in (*PLANNERS, "cbs"):
         limit = seconds if planner == "cbs" else seconds / 3
         try:
-            plans.append(rightofway.solve(scenario, planner, limit))
+            plans.append(rightofway.solve(scenario, planner, limit, options=options))
         except GaveUp:
             plans.append(None)
-    proven = [plan.run.outcome for plan in plans if plan is not None]
-    bounds = [outcome.bound for outcome in proven if outcome is not None and outcome.bound]
-    proof, _ = prove_bound(scenario, time_limit=seconds)
-    bound = max([proof.bound, *bounds])
-    above = [None if plan is None else plan.flowtime / bound - 1 for plan in plans[:-1]]
-    return any(plan is not None and plan.flowtime == bound for plan in plans), above
+    bound = max(
+        outcome.bound
+        for plan in plans
+        if plan is not None and (outcome := plan.run.outcome) is not None
+        if outcome.objective is objective and outcome.bound is not None
+    )
+    if objective is Objective.FLOWTIME:
+        bound = max(bound, prove_bound(scenario, time_limit=seconds)[0].bound)
+    values = [
+        None if plan is None else objective.compute_cost(scenario, plan.tracks) for plan in plans
+    ]
+    above = [None if value is None else value / bound - 1 for value in values[:-1]]
+    return bound in values, above
 
 
 def line_of_gaps(rows: list[tuple[bool, list[float | None]]]) -> list[str]:
@@ -111,7 +129,9 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=30.0)
     parser.add_argument("--classic", action="store_true")
     parser.add_argument("--gaps", action="store_true")
+    parser.add_argument("--makespan", action="store_true")
     given = parser.parse_args()
+    objective = Objective.MAKESPAN if given.makespan else Objective.FLOWTIME
     lines: list[tuple[str, ...]] = []
     for each in given.fleets:
         name, robots = each.rsplit(":", 1)
@@ -119,7 +139,8 @@ def main() -> None:
             fleet(given.folder, name, int(robots), seed, classic=given.classic) for seed in SEEDS
         ]
         if given.gaps:
-            measured = line_of_gaps([gaps(scenario, given.seconds) for scenario in fleets])
+            rows_of_gaps = [gaps(scenario, given.seconds, objective) for scenario in fleets]
+            measured = line_of_gaps(rows_of_gaps)
             lines.append((name, robots, *measured))
             continue
         rows = [figures(scenario, given.factor, given.seconds) for scenario in fleets]

@@ -180,6 +180,7 @@ class Graph:
     degree: float  # lanes at a vertex
     lane: float  # length of a lane in distances of two robots, in the mean
     robots: int
+    radius: str = "1/2"
 
 
 GRAPH_SEEDS = (1, 2)
@@ -197,7 +198,8 @@ GRAPHS = (
 def document_of(graph: Graph, seed: int, spacing: str) -> dict[str, Any]:
     """Return a scenario of discs on a random geometric graph."""
     draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
-    reach = 1.5 * graph.lane  # the mean distance of points in a disc is 2/3 of its radius
+    least = 2 * float(Fraction(graph.radius))  # distance of two robots
+    reach = 1.5 * graph.lane * least  # the mean distance of points in a disc is 2/3 of its radius
     side = reach * (graph.vertices * np.pi / graph.degree) ** 0.5
     at = np.array([[draw.uniform(0, side) for _ in "xy"] for _ in range(graph.vertices)]).round(4)
     lanes = [
@@ -214,7 +216,7 @@ def document_of(graph: Graph, seed: int, spacing: str) -> dict[str, Any]:
     def places() -> list[int]:
         taken: list[int] = []
         for vertex in draw.sample(inside, len(inside)):
-            if (np.hypot(*(at[taken] - at[vertex]).T) > 1).all():
+            if (np.hypot(*(at[taken] - at[vertex]).T) > least).all():
                 taken.append(vertex)
             if len(taken) == graph.robots:
                 return taken
@@ -230,7 +232,7 @@ def document_of(graph: Graph, seed: int, spacing: str) -> dict[str, Any]:
             "spacing": spacing,
         },
         "robots": [
-            {"name": f"R{k}", "home": f"v{home}", "target": f"v{target}", "radius": "1/2"}
+            {"name": f"R{k}", "home": f"v{home}", "target": f"v{target}", "radius": graph.radius}
             for k, (home, target) in enumerate(zip(places(), places(), strict=True))
         ],
         "rules": {"return": "none"},

@@ -81,7 +81,7 @@ Returns
 -------
 tuple of (int, int)
     How it ended, as for `run`, and the proven bound of the sum of their costs, NEVER where no plan
-    exists. [ticks])";
+    exists in which none of them completes later than `latest`. [ticks])";
 
 constexpr auto actions_doc =
     R"(Take tracks of no higher cost with which robots wait and drive less often.
@@ -120,6 +120,7 @@ class ConflictBasedSearch {
           distances_(problem),
           tracks_(problem, distances_),
           losses_(tracks_, options),
+          latest_(options.latest),
           tree_(tracks_, all(problem), options, options.pair_nodes > 0 ? &losses_ : nullptr) {}
 
     SearchEnd run(Tick upper, Tick enough, std::int64_t most_nodes, std::size_t most_bytes,
@@ -145,8 +146,12 @@ class ConflictBasedSearch {
     JointPlan together(const std::vector<RobotId>& robots, std::int64_t most_states,
                        const Deadline& deadline) {
         const std::vector<SetId> sets(robots.size(), ConstraintSets::empty);
+        std::vector<Tick> most;
+        for (std::size_t k = 0; k < robots.size() && latest_ < never; ++k) {
+            most.push_back(problem_.weight(robots[k]) * latest_);
+        }
         try {
-            return tracks_.together(robots, sets, {}, most_states, [&] { return deadline(); });
+            return tracks_.together(robots, sets, most, most_states, [&] { return deadline(); });
         } catch (const Stopped&) {
             return {};
         }
@@ -182,6 +187,7 @@ class ConflictBasedSearch {
     SharedDistances distances_;
     ConstrainedTracks tracks_;
     PairLosses losses_;
+    Tick latest_;
     ConflictTree tree_;
     bool has_started_ = false;
 };

@@ -998,7 +998,7 @@ class ConflictBasedSearch:
         -------
         tuple of (int, int)
             How it ended, as for `run`, and the proven bound of the sum of their costs, NEVER where no plan
-            exists. [ticks]
+            exists in which none of them completes later than `latest`. [ticks]
         """
 
     def tracks(self) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:

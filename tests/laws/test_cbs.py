@@ -11,7 +11,11 @@ from hypothesis import strategies as st
 
 from rightofway import OutcomeKind, check, solve
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.metrics import compute_alone_completions, find_forced_losses
+from rightofway.metrics import (
+    compute_alone_completions,
+    find_forced_losses,
+    find_forced_makespan,
+)
 from rightofway.model import (
     Objective,
     Plan,
@@ -22,6 +26,7 @@ from rightofway.model import (
 )
 from rightofway.model.outcome import choose_objective
 from rightofway.planners.bounds import prove_bound
+from rightofway.planners.impossible import make_fleet_of
 from rightofway.search import (
     ConflictBasedSearch,
     compute_least_completions,
@@ -48,6 +53,12 @@ switches = st.fixed_dictionaries(
 
 PARTS = 1000
 """Of a tick, of which a wait or a drive counts as one."""
+
+UNKNOWN = {"barred", "laps", "limits", "spacing", "surcharges", "turn rates"}
+"""What the oracle does not know, or what makes trips too long for it."""
+
+LONGEST = 24
+"""Ticks for which the oracle searches all joint states."""
 
 NODES = 300
 """Fleets without a plan may have trees without end."""
@@ -250,8 +261,57 @@ def test_the_least_makespan_is_proven(kind: str, seed: int) -> None:
 def test_two_robots_lose_what_is_forced_in_any_plan(scenario: Scenario) -> None:
     completions = compute_completions(scenario, planned(scenario, "lns").tracks)
     alone = compute_alone_completions(scenario)
+    weights = [itinerary.weight for itinerary in scenario.problem.itineraries]
+    lost = [
+        weight * (completion - least)
+        for weight, completion, least in zip(weights, completions, alone, strict=True)
+    ]
     for loss in find_forced_losses(scenario):
-        assert sum(completions[robot] - alone[robot] for robot in loss.robots) >= loss.ticks > 0
+        assert sum(lost[robot] for robot in loss.robots) >= loss.ticks > 0
+
+
+def _plan_soon(scenario: Scenario) -> Plan:
+    """Return a plan that is short enough for the oracle to search all joint states as long."""
+    plan = planned(scenario, "lns")
+    if plan.makespan > LONGEST:
+        leave("too many joint states")
+    return plan
+
+
+def _prove_alone(scenario: Scenario, robots: tuple[int, ...]) -> int:
+    """Return the least cost of some robots alone, by all their joint states and whole weights."""
+    least = joint_space.least_flowtime(make_fleet_of(scenario, robots))
+    assert least is not None, "their plan in the whole fleet is one"
+    whole = scenario.problem.itineraries[robots[0]].weight
+    own = make_fleet_of(scenario, robots).problem.itineraries[0].weight
+    return least * whole // own
+
+
+@law(any_fleet(robots=(2, 3), without=UNKNOWN, joined=True, tiny=True))
+def test_what_robots_lose_is_forced_by_their_joint_states_alone(scenario: Scenario) -> None:
+    """By weight, where robots have weights."""
+    _plan_soon(scenario)
+    for loss in find_forced_losses(scenario):
+        assert loss.objective is choose_objective(scenario)
+        alone = sum(_prove_alone(scenario, (robot,)) for robot in loss.robots)
+        assert _prove_alone(scenario, loss.robots) - alone >= loss.ticks > 0
+
+
+@law(any_fleet(robots=(2, 3), without={*UNKNOWN, "closures"}, joined=True, tiny=True))
+def test_before_a_forced_makespan_not_all_of_its_robots_can_have_completed(
+    scenario: Scenario,
+) -> None:
+    """Of all ticks from the last robot alone to that of a plan, those with a proof."""
+    latest = _plan_soon(scenario).makespan
+    first = max(compute_alone_completions(scenario))
+    proofs = [find_forced_makespan(scenario, tick) for tick in range(first, latest + 2)]
+    assert proofs[0] or first == 0, "the last robot alone needs as long"
+    assert not proofs[-1], "there is a plan that ends before"
+    for loss in [loss for losses in proofs for loss in losses][-2:]:
+        assert loss.objective is Objective.MAKESPAN
+        least = joint_space.least_makespan(make_fleet_of(scenario, loss.robots))
+        assert least is not None
+        assert least >= loss.ticks
 
 
 @law(any_fleet(), st.integers(1, 30))

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     )
     from rightofway.metrics.comparison import MAX_COMPARED, Comparison, compare
     from rightofway.metrics.events import Event, list_events, make_event_columns
-    from rightofway.metrics.forced_losses import find_forced_losses
+    from rightofway.metrics.forced_losses import find_forced_losses, find_forced_makespan
     from rightofway.metrics.inspection import inspect
     from rightofway.metrics.site import HEADINGS, Finding, Inspection, Site, describe_site
 
@@ -56,7 +56,7 @@ _MODULES = {
         "list_events",
         "make_event_columns",
     ),
-    "forced_losses": ("find_forced_losses",),
+    "forced_losses": ("find_forced_losses", "find_forced_makespan"),
     "inspection": ("inspect",),
     "site": (
         "HEADINGS",
@@ -89,6 +89,7 @@ __all__ = [
     "find_changes",
     "find_collisions",
     "find_forced_losses",
+    "find_forced_makespan",
     "find_near_misses",
     "find_swaps",
     "free_running",

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from itertools import chain, product
 
 from rightofway.arguments import checks_arguments
 from rightofway.deadline import Deadline
@@ -30,6 +32,9 @@ GROUPS = range(3, 5)
 
 Robots = tuple[int, ...]
 
+Places = dict[Robots, VertexId]
+"""Groups of robots, each with the vertex where the first two of them meet."""
+
 
 @checks_arguments
 def find_forced_losses(
@@ -55,8 +60,9 @@ def find_forced_losses(
     Returns
     -------
     tuple of ForcedLoss
-        Pairs, and groups of up to four robots that lose more than their pairs explain. None of
-        robots that lose nothing, nor where costs have weights or surcharges.
+        Pairs, and groups of up to four robots that lose more than their pairs explain; by weight
+        where robots have weights. None of robots that lose nothing, nor where costs have
+        surcharges.
 
     Notes
     -----
@@ -64,33 +70,121 @@ def find_forced_losses(
     add up. Deterministic without a time limit.
     """
     deadline = Deadline.after(require_time_limit(time_limit))
-    if choose_objective(scenario) is not Objective.FLOWTIME:
-        return ()
-    tracks = _alone(scenario)
+    tracks = None if scenario.roadmap.has_surcharges else _alone(scenario)
     if tracks is None:
         return ()
-    search, alone = ConflictBasedSearch(scenario.problem), compute_completions(scenario, tracks)
+    search, objective = ConflictBasedSearch(scenario.problem), choose_objective(scenario)
+    completions = compute_completions(scenario, tracks)
+    both = zip(scenario.problem.itineraries, completions, strict=True)
+    alone = [itinerary.weight * completion for itinerary, completion in both]
 
     def measure_loss(robots: Robots) -> Tick:
         """Return what robots lose at least, alone on the roads [ticks]; 0 where time is up."""
-        left = deadline.measure_seconds_left()
-        if left == 0:
-            return Tick(0)
-        _, least = search.search_together(robots, states=states, time_limit=left)
+        _, least = _search_together(search, robots, states, deadline)
         # A search that did not end gives a lower bound, and tracks are never below the least.
         return Tick(0 if least is None else max(least - sum(alone[robot] for robot in robots), 0))
 
     forced = dict[Robots, ForcedLoss]()
     for robots, vertex in list(_meetings(scenario, tracks).items())[:pairs]:
         if ticks := measure_loss(robots):
-            forced[robots] = ForcedLoss(robots=robots, ticks=ticks, vertex=vertex)
+            forced[robots] = ForcedLoss(
+                robots=robots, ticks=ticks, vertex=vertex, objective=objective
+            )
     for group in _list_groups(forced):
         ticks = measure_loss(group)
         inside = {pair: loss for pair, loss in forced.items() if {*pair} <= {*group}}
         if ticks > _sum_of_disjoint(inside):
-            vertex = next(iter(inside.values())).vertex
-            forced[group] = ForcedLoss(robots=group, ticks=ticks, vertex=vertex)
+            first = next(iter(inside.values()))
+            forced[group] = replace(first, robots=group, ticks=ticks)
     return tuple(sorted(forced.values(), key=lambda loss: (-loss.ticks, loss.robots)))
+
+
+@checks_arguments
+def find_forced_makespan(
+    scenario: Scenario,
+    makespan: int,
+    *,
+    time_limit: float | None = None,
+    pairs: int = MOST_PAIRS,
+    states: int = STATES,
+) -> tuple[ForcedLoss, ...]:
+    """Return which robots cannot all have completed before a tick, in any plan.
+
+    Parameters
+    ----------
+    scenario
+        The problem; every robot can reach its places.
+    makespan
+        The tick, that of the best plan [ticks].
+    time_limit
+        When to stop [s]; None for no limit.
+    pairs
+        How many pairs, and how many larger groups of each size, are looked at; those first that
+        meet first.
+    states
+        Joint states at most of each pair or group.
+
+    Returns
+    -------
+    tuple of ForcedLoss
+        The robots that need as long alone; else the pairs that do, else groups of three, else of
+        four. None where that is not proven, nor where costs have surcharges.
+
+    Notes
+    -----
+    Deterministic without a time limit.
+    """
+    deadline = Deadline.after(require_time_limit(time_limit))
+    tracks = None if scenario.roadmap.has_surcharges else _alone(scenario)
+    if tracks is None or makespan < 1:
+        return ()
+    search = ConflictBasedSearch(scenario.problem, latest=makespan - 1)
+
+    def is_forced(robots: Robots) -> bool:
+        """Return whether it is proven that some robots, alone on the roads, need as long."""
+        has_ended, least = _search_together(search, robots, states, deadline)
+        return has_ended and least is None
+
+    completions = compute_completions(scenario, tracks)
+    late = [robot for robot, completion in enumerate(completions) if completion >= makespan]
+    lone: Places = {(robot,): scenario.robots[robot].stops[-1].at for robot in late}
+    meetings = dict(list(_meetings(scenario, tracks).items())[:pairs])
+    for groups in chain([lone], _list_larger_groups(meetings, pairs)):
+        forced = [robots for robots in groups if is_forced(robots)]
+        if forced:
+            return tuple(
+                ForcedLoss(
+                    robots=robots,
+                    ticks=Tick(makespan),
+                    vertex=groups[robots],
+                    objective=Objective.MAKESPAN,
+                )
+                for robots in sorted(forced)
+            )
+    return ()
+
+
+def _search_together(
+    search: ConflictBasedSearch, robots: Robots, states: int, deadline: Deadline
+) -> tuple[bool, Tick | None]:
+    """Search the joint states of robots; where time is up, all that is known is a bound of 0."""
+    left = deadline.measure_seconds_left()
+    if left == 0:
+        return False, Tick(0)
+    return search.search_together(robots, states=states, time_limit=left)
+
+
+def _list_larger_groups(meetings: Places, most: int) -> Iterator[Places]:
+    """Yield the pairs that meet, and then groups with one more robot, which meets one of them."""
+    groups = meetings
+    yield groups
+    for _ in GROUPS:
+        larger: Places = {}
+        for (group, vertex), pair in product(groups.items(), meetings):
+            if len({*group} & {*pair}) == 1 and len(larger) < most:
+                larger.setdefault(tuple(sorted({*group, *pair})), vertex)
+        groups = larger
+        yield groups
 
 
 def _list_groups(pairs: Iterable[Robots]) -> list[Robots]:
@@ -123,14 +217,14 @@ def _alone(scenario: Scenario) -> list[Track] | None:
     return tracks
 
 
-def _meetings(scenario: Scenario, tracks: list[Track]) -> dict[Robots, VertexId]:
+def _meetings(scenario: Scenario, tracks: list[Track]) -> Places:
     """Return the pairs that meet on their tracks, and where they do first, in order of time."""
     of_points = [(hit.start, hit.robots, hit.vertex) for hit in find_collisions(scenario, tracks)]
     head_on = [(swap.tick, swap.robots, swap.vertices[0]) for swap in find_swaps(tracks)]
     of_sizes = [
         (miss.start, miss.robots, miss.places[0][0]) for miss in find_near_misses(scenario, tracks)
     ]
-    first: dict[Robots, VertexId] = {}
+    first: Places = {}
     for _, robots, vertex in sorted([*of_points, *head_on, *of_sizes]):
         first.setdefault(robots, vertex)
     return first

@@ -150,21 +150,26 @@ class Outcome:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ForcedLoss:
-    """Robots that cannot all be as early as alone.
+    """Robots that cannot all be as early as alone, or as early as no plan is.
 
     Attributes
     ----------
     robots
-        Two or more, by index, the smaller first.
+        By index, the smaller first: two or more, of the makespan also one.
     ticks
-        What they lose together in every plan, at least [ticks].
+        What they lose together in every plan, at least; of the weighted flowtime as often as their
+        weights say. Of the makespan, before which tick not all of them can have completed [ticks].
     vertex
-        Where the first two of them that meet would meet, each on its best track alone.
+        Where the first two of them that meet would meet, each on its best track alone; of one
+        robot, its last stop.
+    objective
+        What is lost: `FLOWTIME`, `WEIGHTED` or `MAKESPAN`.
     """
 
     robots: tuple[int, ...]
     ticks: Tick
     vertex: VertexId
+    objective: Objective = Objective.FLOWTIME
 
 
 def classify_cost(cost: Tick, proof: Proof) -> Outcome:

@@ -18,9 +18,17 @@ from dataclasses import replace
 
 from rightofway.deadline import Deadline
 from rightofway.errors import NoPlanExists
-from rightofway.metrics import find_forced_losses
-from rightofway.model import Objective, Proof, Scenario, Tick, compute_completions
+from rightofway.metrics import find_forced_losses, find_forced_makespan
+from rightofway.model import (
+    ForcedLoss,
+    Objective,
+    Proof,
+    Scenario,
+    Tick,
+    compute_completions,
+)
 from rightofway.model.outcome import choose_objective
+from rightofway.planners.makespan import measure_alone
 from rightofway.planners.objectives import find_objective, measure_worth
 from rightofway.planners.task import Draft, Task
 from rightofway.search import ConflictBasedSearch, PriceAscent, find_fewest_actions
@@ -62,7 +70,7 @@ def prove_bound(
 
 
 def finish_optimum(task: Task, draft: Draft) -> Draft:
-    """Return an optimal plan with few drives and waits, and the losses that force its flowtime.
+    """Return an optimal plan with few drives and waits, and what forces that it is no better.
 
     Other plans as they are. A plan whose decisions are explained keeps its tracks.
     """
@@ -89,18 +97,25 @@ def _act_less(task: Task, draft: Draft) -> Draft:
 
 
 def _explain(task: Task, draft: Draft) -> Draft:
-    """Return a plan with the losses that force its flowtime, where it is proven to be optimal.
+    """Return a plan with what forces its objective, where it is proven to be optimal.
 
-    A bounded number of steps finds them: without a time limit reached the same losses each time.
+    A bounded number of steps finds that: without a time limit reached the same losses each time.
     """
-    proof, scenario = draft.proof, task.scenario
-    if proof is None or proof.objective is not Objective.FLOWTIME:
+    proof, scenario, deadline = draft.proof, task.scenario, task.deadline
+    if proof is None or proof.objective.compute_cost(scenario, draft.tracks) > proof.bound:
         return draft
-    cost = proof.objective.compute_cost(scenario, draft.tracks)
-    if cost > proof.bound or task.alone is None or cost == int(task.alone.sum()):
-        return draft  # not optimal, or no robot loses time
-    limit = task.deadline.measure_seconds_left()
-    losses = find_forced_losses(scenario, time_limit=limit, pairs=PAIRS, states=STATES)
+    losses: tuple[ForcedLoss, ...] = ()
+    if proof.objective.has_makespan:
+        makespan = Objective.MAKESPAN.compute_cost(scenario, draft.tracks)
+        limit = deadline.measure_seconds_left()
+        losses = find_forced_makespan(
+            scenario, makespan, time_limit=limit, pairs=PAIRS, states=STATES
+        )
+    completions = compute_completions(scenario, draft.tracks)
+    loses_time = list(completions) != measure_alone(task)
+    if proof.objective is not Objective.MAKESPAN and loses_time:
+        limit = deadline.measure_seconds_left()
+        losses += find_forced_losses(scenario, time_limit=limit, pairs=PAIRS, states=STATES)
     return replace(draft, forced_losses=losses)
 
 

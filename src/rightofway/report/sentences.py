@@ -124,26 +124,62 @@ def list_forced_losses(plan: Plan) -> Sequence[ForcedLoss]:
     return plan.run.forced_losses if is_optimal else ()
 
 
+def summarize_forced_loss(scenario: Scenario, loss: ForcedLoss, quantities: Quantities) -> Phrase:
+    """Return what robots lose in every plan, or how long they need, in a few words."""
+    names = join_items([scenario.robots[robot].name for robot in loss.robots])
+    values = {"robots": names, "time": _lost_time(loss, quantities)}
+    if loss.objective is not Objective.MAKESPAN:
+        return Phrase("{robots} lose {time}", **values)
+    if len(loss.robots) == 1:
+        return Phrase("{robots} needs {time}", **values)
+    return Phrase("{robots} need {time}", **values)
+
+
 def describe_forced_loss(
     scenario: Scenario, loss: ForcedLoss, quantities: Quantities, place: str
 ) -> Phrase:
-    """Return what robots lose to each other in every plan, and where they would meet."""
+    """Return which robots force that no plan is better, and where they would meet."""
     names = [scenario.robots[robot].name for robot in loss.robots]
-    values = {"time": quantities.format_duration(loss.ticks), "place": place}
-    if len(names) > 2:  # noqa: PLR2004
-        return Phrase(
-            "In every plan, {robots} lose at least {time} to each other: alone, two of them would"
-            " meet in {place}.",
-            robots=join_items(names),
-            **values,
-        )
+    values = {"time": _lost_time(loss, quantities), "place": place}
+    match loss.objective, names:
+        case Objective.MAKESPAN, [one]:
+            return Phrase(
+                "No plan ends before {time}: {one} alone needs as long.", one=one, **values
+            )
+        case Objective.MAKESPAN, [one, other]:
+            return Phrase(
+                "No plan ends before {time}: {one} and {other} need as long however they pass each"
+                " other; alone they would meet in {place}.",
+                one=one,
+                other=other,
+                **values,
+            )
+        case Objective.MAKESPAN, _:
+            return Phrase(
+                "No plan ends before {time}: {robots} need as long however they pass each other;"
+                " alone, two of them would meet in {place}.",
+                robots=join_items(names),
+                **values,
+            )
+        case _, [one, other]:
+            return Phrase(
+                "In every plan, {one} and {other} lose at least {time} to each other: alone they"
+                " would meet in {place}.",
+                one=one,
+                other=other,
+                **values,
+            )
     return Phrase(
-        "In every plan, {one} and {other} lose at least {time} to each other: alone they would"
+        "In every plan, {robots} lose at least {time} to each other: alone, two of them would"
         " meet in {place}.",
-        one=names[0],
-        other=names[1],
+        robots=join_items(names),
         **values,
     )
+
+
+def _lost_time(loss: ForcedLoss, quantities: Quantities) -> str:
+    time = quantities.format_duration(loss.ticks)
+    return Phrase("{time} by weight", time=time) if loss.objective is Objective.WEIGHTED else time
 
 
 def describe_improvement(improvement: Improvement, quantities: Quantities) -> Phrase:

@@ -141,8 +141,8 @@ class ConflictBasedSearch:
         Returns
         -------
         tuple of (bool, int or None)
-            Whether the search ended, and the least sum of their costs [ticks], None where they have
-            no plan; where the search did not end, a lower bound.
+            Whether the search ended, and the least sum of their costs by weight [ticks], None where
+            they have no plan within `latest`; where the search did not end, a lower bound.
         """
         end, least = self._core.search_together(np.array(robots, np.int32), states, time_limit)
         return end in {FOUND, PROVEN}, None if least == NEVER else Tick(least)

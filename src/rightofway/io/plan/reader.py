@@ -204,8 +204,17 @@ def _forced_loss(document: ForcedLossDocument, names: _Names) -> ForcedLoss:
     robots = {names.find_robot("robots", name) for name in document.robots}
     if len(robots) < len(document.robots):
         raise InputError.at("robots", "a robot is named twice (name different robots)")
+    objective = Objective(document.objective)
+    if len(robots) == 1 and objective is not Objective.MAKESPAN:
+        message = f"{quote(*document.robots)} loses no time to itself (name another robot, too)"
+        raise InputError.at("robots", message)
     vertex = names.find_vertex("vertex", document.vertex)
-    return ForcedLoss(robots=tuple(sorted(robots)), ticks=Tick(document.ticks), vertex=vertex)
+    return ForcedLoss(
+        robots=tuple(sorted(robots)),
+        ticks=Tick(document.ticks),
+        vertex=vertex,
+        objective=objective,
+    )
 
 
 def _outcome(document: OutcomeDocument) -> Outcome:

@@ -83,11 +83,20 @@ class OutcomeDocument(Document):
 class ForcedLossDocument(Document):
     """Robots that lose time to each other in every plan."""
 
-    robots: list[Name] = Field(min_length=2, description="names of two robots or more")
-    ticks: Annotated[int, Field(ge=1)] = Field(
-        description="what they lose together at least, a whole number of ticks above 0"
+    robots: list[Name] = Field(
+        min_length=1, description="names of two robots or more; of the makespan also of one"
     )
-    vertex: str = Field(description="the name of the vertex where two of them would meet")
+    ticks: Annotated[int, Field(ge=1)] = Field(
+        description="what they lose together at least, or before which tick not all of them can"
+        " have completed; a whole number of ticks above 0"
+    )
+    vertex: str = Field(
+        description="the name of the vertex where two of them would meet; of one robot, its last"
+        " stop"
+    )
+    objective: Literal["flowtime", "weighted flowtime", "makespan"] = Field(
+        default="flowtime", description="what is lost: flowtime, weighted flowtime, or makespan"
+    )
 
 
 class PlannerDocument(Document):
@@ -108,7 +117,7 @@ class PlannerDocument(Document):
     )
     forced_losses: list[ForcedLossDocument] = Field(
         default=[],
-        description="a list of {robots, ticks, vertex}: robots that lose time in every plan",
+        description="a list of {robots, ticks, vertex, objective}: why no plan is better",
     )
 
 

@@ -13,7 +13,16 @@ from rightofway.files import write_whole
 from rightofway.io.formats import PLAN_FORMAT
 from rightofway.io.scenario.writer import dump_scenario
 from rightofway.io.text import format_json
-from rightofway.model import Decision, ForcedLoss, Outcome, Plan, PlannerRun, Scenario, SteadyState
+from rightofway.model import (
+    Decision,
+    ForcedLoss,
+    Objective,
+    Outcome,
+    Plan,
+    PlannerRun,
+    Scenario,
+    SteadyState,
+)
 from rightofway.model.given import require_plan, require_truths
 from rightofway.phrases import to_parts
 from rightofway.values import format_number
@@ -120,6 +129,7 @@ def make_forced_losses(losses: Sequence[ForcedLoss], scenario: Scenario) -> dict
             "robots": [scenario.robots[robot].name for robot in loss.robots],
             "ticks": loss.ticks,
             "vertex": scenario.roadmap.name(loss.vertex),
+            **({} if loss.objective is Objective.FLOWTIME else {"objective": loss.objective.value}),
         }
         for loss in losses
     ]

@@ -38,7 +38,7 @@ from rightofway.model.closures import Closure
 from rightofway.model.given import require_plan
 from rightofway.model.place_names import PlaceNames
 from rightofway.model.steady_state import refuse_unknown_robots
-from rightofway.phrases import Phrase, PhraseBook, join_items, to_parts
+from rightofway.phrases import Phrase, PhraseBook, to_parts
 from rightofway.report.circuits import describe_circuit, summarize_circuit
 from rightofway.report.sentences import (
     Words,
@@ -55,6 +55,7 @@ from rightofway.report.sentences import (
     list_forced_losses,
     read_closed_ticks,
     summarize_decision,
+    summarize_forced_loss,
 )
 from rightofway.values import allow_none, list_of, make_class_reader, read_at, read_label
 from rightofway.viz.motion import Trip, end_of, make_trips
@@ -324,8 +325,7 @@ def _robots(
 
 def _forced_loss(loss: ForcedLoss, words: Words, book: PhraseBook) -> ForcedLossData:
     plan, place = words.plan, words.name_place(loss.vertex)
-    names = join_items([words.name_robot(robot) for robot in loss.robots])
-    head = Phrase("{robots} lose {time}", robots=names, time=words.say_time(loss.ticks))
+    head = summarize_forced_loss(plan.scenario, loss, words.quantities)
     text = describe_forced_loss(plan.scenario, loss, words.quantities, place)
     tracks = [plan.tracks[robot] for robot in loss.robots]
     comes = [track.enter[track.vertices == loss.vertex].tolist()[:1] for track in tracks]
