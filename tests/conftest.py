@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -65,6 +66,10 @@ NIGHTLY = (
 """Files that CI leaves out, with the tests that are marked so."""
 
 
+QUICK = "not slow and not nightly"
+"""The expression that `pyproject.toml` gives to plain ``pytest``."""
+
+
 def files_of(lane: Iterable[str]) -> set[Path]:
     """Return the test files of a lane."""
     named = (TESTS / name for name in lane)
@@ -73,14 +78,34 @@ def files_of(lane: Iterable[str]) -> set[Path]:
     }
 
 
+SLOW_FILES, NIGHTLY_FILES = files_of(SLOW), files_of(NIGHTLY)
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Have the quick lane import no file that has nothing for it, but count what is asked for."""
+    if config.option.markexpr != QUICK or any(".py" in argument for argument in config.args):
+        return None
+    return collection_path in SLOW_FILES | NIGHTLY_FILES or None  # None: others decide
+
+
+def pytest_collection_finish() -> None:
+    """Have later collections of garbage leave out what lives to the end: thousands of tests."""
+    gc.collect()
+    gc.freeze()
+
+
+def pytest_sessionfinish() -> None:
+    """Have Python free all at its end: nanobind reports what is left."""
+    gc.unfreeze()
+
+
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark the tests of the lanes, before any are deselected."""
-    slow, nightly = files_of(SLOW), files_of(NIGHTLY)
     for item in items:
-        if item.path in slow:
+        if item.path in SLOW_FILES:
             item.add_marker(pytest.mark.slow)
-        if item.path in nightly:
+        if item.path in NIGHTLY_FILES:
             item.add_marker(pytest.mark.nightly)
         if "law_run" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.law)

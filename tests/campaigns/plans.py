@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import math
 import multiprocessing
+import os
 import random
 import sys
 import time
@@ -263,8 +264,8 @@ COUNTS = {
 """What a campaign reports even where there is none."""
 
 
-def one_round(campaign: str, session: int, number: int) -> tuple[int, Round]:
-    """Return the number of a round, and what became of its cases."""
+def one_round(campaign: str, session: int, most: int, number: int) -> tuple[int, Round]:
+    """Return the number of a round, and what became of its cases, until ``most`` are judged."""
     into, draw = Round(), random.Random(f"{session} {number}")  # noqa: S311
 
     @seed(draw.getrandbits(64))
@@ -277,6 +278,8 @@ def one_round(campaign: str, session: int, number: int) -> tuple[int, Round]:
     )
     @given(any_fleet())
     def cases(scenario: Scenario) -> None:
+        if into.counts["judged"] >= most:
+            return
         into.counts["fleets"] += 1
         CAMPAIGNS[campaign](scenario, draw.getrandbits(32), into)
 
@@ -315,7 +318,8 @@ def main() -> int:
     began, found = time.perf_counter(), 0
     names = COUNTS[given_.campaign]
     total = Counter(dict.fromkeys(names, 0))
-    play = partial(one_round, given_.campaign, given_.seed)
+    share = math.ceil(given_.count / (os.cpu_count() or 1))  # of each core
+    play = partial(one_round, given_.campaign, given_.seed, share)
     rounds = range(10**9) if given_.round is None else [given_.round]
     _say(f"{given_.campaign} {given_.count} --seed {given_.seed}")
     for number, made in rounds_until(given_.seconds, play, rounds):
