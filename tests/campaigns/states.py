@@ -21,7 +21,7 @@ from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd
 from rightofway.control.identities import VERSIONS, make_simulated_identities
 from rightofway.control.notices import MAX_KINDS, Notices
-from rightofway.control.order_map import OrderMap
+from rightofway.control.order_map import make_order_maps
 from tests.builders.chaos import MemoryJournal
 from tests.builders.warehouses import warehouse
 
@@ -85,7 +85,7 @@ def fuzz_states(count: int, seed: int) -> Counter[str]:
     control = FleetControl(MemoryJournal(), report=notices.report_on)
     Dispatcher(control, plan).begin("run")
     identities = make_simulated_identities(names, draw.choice(VERSIONS))
-    maps = [OrderMap(plan.scenario, *numbered) for numbered in enumerate(identities)]
+    maps = make_order_maps(plan.scenario, identities)
     end = ControlEnd(control, maps, lambda: NOW, notices)
     homes = [plan.scenario.roadmap.name(robot.home) for robot in plan.scenario.robots]
     robots = [

@@ -13,6 +13,7 @@ from rightofway.control.endpoints import Letter
 from rightofway.control.identities import VERSIONS
 from rightofway.control.report import report
 from rightofway.control.story import Happening, Story
+from rightofway.control.vda5050 import InstantActions, OrderMessage, StateMessage, read
 from rightofway.cyclic import find_best_timetable
 from rightofway.errors import InputError
 from rightofway.io import parse_scenario
@@ -98,6 +99,29 @@ def test_all_that_control_and_robots_send_is_valid_by_the_official_schemas(versi
         if letter.topic == f"{interface}/rightofway/robot0/state"
     ]
     assert numbers == list(range(len(numbers)))  # one count for each topic
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_what_ends_hand_over_in_one_process_is_what_they_would_read(version: str) -> None:
+    """Robots and control of a demo take bodies; over a network they would read payloads."""
+    letters = list[Letter]()
+    drive_demo(door(), version=version, watch=letters.append)
+    bodies = set[str]()
+    for letter in letters:
+        assert letter.body is not None
+        document = json.loads(letter.payload)
+        as_read = read(type(letter.body), document, letter.name)
+        bodies.add(type(as_read).__name__)
+        if isinstance(as_read, StateMessage) and isinstance(letter.body, StateMessage):
+            assert as_read.to_robot_state() == letter.body.to_robot_state()
+        if isinstance(as_read, OrderMessage) and isinstance(letter.body, OrderMessage):
+            assert as_read.order(0) == letter.body.order(0)
+            assert [edge.length for edge in as_read.edges] == [
+                edge.length for edge in letter.body.edges
+            ]
+        if isinstance(as_read, InstantActions) and isinstance(letter.body, InstantActions):
+            assert as_read.to_instant_actions(0) == letter.body.to_instant_actions(0)
+    assert bodies == {"InstantActions", "OrderMessage", "StateMessage"}
 
 
 @pytest.mark.parametrize("planner", ["prioritized", "lns"])

@@ -13,7 +13,7 @@ from rightofway.control import FleetControl, Order, SimulatedRobot
 from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd
 from rightofway.control.identities import VERSIONS, Identity
 from rightofway.control.notices import Notices
-from rightofway.control.order_map import OrderMap
+from rightofway.control.order_map import make_order_maps
 from rightofway.control.routes import make_routes_to_drive
 from rightofway.model import Plan
 from rightofway.precedence import ReleaseGraph
@@ -40,7 +40,7 @@ class Site:
         self.identities = [
             Identity(manufacturer="maker", serial_number=name, version=version) for name in names
         ]
-        maps = [OrderMap(plan.scenario, *numbered) for numbered in enumerate(self.identities)]
+        maps = make_order_maps(plan.scenario, self.identities)
         self.end = ControlEnd(self.control, maps, lambda: NOW, notices)
         self.robots = [
             RobotEnd(SimulatedRobot(route.places[0]), k, self.identities[k], lambda: NOW)
@@ -59,7 +59,7 @@ class Site:
         """Let a robot send its state with changes, and deliver what is answered."""
         letter = self.robots[robot].report_state()
         document = {**json.loads(letter.payload), **changes}
-        self.deliver(self.end.receive(letter._replace(payload=json.dumps(document).encode())))
+        self.deliver(self.end.receive(Letter(letter.topic, json.dumps(document).encode())))
 
     def send(self, robot: int, name: str, document: Any) -> None:
         """Let a robot send a message."""

@@ -38,7 +38,7 @@ from rightofway.control.identities import Identity, make_simulated_identities
 from rightofway.control.names import list_jobs
 from rightofway.control.notices import Notices
 from rightofway.control.operator import Operator
-from rightofway.control.order_map import OrderMap
+from rightofway.control.order_map import make_order_maps
 from rightofway.errors import GaveUp, InputError
 from rightofway.io import parse_scenario
 from rightofway.model import Plan
@@ -85,7 +85,7 @@ class Floor:
         self.operator = Operator(self.dispatcher)
         if not self.journal.written:
             self.dispatcher.begin("run")
-        maps = [OrderMap(self.plan.scenario, *one) for one in enumerate(self.identities)]
+        maps = make_order_maps(self.plan.scenario, self.identities)
         self.end = ControlEnd(control, maps, lambda: NOW, notices)
         self.ledger = control.ledger
 
@@ -99,6 +99,7 @@ class Floor:
         queue = deque(letters)
         while queue:
             letter = queue.popleft()
+            letter = Letter(letter.topic, letter.payload)  # as over a network
             self.sent.append(letter)
             for number, robot in enumerate(self.robots):
                 if letter.topic in robot.topics and number not in refused:
@@ -113,7 +114,7 @@ class Floor:
         """Let a robot send its state with changes."""
         letter = self.robots[robot].report_state()
         document = {**json.loads(letter.payload), **changes}
-        self.deliver(self.end.receive(letter._replace(payload=json.dumps(document).encode())))
+        self.deliver(self.end.receive(Letter(letter.topic, json.dumps(document).encode())))
 
     def drive(self, steps: int, still: Collection[int] = ()) -> None:
         """Have robots do the next things, but those that stand still; they send their states."""

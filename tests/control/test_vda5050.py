@@ -22,7 +22,7 @@ from rightofway.control import (
 )
 from rightofway.control.identities import VERSIONS, Identity
 from rightofway.control.operator import OPERATIONS
-from rightofway.control.order_map import OrderMap
+from rightofway.control.order_map import OrderMap, make_order_maps
 from rightofway.control.routes import make_routes_to_drive
 from rightofway.control.vda5050 import (
     ConnectionMessage,
@@ -35,7 +35,7 @@ from rightofway.control.vda5050 import (
 )
 from rightofway.errors import InputError
 from rightofway.io import parse_scenario
-from rightofway.model import Scenario
+from rightofway.model import Robot, Scenario, Stop
 from rightofway.precedence import ReleaseGraph
 from rightofway.site.geometry import Frame
 from tests.builders.chaos import MemoryJournal
@@ -57,6 +57,28 @@ def header(version: str) -> Header:
 def map_of(scenario: Scenario, **identity: Any) -> OrderMap:
     """Return the map of the first robot."""
     return OrderMap(scenario, 0, Identity(manufacturer="maker", serial_number="R1", **identity))
+
+
+def test_robots_that_share_what_they_have_looked_up_see_their_own_frames_and_speeds() -> None:
+    """Of four robots the first and the last see the site alike."""
+    one = door().scenario
+    stop = Stop(at=one.roadmap.get_vertex("N4"))
+    robots = [
+        Robot(name=home, home=one.roadmap.get_vertex(home), stops=(stop,), speed=Fraction(speed))
+        for home, speed in (("N0", 1), ("N2", 2), ("N6", 1), ("N8", 1))
+    ]
+    scenario = replace(one, robots=tuple(robots))
+    identities = [
+        Identity(manufacturer="maker", serial_number=robot.name, frame=Frame(x=Fraction(x)))
+        for robot, x in zip(robots, (0, 0, 5, 0), strict=True)
+    ]
+    names = [scenario.roadmap.name(vertex) for vertex in range(scenario.roadmap.n_vertices)]
+    for order_map in make_order_maps(scenario, identities):
+        alone = OrderMap(scenario, order_map.robot, order_map.identity)
+        for tail in names:
+            assert order_map.get_place(tail) == alone.get_place(tail)
+            for head in names:
+                assert order_map.find_lane(tail, head) == alone.find_lane(tail, head)
 
 
 def order_over(*places: str) -> Order:

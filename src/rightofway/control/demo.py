@@ -28,7 +28,7 @@ from rightofway.control.identities import Identity, make_simulated_identities
 from rightofway.control.laps import LapsToDrive
 from rightofway.control.notices import Notices, make_notice
 from rightofway.control.operator import Operator
-from rightofway.control.order_map import OrderMap
+from rightofway.control.order_map import make_order_maps
 from rightofway.control.simulated_robot import SimulatedRobot
 from rightofway.control.story import Story
 from rightofway.control.timed_robot import Durations, TimedRobot
@@ -212,7 +212,7 @@ class _Demo:
         dispatcher.begin("demo")
         self._plan, self._control, self._watch = plan, control, watch
         self._clock, self._record, self._report = clock, record, report
-        maps = [OrderMap(plan.scenario, *numbered) for numbered in enumerate(identities)]
+        maps = make_order_maps(plan.scenario, identities)
         names = [robot.name for robot in plan.scenario.robots]
         notices = Notices(names, self._tell, keep=record.write if record else lambda _: None)
         self._end = ControlEnd(control, maps, self._timestamp, notices)

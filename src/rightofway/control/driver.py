@@ -26,7 +26,7 @@ from rightofway.control.laps import LapsToDrive
 from rightofway.control.messages import Message
 from rightofway.control.notices import Notices, make_notice
 from rightofway.control.operator import Operator
-from rightofway.control.order_map import OrderMap
+from rightofway.control.order_map import OrderMap, make_order_maps
 from rightofway.control.story import Story
 from rightofway.errors import InputError
 from rightofway.io import format_plan
@@ -101,7 +101,7 @@ class Driver:
         metrics: FleetMetrics | None = None,
     ) -> None:
         names = [robot.name for robot in plan.scenario.robots]
-        maps = [OrderMap(plan.scenario, *numbered) for numbered in enumerate(identities)]
+        maps = make_order_maps(plan.scenario, identities)
         self._journal, self._report = BatchedJournal(journal), report
         notices = Notices(names, report, keep=self._keep)
         self._metrics = metrics
@@ -274,7 +274,9 @@ class Driver:
         self._answer()
         sent, self._outbox = self._outbox, []
         # All go to the client at once and in their order; then their sending is awaited together.
-        await asyncio.gather(*(client.publish(topic, payload, qos=0) for topic, payload in sent))
+        await asyncio.gather(
+            *(client.publish(letter.topic, letter.payload, qos=0) for letter in sent)
+        )
         for happening in self._story.go_on():
             self._report(happening.text)
         if self._metrics is not None:

@@ -9,8 +9,9 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cached_property, partial
 from math import hypot
-from typing import Any, NamedTuple
+from typing import Any, TypeVar
 
 from rightofway.control import vda5050
 from rightofway.control.fleet_control import FleetControl
@@ -61,11 +62,34 @@ FACTSHEET = {
 """What a simulated robot is: small, and faster than any plan."""
 
 
-class Letter(NamedTuple):
-    """A message on its way."""
+class Letter:
+    """A message on its way.
 
-    topic: str
-    payload: bytes
+    A letter that is made here has the body of the message, too: within one process the other end
+    takes that, and the payload is written only if somebody asks for it.
+
+    Parameters
+    ----------
+    topic
+        Where it goes.
+    payload
+        The message as it is sent, or a function that writes it.
+    body
+        The message; None where only the payload is known.
+    """
+
+    def __init__(
+        self,
+        topic: str,
+        payload: bytes | Callable[[], bytes],
+        body: vda5050.Body | None = None,
+    ) -> None:
+        self.topic, self.body, self._payload = topic, body, payload
+
+    @cached_property
+    def payload(self) -> bytes:
+        """The message as it is sent."""
+        return self._payload if isinstance(self._payload, bytes) else self._payload()
 
     @property
     def name(self) -> str:
@@ -79,24 +103,14 @@ class _Writer:
     def __init__(self, now: Callable[[], str]) -> None:
         self._now, self._sent = now, Counter[str]()
 
-    def make_header(self, identity: Identity, name: str) -> vda5050.Header:
-        topic = identity.get_topic(name)
-        number = self._sent[topic]
-        self._sent[topic] += 1
-        return vda5050.Header(
-            headerId=number,
-            timestamp=self._now(),
-            version=identity.version,  # type: ignore[arg-type]  # an identity has a known one
-            manufacturer=identity.manufacturer,
-            serialNumber=identity.serial_number,
-        )
-
     def make_letter(
         self, identity: Identity, name: str, body: vda5050.Body | Mapping[str, Any]
     ) -> Letter:
-        document = vda5050.write_message(body, self.make_header(identity, name))
-        payload = json.dumps(document, separators=(",", ":")).encode()
-        return Letter(identity.get_topic(name), payload)
+        topic = identity.get_topic(name)
+        number, moment = self._sent[topic], self._now()
+        self._sent[topic] += 1
+        payload = partial(_write, identity, number, moment, body)
+        return Letter(topic, payload, None if isinstance(body, Mapping) else body)
 
 
 class ControlEnd:
@@ -157,16 +171,15 @@ class ControlEnd:
         """
         robot, name = self._robots[letter.topic]
         try:
-            document = _document(letter.payload)
             if name == "state":
-                state = vda5050.read(vda5050.StateMessage, document, "state").to_robot_state()
+                state = _read(vda5050.StateMessage, letter).to_robot_state()
                 self.notices.take(robot, state.condition)
                 self._welcome(robot)
                 return self.make_letters(self.control.receive(robot, state))
             if name == "connection":
-                connection = vda5050.read(vda5050.ConnectionMessage, document, "connection")
-                return self.connect(robot, is_connected=connection.is_online)
-            self._compare(robot, vda5050.read(vda5050.Factsheet, document, "factsheet"))
+                is_online = _read(vda5050.ConnectionMessage, letter).is_online
+                return self.connect(robot, is_connected=is_online)
+            self._compare(robot, _read(vda5050.Factsheet, letter))
         except InputError as error:
             path = ".".join(step for step in error.faults[0].path if isinstance(step, str))
             reason = Phrase("sent what cannot be read: {error}", error=escape_text(str(error)))
@@ -305,14 +318,12 @@ class RobotEnd:
         InputError
             If it is not as the norm has it.
         """
-        document = _document(letter.payload)
         if letter.topic == self._identity.get_topic("order"):
-            message = vda5050.read(vda5050.OrderMessage, document, "order")
+            message = _read(vda5050.OrderMessage, letter)
             self._learn(message)
             self.robot.take_order(message.order(self._number))
             return []
-        asked = vda5050.read(vda5050.InstantActions, document, "instantActions")
-        actions = asked.to_instant_actions(self._number)
+        actions = _read(vda5050.InstantActions, letter).to_instant_actions(self._number)
         for action in actions:
             self.robot.take_action(action)
         return [self.report_factsheet() for action in actions if action.kind == "factsheetRequest"]
@@ -356,6 +367,30 @@ class RobotEnd:
     def report_factsheet(self) -> Letter:
         """Return what it is, as it is sent."""
         return self._writer.make_letter(self._identity, "factsheet", FACTSHEET)
+
+
+def _write(
+    identity: Identity, number: int, moment: str, body: vda5050.Body | Mapping[str, Any]
+) -> bytes:
+    """Return a message as it is sent."""
+    header = vda5050.Header(
+        headerId=number,
+        timestamp=moment,
+        version=identity.version,  # type: ignore[arg-type]  # an identity has a known one
+        manufacturer=identity.manufacturer,
+        serialNumber=identity.serial_number,
+    )
+    return json.dumps(vda5050.write_message(body, header), separators=(",", ":")).encode()
+
+
+_AnyBody = TypeVar("_AnyBody", bound=vda5050.Body)
+
+
+def _read(model: type[_AnyBody], letter: Letter) -> _AnyBody:
+    """Return what a letter says."""
+    if isinstance(letter.body, model):
+        return letter.body
+    return vda5050.read(model, _document(letter.payload), letter.name)
 
 
 def _document(payload: bytes) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
@@ -10,9 +10,9 @@ from typing import Any
 from rightofway.control.identities import Identity, Work
 from rightofway.errors import InputError
 from rightofway.model import Scenario
-from rightofway.site import Point, VertexId
+from rightofway.site import Point, Roadmap, VertexId
 
-__all__ = ["OrderLane", "OrderMap", "Place", "Work"]
+__all__ = ["OrderLane", "OrderMap", "Place", "Work", "make_order_maps"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,6 +56,19 @@ class OrderLane:
     is_bezier: bool = False
 
 
+Shapes = Mapping[tuple[int, int], tuple[tuple[Point, ...], bool]]
+"""Points between the ends of edges, and whether they control a Bézier curve."""
+
+
+@dataclass(slots=True)
+class _LookedUp:
+    """What was looked up in a map, for all robots that see it alike."""
+
+    shapes: Shapes
+    places: dict[str, Place | None] = field(default_factory=dict)
+    lanes: dict[tuple[str, str], OrderLane | None] = field(default_factory=dict)
+
+
 @dataclass(slots=True)
 class OrderMap:
     """Where places and lanes lie for a robot of a scenario.
@@ -71,29 +84,21 @@ class OrderMap:
         The number of the robot.
     identity
         Has the frame of the robot, its map and how near it has to come.
+    looked_up
+        What other robots have looked up that have the same frame and speed.
     """
 
     scenario: Scenario
     robot: int
     identity: Identity
-    _places: dict[str, Place | None] = field(init=False, default_factory=dict)
-    _lanes: dict[tuple[str, str], OrderLane | None] = field(init=False, default_factory=dict)
-    _shapes: Mapping[tuple[int, int], tuple[tuple[Point, ...], bool]] = field(init=False)
+    looked_up: _LookedUp | None = None
+    _places: dict[str, Place | None] = field(init=False)
+    _lanes: dict[tuple[str, str], OrderLane | None] = field(init=False)
+    _shapes: Shapes = field(init=False)
 
     def __post_init__(self) -> None:
-        roadmap = self.scenario.roadmap
-        shapes = {
-            (int(tail), int(head)): (points, is_bezier)
-            for curves, is_bezier in (
-                (roadmap.drawing.curves, False),
-                (roadmap.drawing.controls, True),
-            )
-            for tail, head, points in curves
-        }
-        for lane in roadmap.lanes:  # a robot keeps to the way of the lane, however short its pieces
-            for tail, head in lane.pieces:
-                shapes.setdefault((int(tail), int(head)), ((), False))
-        self._shapes = shapes
+        known = self.looked_up or _LookedUp(_list_shapes(self.scenario.roadmap))
+        self._places, self._lanes, self._shapes = known.places, known.lanes, known.shapes
 
     @property
     def work(self) -> Work:
@@ -193,3 +198,35 @@ class OrderMap:
             "deviation": self.deviation,
             "work": [identity.work.action, identity.work.parameters, identity.repeats_work],
         }
+
+
+def make_order_maps(scenario: Scenario, identities: Sequence[Identity]) -> list[OrderMap]:
+    """Return the map of each robot; robots that see the site alike look up a place once.
+
+    Parameters
+    ----------
+    scenario
+        The scenario of the plan.
+    identities
+        The robots, in its order.
+    """
+    shapes, looked_up = _list_shapes(scenario.roadmap), dict[Any, _LookedUp]()
+    maps = []
+    for robot, (own, identity) in enumerate(zip(scenario.robots, identities, strict=True)):
+        view = (identity.frame, identity.map_id, identity.deviation, own.speed)
+        known = looked_up.setdefault(view, _LookedUp(shapes))
+        maps.append(OrderMap(scenario, robot, identity, known))
+    return maps
+
+
+def _list_shapes(roadmap: Roadmap) -> Shapes:
+    """Return the shapes of all edges that have one, or are pieces of a lane."""
+    shapes = {
+        (int(tail), int(head)): (points, is_bezier)
+        for curves, is_bezier in ((roadmap.drawing.curves, False), (roadmap.drawing.controls, True))
+        for tail, head, points in curves
+    }
+    for lane in roadmap.lanes:  # a robot keeps to the way of the lane, however short its pieces
+        for tail, head in lane.pieces:
+            shapes.setdefault((int(tail), int(head)), ((), False))
+    return shapes

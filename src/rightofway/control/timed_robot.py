@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterable
-from functools import lru_cache
+from functools import cache, lru_cache
 
 from rightofway.control.endpoints import RobotEnd
 from rightofway.control.laps import LapsToDrive
@@ -12,7 +12,6 @@ from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive, make_routes_to_drive
 from rightofway.execution import replay
 from rightofway.model import ExecutionTrace, Plan, Tick
-from rightofway.model.route import compute_drives_along
 
 __all__ = ["Durations", "TimedRobot"]
 
@@ -29,7 +28,7 @@ class Durations:
         self._plan, self._delays, self._seed, self._laps = plan, delays, seed, laps
         self._routes, self._roadmap = make_routes_to_drive(plan), plan.scenario.roadmap
         self.round = lru_cache(maxsize=4)(self._round)
-        self._drives: dict[tuple[int, str, str], int] = {}  # along each edge, by robot [ticks]
+        self._class_of_edge = cache(self._find_class)
 
     def _round(self, number: int) -> ExecutionTrace:
         return replay(self._plan, self._delays, number, self._seed)
@@ -52,12 +51,15 @@ class Durations:
 
     def _ticks(self, robot: int, route: RouteToDrive, visit: int) -> int:
         """Return how long the drive into a visit lasts without delays [ticks]."""
-        key = robot, route.get_place(visit - 1), route.get_place(visit)
-        if key not in self._drives:
-            ends = [int(self._roadmap.get_vertex(place)) for place in key[1:]]
-            itinerary = self._plan.scenario.problem.itineraries[robot]
-            self._drives[key] = compute_drives_along(self._roadmap, itinerary, ends)[0]
-        return self._drives[key]
+        edge_class = self._class_of_edge(route.get_place(visit - 1), route.get_place(visit))
+        return self._plan.scenario.problem.itineraries[robot].edge_ticks[edge_class]
+
+    def _find_class(self, tail: str, head: str) -> int:
+        """Return the class of the edge between two places."""
+        roadmap = self._roadmap
+        edge = roadmap.find_edge(roadmap.get_vertex(tail), roadmap.get_vertex(head))
+        assert edge is not None, "a control has its routes from a dispatcher, which knows the map"
+        return int(roadmap.class_of_edge[edge])
 
     def _planned(self, robot: int, visit: int) -> tuple[int, int]:
         """Return the run that has the delays of a visit, and a visit of the plan."""

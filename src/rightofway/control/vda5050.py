@@ -466,7 +466,7 @@ class Factsheet(_Model):
     physicalParameters: _Physical = _Physical()
 
 
-Body = OrderMessage | InstantActions | StateMessage | ConnectionMessage
+Body = OrderMessage | InstantActions | StateMessage | ConnectionMessage | Factsheet
 
 _NAMES: dict[str, dict[str, str]] = {
     "2.0.0": {"allowedDeviationXY": "allowedDeviationXy"},
@@ -497,12 +497,15 @@ _NAMES: dict[str, dict[str, str]] = {
 }
 """How versions name keys of 2.1."""
 
-_LEFT_OUT = {
-    "2.0.0": {"instantActionStates"},
-    "2.1.0": {"instantActionStates", "actionName"},
-    "3.0.0": {"actionName", "startNodeId", "endNodeId"},
+_LEFT_OUT: dict[str, dict[str, Any]] = {
+    "2.0.0": {},
+    "2.1.0": {"actions": {"__all__": {"actionName"}}},
+    "3.0.0": {
+        "actions": {"__all__": {"actionName"}},
+        "edges": {"__all__": {"startNodeId", "endNodeId"}},
+    },
 }
-"""Keys that a version does not have."""
+"""Keys that a version does not have, as pydantic leaves them out."""
 
 
 def write_message(body: Body | Mapping[str, Any], header: Header) -> dict[str, Any]:
@@ -515,21 +518,20 @@ def write_message(body: Body | Mapping[str, Any], header: Header) -> dict[str, A
     header
         The head of the message.
     """
+    names, is_new = _NAMES[header.version], header.version >= "3"
     document = (
-        body.model_dump(mode="json", exclude_none=True)
+        body.model_dump(mode="json", exclude_none=True, exclude=_LEFT_OUT[header.version])
         if isinstance(body, BaseModel)
         else dict(body)
     )
-    if header.version < "3":
+    if not is_new:
         if isinstance(body, StateMessage):  # the lists of 3.0 are one before
-            document["actionStates"] += document["instantActionStates"]
+            document["actionStates"] += document.pop("instantActionStates")
         if isinstance(body, ConnectionMessage):
             document["connectionState"] = body.connectionState.replace("_", "")
     if header.version == "2.0.0" and isinstance(body, InstantActions):
         # Robots of 2.0 read either name: that of its schema, or that of version 1.1.
         document["instantActions"] = document["actions"]
-    names, left_out = _NAMES[header.version], _LEFT_OUT[header.version]
-    is_new = header.version >= "3"
 
     def renamed(value: Any) -> Any:
         if isinstance(value, list):
@@ -543,10 +545,9 @@ def write_message(body: Body | Mapping[str, Any], header: Header) -> dict[str, A
             if isinstance(item, dict | list)
             else item
             for key, item in value.items()
-            if key not in left_out
         }
 
-    return {**header.model_dump(), **renamed(document)}
+    return {**header.model_dump(), **(renamed(document) if names else document)}
 
 
 _AnyModel = TypeVar("_AnyModel", bound=_Model)
