@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/index_table.hpp"
+
 namespace rightofway {
 namespace {
 
@@ -10,8 +12,7 @@ std::uint64_t hash_of(std::span<const Constraint> constraints) {
     std::uint64_t hash = 0;
     for (const Constraint& one : constraints) {
         for (const std::int64_t part : {std::int64_t{one.row}, one.start, one.end}) {
-            hash = (hash ^ static_cast<std::uint64_t>(part)) * 0x9E3779B97F4A7C15U;
-            hash ^= hash >> 29;
+            hash = mix_in(hash, part);
         }
     }
     return hash;

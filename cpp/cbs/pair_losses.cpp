@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "cbs/cbs.hpp"
+#include "core/index_table.hpp"
 
 namespace rightofway {
 namespace {
@@ -18,8 +19,7 @@ constexpr std::int64_t growth = 4;
 std::size_t PairLosses::Hash::operator()(const Key& key) const {
     std::uint64_t hash = 0;
     for (const std::int32_t part : {key.robots[0], key.robots[1], key.sets[0], key.sets[1]}) {
-        hash = (hash ^ static_cast<std::uint32_t>(part)) * 0x9E3779B97F4A7C15U;
-        hash ^= hash >> 29;
+        hash = mix_in(hash, part);
     }
     return static_cast<std::size_t>(hash);
 }

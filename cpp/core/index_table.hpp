@@ -10,6 +10,12 @@
 
 namespace rightofway {
 
+// The hash of some numbers and one more.
+inline std::uint64_t mix_in(std::uint64_t hash, std::int64_t part) {
+    hash = (hash ^ static_cast<std::uint64_t>(part)) * 0x9E3779B97F4A7C15U;
+    return hash ^ (hash >> 29);
+}
+
 class IndexTable {
   public:
     void clear() {
