@@ -1,9 +1,9 @@
 // What several robots can do from a joint state, all in one step: the product of what each of them
 // can do, without what the rules keep them from doing together.
 //
-// As in Standley, "Finding optimal solutions to cooperative pathfinding problems", AAAI 2010, robots
-// get their moves one by one, and each move is checked against those before it. The states between
-// two moves, which are nodes in his operator decomposition, are none here.
+// As in Standley, "Finding optimal solutions to cooperative pathfinding problems", AAAI 2010,
+// robots get their moves one by one, and each move is checked against those before it. The states
+// between two moves, which are nodes in his operator decomposition, are none here.
 #include <algorithm>
 
 #include "cbs/joint_search.hpp"
