@@ -232,6 +232,7 @@ def test_parquet_has_the_same_rows_and_goes_on_too(cli: Cli) -> None:
     ("args", "message"),
     [
         (["nowhere.toml"], "nowhere.toml: there is no such file (check the path)"),
+        (["door.yaml"], 'door.yaml: a suite is TOML (begin it with format = "rightofway-suite/1")'),
         (["suite.toml", "-o", "rows.txt"], "'rows.txt' does not end in .csv or .parquet"),
         (["suite.toml", "-o", "no/rows.csv"], "there is no directory 'no' (make it first)"),
         (["suite.toml", "--report", "r.pdf"], "'r.pdf' does not end in .html or .md"),

@@ -163,6 +163,33 @@ def test_withdrawals_over_the_broker_lose_nothing(tmp_path: Path, broker: Mosqui
     observer.close()
 
 
+def test_robots_say_that_there_is_no_broker_and_when_all_are_there(broker: Mosquitto) -> None:
+    plan = warehouse(5)
+    identities = make_simulated_identities([robot.name for robot in plan.scenario.robots])
+    nowhere = Broker.of("mqtt://127.0.0.1:1")
+
+    async def begin(at: Broker) -> str:
+        said = asyncio.get_running_loop().create_future()
+        robots = asyncio.create_task(
+            run_robots(
+                plan,
+                identities,
+                at,
+                is_up=lambda: said.set_result("all are there"),
+                on_failure=lambda error: said.set_result(str(error)),
+            )
+        )
+        async with asyncio.timeout(60):
+            text = await said
+        robots.cancel()
+        with contextlib.suppress(asyncio.CancelledError):
+            await robots
+        return str(text)
+
+    assert "refused" in asyncio.run(begin(nowhere))
+    assert asyncio.run(begin(Broker.of(broker.url))) == "all are there"
+
+
 def test_a_password_comes_from_the_environment(tmp_path: Path) -> None:
     passwords = tmp_path / "passwords"
     program = shutil.which("mosquitto_passwd")

@@ -142,6 +142,9 @@ def read_suite(path: Path | str) -> tuple[Case, ...]:
 
     path = Path(path)
     with name_file(str(path)):
+        if path.suffix.lower() in {".yaml", ".yml", ".json"}:
+            message = f'a suite is TOML (begin it with format = "{SUITE_FORMAT}")'
+            raise InputError.at("", message)
         data = check_format(parse_toml(read_text(path)), SUITE_FORMAT)
         combined = list(_combinations(validate(SuiteDocument, data), path.parent))
     cases: dict[str, Case] = {}

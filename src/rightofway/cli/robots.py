@@ -94,6 +94,10 @@ def robots(
             )
         )
 
+    def on_failure(error: BaseException) -> None:
+        sentence = "no connection to {broker}: {reason}; trying again"
+        say(Phrase(sentence, broker=address.address, reason=str(error)))
+
     asyncio.run(
         run_robots(
             opened,
@@ -103,5 +107,6 @@ def robots(
             seed=seed,
             time_scale=time_scale,
             is_up=is_up,
+            on_failure=on_failure,
         )
     )

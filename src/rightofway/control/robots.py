@@ -167,7 +167,7 @@ class _NetworkRobot:
             self.end.condition = Condition()
             self.changed.set()
 
-    async def connect(self, broker: Broker) -> None:
+    async def connect(self, broker: Broker, arrivals: _Arrivals) -> None:
         """Keep a connection: listen to orders, send states."""
         import aiomqtt
 
@@ -178,11 +178,13 @@ class _NetworkRobot:
                     self.client = client
                     await client.subscribe([(topic, 0) for topic in self.end.topics])
                     await _publish(client, self.end.report_connection("ONLINE"))
+                    arrivals.note(self.identity.serial_number)
                     async with asyncio.TaskGroup() as tasks:
                         tasks.create_task(self.listen(client))
                         tasks.create_task(self.speak(client))
-            except* aiomqtt.MqttError:
+            except* aiomqtt.MqttError as errors:
                 self.client = None
+                arrivals.miss(self.identity.serial_number, errors.exceptions[0])
             await self.pause(self.offline)
             await asyncio.sleep(STATES * self.draw.random())  # not all at once
             self.offline = 0.0
@@ -205,6 +207,29 @@ class _NetworkRobot:
             with contextlib.suppress(TimeoutError):
                 async with asyncio.timeout(STATES):
                     await self.changed.wait()
+
+
+@dataclass(slots=True, kw_only=True)
+class _Arrivals:
+    """Which robots have not been connected yet; a connection that is lost later is trouble."""
+
+    missing: set[str]
+    is_up: Callable[[], None]
+    on_failure: Callable[[BaseException], None]
+    has_failed: bool = False
+
+    def note(self, name: str) -> None:
+        """Take in that a robot is connected."""
+        if name in self.missing:
+            self.missing.remove(name)
+            if not self.missing:
+                self.is_up()
+
+    def miss(self, name: str, error: BaseException) -> None:
+        """Take in that a robot is not connected."""
+        if name in self.missing and not self.has_failed:
+            self.has_failed = True
+            self.on_failure(error)
 
 
 def _ignore_cut_cables(loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
@@ -237,6 +262,7 @@ async def run_robots(
     seed: int = 0,
     time_scale: float = 1.0,
     is_up: Callable[[], None] = lambda: None,
+    on_failure: Callable[[BaseException], None] = lambda _error: None,
 ) -> None:
     """Run robots that stand at the homes of a plan, until cancelled.
 
@@ -255,7 +281,9 @@ async def run_robots(
     time_scale
         Seconds of robot time in a second.
     is_up
-        Is called once all robots have begun.
+        Is called once all robots have been connected.
+    on_failure
+        Is called with the reason where the first robot is not let in, and tries again.
     """
     robots = [
         _NetworkRobot(
@@ -275,9 +303,10 @@ async def run_robots(
             zip(plan.scenario.robots, identities, strict=True)
         )
     ]
+    names = {identity.serial_number for identity in identities}
+    arrivals = _Arrivals(missing=names, is_up=is_up, on_failure=on_failure)
     asyncio.get_running_loop().set_exception_handler(_ignore_cut_cables)
     async with asyncio.TaskGroup() as tasks:
         for robot in robots:
             tasks.create_task(robot.carry_out_orders())
-            tasks.create_task(robot.connect(broker))
-        is_up()
+            tasks.create_task(robot.connect(broker, arrivals))
