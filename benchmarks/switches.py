@@ -129,7 +129,7 @@ def name_options(options: str) -> str:
 
 
 def make_nodes_table(
-    families: Iterable[Family] = NODES_OF, few: Family = FEW, *, seconds: float = 3.0
+    families: Iterable[Family] = NODES_OF, few: Family = FEW, *, seconds: float = 10.0
 ) -> str:
     """Return the nodes until the proof for each of `SWITCHES`, and how many of few are decided."""
     drawn, tiny = [family.draw_all() for family in families], few.draw_all()

@@ -6,11 +6,14 @@ import re
 from fractions import Fraction
 from inspect import signature
 
+import pytest
+
 import rightofway
 from rightofway.bench.fleets import make_scenario_document
 from rightofway.io import parse_scenario
 from rightofway.model import OutcomeKind, Plan, Scenario
-from rightofway.planners.cbs import ITERATIONS_PER_ROBOT
+from rightofway.planners import cbs, lns
+from rightofway.planners.cbs import ITERATIONS_PER_ROBOT, TURNS_WITHIN_FACTOR
 from rightofway.planners.options import CbsOptions
 from rightofway.search import ConflictBasedSearch
 
@@ -28,12 +31,32 @@ def _count_neighbourhoods(plan: Plan) -> int:
     return int(tries[1]) if tries else 0
 
 
-def test_a_first_plan_within_the_factor_is_not_improved() -> None:
-    plan = rightofway.solve(_fleet(), "cbs", options={"suboptimality": Fraction(5)})
+def _plan_within(factor: int) -> Plan:
+    options = {"suboptimality": Fraction(factor)}
+    return rightofway.solve(_fleet(), "cbs", time_limit=None, options=options)
+
+
+def test_a_first_plan_within_the_factor_is_improved_by_few_neighbourhoods(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    plan = _plan_within(5)
     outcome = plan.run.outcome
     assert outcome is not None
     assert outcome.kind in {OutcomeKind.BOUNDED, OutcomeKind.OPTIMAL}
-    assert _count_neighbourhoods(plan) == 0
+    assert _count_neighbourhoods(plan) == TURNS_WITHIN_FACTOR * ROBOTS
+    monkeypatch.setattr(cbs, "TURNS_WITHIN_FACTOR", 0)
+    first = _plan_within(5)
+    assert _count_neighbourhoods(first) == 0
+    assert plan.flowtime < first.flowtime
+
+
+def test_reports_on_progress_do_not_change_when_the_proof_is_looked_at(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Reports come by the clock: here after each neighbourhood."""
+    plan = _plan_within(5)
+    monkeypatch.setattr(lns, "BETWEEN_REPORTS", 0.0)
+    assert _plan_within(5).tracks == plan.tracks
 
 
 def test_the_improvement_ends_where_the_tree_has_proven_its_plan() -> None:

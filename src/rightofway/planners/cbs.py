@@ -59,6 +59,12 @@ NODES_PER_TURN, SHARE_OF_TURN = 5, 0.1
 """
 
 
+TURNS_WITHIN_FACTOR = 3
+"""Turns of the first plan, of a neighbourhood for each robot, once it is proven to be within a
+factor above 1: the first turns gain most, and take about as long as the plan and its proof.
+"""
+
+
 def cbs(task: Task) -> Draft:
     """Plan a fleet with least flowtime and surcharges, or makespan; options: `CbsOptions`."""
     if find_objective(task).has_makespan:
@@ -204,11 +210,15 @@ def _first_plan(task: Task, is_proven: Callable[[Tick, Deadline], bool]) -> Draf
         options={"iterations": iterations, "objective": task.options["objective"]},
         deadline=task.deadline.shorten(SHARE),
     )
+    turns = TURNS_WITHIN_FACTOR if Fraction(task.options["suboptimality"]) > 1 else 0
+
+    def is_enough(value: Tick) -> bool:
+        nonlocal turns
+        if is_proven(value, hurried.deadline):
+            turns -= 1
+        return turns < 0
+
     try:
-        return improve_best(
-            hurried,
-            make_fleet_search(hurried),
-            is_enough=lambda value: is_proven(value, hurried.deadline),
-        )
+        return improve_best(hurried, make_fleet_search(hurried), is_enough=is_enough)
     except GaveUp:
         return None

@@ -176,13 +176,15 @@ def _improve(
     patience = PATIENCE * len(task.scenario.robots)
     iterations = task.options["iterations"] or UNLIMITED
     turn = ITERATIONS_PER_TURN * len(task.scenario.robots) if is_enough else iterations
-    done, is_interrupted = 0, False
+    done, look, is_interrupted = 0, 0, False
     try:
-        while done < iterations and not _is_over(search, goal, is_enough):
+        # A report on progress comes by the clock; it is no look at the proof.
+        while done < iterations and not _is_over(search, goal, is_enough if done >= look else None):
+            look += turn if done >= look else 0
             began, done_before = time.perf_counter(), done
             reached = search.value, search.cost
             done += search.improve(
-                min(turn, iterations - done),
+                min(look, iterations) - done,
                 patience=patience,
                 time_limit=deadline.measure_seconds_left(),
                 pause=BETWEEN_REPORTS,
