@@ -184,7 +184,7 @@ class _NetworkRobot:
                         tasks.create_task(self.speak(client))
             except* aiomqtt.MqttError as errors:
                 self.client = None
-                arrivals.miss(self.identity.serial_number, errors.exceptions[0])
+                arrivals.note_failure(self.identity.serial_number, errors.exceptions[0])
             await self.pause(self.offline)
             await asyncio.sleep(STATES * self.draw.random())  # not all at once
             self.offline = 0.0
@@ -225,7 +225,7 @@ class _Arrivals:
             if not self.missing:
                 self.is_up()
 
-    def miss(self, name: str, error: BaseException) -> None:
+    def note_failure(self, name: str, error: BaseException) -> None:
         """Take in that a robot is not connected."""
         if name in self.missing and not self.has_failed:
             self.has_failed = True
