@@ -52,3 +52,31 @@ def test_a_forced_loss_is_said_in_german(plan: Plan, show: Opener) -> None:
     card = show(plan, "#forced=1", locale="de-DE").text("#card")
     assert "Warum kein Plan besser ist" in card
     assert "In jedem Plan verlieren R1 und R2 mindestens 1 Zeiteinheit aneinander" in card
+
+
+@pytest.fixture(scope="module")
+def soonest(plan: Plan) -> Plan:
+    """Return the plan of the same fleet that ends soonest: when R1 and R2 have both passed."""
+    return rightofway.solve(plan.scenario, "cbs", time_limit=None, objective="makespan")
+
+
+def test_the_robots_that_force_the_makespan_are_named_and_shown(
+    soonest: Plan, show: Opener
+) -> None:
+    viewer = show(soonest)
+    door = viewer.on_map((1.5, 1.5))
+    before = viewer.colour(door)
+    viewer.page.click("#tab-decisions")
+    viewer.page.click("#decision-list .row >> nth=0")
+    head = f"R1 and R2 need {soonest.makespan} time units"
+    assert viewer.text("#decision-list") == f"{head}\nWhy no plan is better"
+    words = f"No plan ends before {soonest.makespan} time units: R1 and R2 need as long"
+    assert words in viewer.text("#card")
+    assert viewer.colour(door) != before
+
+
+def test_the_robots_that_force_the_makespan_are_named_in_german(
+    soonest: Plan, show: Opener
+) -> None:
+    card = show(soonest, "#forced=1", locale="de-DE").text("#card")
+    assert f"Kein Plan endet vor {soonest.makespan} Zeiteinheiten: R1 und R2 brauchen" in card
