@@ -17,8 +17,8 @@ __all__ = ["WORDINGS", "LastNodeIsEnough", "VertexTwiceInBase"]
 class LeftWhenItDrives(FleetControl):
     """A robot that drives has left its vertex."""
 
-    def _proven(self, own: RobotLedger, state: RobotState) -> int | None:
-        visit = super()._proven(own, state)
+    def _find_proven(self, own: RobotLedger, state: RobotState) -> int | None:
+        visit = super()._find_proven(own, state)
         if visit is not None and state.is_driving:
             return min(visit + 1, own.released)
         return visit
@@ -27,15 +27,15 @@ class LeftWhenItDrives(FleetControl):
 class EmptyMeansArrived(FleetControl):
     """A robot with no nodes left is at the end of its base."""
 
-    def _proven(self, own: RobotLedger, state: RobotState) -> int | None:
-        visit = super()._proven(own, state)
+    def _find_proven(self, own: RobotLedger, state: RobotState) -> int | None:
+        visit = super()._find_proven(own, state)
         return own.released if state.order_id and not state.nodes else visit
 
 
 class AnyOrderId(FleetControl):
     """Sequence ids count in the current order, whatever order a state names."""
 
-    def _proven(self, own: RobotLedger, state: RobotState) -> int | None:
+    def _find_proven(self, own: RobotLedger, state: RobotState) -> int | None:
         sent = own.orders.get(own.order_id, SentOrder(0))
         visit = sent.offset + state.last_sequence_id // 2
         return visit if visit <= own.released else None
@@ -60,7 +60,7 @@ class SentBeforeCommitted(FleetControl):
 class SplicedBehindAcknowledged(FleetControl):
     """A new plan keeps what robots have acknowledged, not all that is released."""
 
-    def _committed(self, own: RobotLedger) -> int:
+    def _find_committed(self, own: RobotLedger) -> int:
         if own.is_acknowledged or own.message is None:
             return own.released
         sent = own.orders[own.order_id]
@@ -70,36 +70,36 @@ class SplicedBehindAcknowledged(FleetControl):
 class SplicedBehindArrived(FleetControl):
     """A new plan keeps what robots have reached, not all that is released."""
 
-    def _committed(self, own: RobotLedger) -> int:
+    def _find_committed(self, own: RobotLedger) -> int:
         return own.arrived
 
 
 class NextBeforeAcknowledged(FleetControl):
     """The next update is sent before a state shows the last one."""
 
-    def _next(self, robot: int, own: RobotLedger) -> Entry | None:
+    def _find_step(self, robot: int, own: RobotLedger) -> Entry | None:
         if own.message is not None and own.cancel is None:
             own.is_acknowledged = True
-        return super()._next(robot, own)
+        return super()._find_step(robot, own)
 
 
 class FreeWhenCancelled(FleetControl):
     """A withdrawal is asked at any time, and frees the rest as soon as it is finished."""
 
-    def _next(self, robot: int, own: RobotLedger) -> Entry | None:
+    def _find_step(self, robot: int, own: RobotLedger) -> Entry | None:
         if own.cancel is not None and own.cancel.action_id is None and own.message is not None:
             action_id = f"{self.ledger.run}-{robot}-cancel{own.cancels}"
             return {"kind": "cancel asked", "robot": robot, "action": action_id}
-        return super()._next(robot, own)
+        return super()._find_step(robot, own)
 
-    def _answers(self, robot: int, state: RobotState) -> Iterator[Entry]:
+    def _follow_state(self, robot: int, state: RobotState) -> Iterator[Entry]:
         own = self.ledger.robots[robot]
         asked = own.cancel.action_id if own.cancel else None
         if asked is not None and state.actions.get(asked) in {"FINISHED", "FAILED"}:
             stands_at = own.find_held(state.last_place)
             if stands_at is not None:
                 own.released, own.cancel = max(stands_at, own.arrived), None
-        yield from super()._answers(robot, state)
+        yield from super()._follow_state(robot, state)
 
 
 class FactsInMemory(FleetControl):
@@ -127,7 +127,7 @@ class LastNodeIsEnough(VertexTwiceInBase):
     right: the two conditions are one behind the other, and only both are a fault together.
     """
 
-    def _proven(self, own: RobotLedger, state: RobotState) -> int | None:
+    def _find_proven(self, own: RobotLedger, state: RobotState) -> int | None:
         sent = own.orders.get(state.order_id)
         if sent is None:
             return None
@@ -143,10 +143,10 @@ class OrderPerLeg(FleetControl):
     orders keep their order on a connection, as is assumed of the broker, none does.
     """
 
-    def _update(self, robot: int, end: int) -> Entry:
+    def _make_update(self, robot: int, end: int) -> Entry:
         own = self.ledger.robots[robot]
         if own.arrived < own.released:
-            return super()._update(robot, end)
+            return super()._make_update(robot, end)
         return make_order(self.ledger, robot, own.released, end)
 
 

@@ -115,7 +115,7 @@ def test_what_ends_hand_over_in_one_process_is_what_they_would_read(version: str
         if isinstance(as_read, StateMessage) and isinstance(letter.body, StateMessage):
             assert as_read.to_robot_state() == letter.body.to_robot_state()
         if isinstance(as_read, OrderMessage) and isinstance(letter.body, OrderMessage):
-            assert as_read.order(0) == letter.body.order(0)
+            assert as_read.to_order(0) == letter.body.to_order(0)
             assert [edge.length for edge in as_read.edges] == [
                 edge.length for edge in letter.body.edges
             ]

@@ -15,8 +15,9 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError
+from rightofway.phrases import Phrase
 
-__all__ = ["Answer", "Commands"]
+__all__ = ["Answer", "Commands", "say_answer"]
 
 Answer = Mapping[str, Any]
 """What became of a command: ``done``, and ``text`` for people; more for programs."""
@@ -109,3 +110,15 @@ class Commands:
     def close(self) -> None:
         """Close the file."""
         self._database.close()
+
+
+def say_answer(answer: Answer) -> str:
+    """Return what people are told of a command; empty where nothing has changed.
+
+    Parameters
+    ----------
+    answer
+        What became of it.
+    """
+    text: str = answer["text"]
+    return text if answer["done"] or not text else Phrase("refused: {reason}", reason=text)

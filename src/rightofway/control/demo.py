@@ -20,9 +20,10 @@ from typing import Any
 import numpy as np
 
 from rightofway.check import check
+from rightofway.control.commands import say_answer
 from rightofway.control.demo_record import DemoRecord, NothingKept, SimulatedClock
 from rightofway.control.dispatcher import Dispatcher
-from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd
+from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd, format_timestamp
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.identities import Identity, make_simulated_identities
 from rightofway.control.laps import LapsToDrive
@@ -34,7 +35,7 @@ from rightofway.control.story import Story
 from rightofway.control.timed_robot import Durations, TimedRobot
 from rightofway.errors import InputError
 from rightofway.model import ExecutionTrace, Plan, Tick, Track
-from rightofway.phrases import Phrase, to_parts
+from rightofway.phrases import to_parts
 
 __all__ = ["DemoResult", "drive_demo", "make_pause"]
 
@@ -251,8 +252,7 @@ class _Demo:
         if self._stamp[0] != self._now:
             seconds = float(self._plan.scenario.problem.clock.convert_to_time(self._now))
             moment = datetime.fromtimestamp(0, UTC) + timedelta(seconds=seconds)
-            text = f"{moment:%Y-%m-%dT%H:%M:%S}.{moment.microsecond // 1000:03d}Z"
-            self._stamp = (self._now, text)
+            self._stamp = (self._now, format_timestamp(moment))
         return self._stamp[1]
 
     def run(self, wait_until: Callable[[Tick], None], laps: int | None) -> DemoResult:
@@ -332,10 +332,9 @@ class _Demo:
         if not answers:
             return False
         for _, answer in answers:
-            if text := answer["text"]:
-                said = text if answer["done"] else Phrase("refused: {reason}", reason=text)
-                self._tell(said)
-                self._record.write(make_notice(to_parts(said)))
+            if text := say_answer(answer):
+                self._tell(text)
+                self._record.write(make_notice(to_parts(text)))
         self._exchange(self._end.make_letters(messages))
         self._end_instant()
         for number, answer in answers:

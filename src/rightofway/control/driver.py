@@ -12,13 +12,12 @@ import json
 import secrets
 import time
 from collections.abc import Callable, Iterable, Sequence
-from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
 from rightofway.control.broker import Broker
-from rightofway.control.commands import Answer, Commands
+from rightofway.control.commands import Answer, Commands, say_answer
 from rightofway.control.dispatcher import Dispatcher
-from rightofway.control.endpoints import ControlEnd, Letter
+from rightofway.control.endpoints import ControlEnd, Letter, make_timestamp
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.identities import Identity
 from rightofway.control.journal import BatchedJournal, Entry, Journal, JournalFailed
@@ -38,7 +37,7 @@ if TYPE_CHECKING:
 
     from rightofway.control.metrics import FleetMetrics
 
-__all__ = ["Driver", "make_timestamp"]
+__all__ = ["Driver"]
 
 REMIND = 1.0
 """Seconds between two reminders of what is not acknowledged."""
@@ -51,11 +50,6 @@ BROKER, JOURNAL = "broker", "journal"
 
 RETRY = (0.2, 5.0)
 """Seconds until the next try to connect: the first time, and at most."""
-
-
-def make_timestamp() -> str:
-    """Return the time of the clock as messages have it."""
-    return datetime.now(UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
 
 
 class Driver:
@@ -234,9 +228,8 @@ class Driver:
         messages, answers = self.operator.obey(self._commands)
         self._answers += answers
         for _, answer in answers:
-            if answer["text"]:
-                text = answer["text"]
-                self._tell(text if answer["done"] else Phrase("refused: {reason}", reason=text))
+            if text := say_answer(answer):
+                self._tell(text)
         return [*switched, *self.end.make_letters(messages)]
 
     def _answer(self) -> None:

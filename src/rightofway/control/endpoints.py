@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from datetime import UTC, datetime
 from functools import cached_property, partial
 from math import hypot
 from typing import Any, TypeVar
@@ -23,7 +24,7 @@ from rightofway.control.simulated_robot import SimulatedRobot
 from rightofway.errors import InputError, escape_text, quote
 from rightofway.phrases import Phrase
 
-__all__ = ["ControlEnd", "Letter", "RobotEnd"]
+__all__ = ["ControlEnd", "Letter", "RobotEnd", "format_timestamp", "make_timestamp"]
 
 READ = ("state", "connection", "factsheet")
 """Topics that a control listens to."""
@@ -95,6 +96,22 @@ class Letter:
     def name(self) -> str:
         """The last part of its topic."""
         return self.topic.rpartition("/")[2]
+
+
+def make_timestamp() -> str:
+    """Return the time of the clock as messages have it."""
+    return format_timestamp(datetime.now(UTC))
+
+
+def format_timestamp(moment: datetime) -> str:
+    """Return a time as messages have it.
+
+    Parameters
+    ----------
+    moment
+        The time, in UTC.
+    """
+    return moment.isoformat(timespec="milliseconds").replace("+00:00", "Z")
 
 
 class _Writer:
@@ -321,7 +338,7 @@ class RobotEnd:
         if letter.topic == self._identity.get_topic("order"):
             message = _read(vda5050.OrderMessage, letter)
             self._learn(message)
-            self.robot.take_order(message.order(self._number))
+            self.robot.take_order(message.to_order(self._number))
             return []
         actions = _read(vda5050.InstantActions, letter).to_instant_actions(self._number)
         for action in actions:

@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 
 from rightofway.control.journal import Entry, Journal
-from rightofway.control.ledger import Ledger, plan_entry
+from rightofway.control.ledger import Ledger, make_plan_entry
 from rightofway.control.messages import Condition, InstantAction, Message, RobotState
 from rightofway.control.orders import make_order, make_update
 from rightofway.control.proofs import (
@@ -131,7 +131,7 @@ class FleetControl:
         committed = [0] * len(routes)
         refuse_rotation(graph, names)
         refuse_ways(routes, committed, names, self.may_drive)
-        entry = plan_entry("plan", run, routes, graph, committed=committed, names=names)
+        entry = make_plan_entry("plan", run, routes, graph, committed=committed, names=names)
         self._commit(entry)
 
     def start(self) -> list[Message]:
@@ -142,7 +142,7 @@ class FleetControl:
             InstantAction(robot=k, action_id=f"{run}-{k}-start{number}", kind="stateRequest")
             for k in range(len(self.ledger.robots))
         ]
-        return [*self._go_on(), *self.remind(), *asks]
+        return [*self._release(), *self.remind(), *asks]
 
     def splice(
         self,
@@ -183,13 +183,13 @@ class FleetControl:
         for robot in placed:
             committed[robot] = max(robots[robot].route.first, routes[robot].first)
         refuse_ways(routes, committed, names, self.may_drive)
-        entry = plan_entry("splice", self.ledger.run, routes, graph, committed=committed)
+        entry = make_plan_entry("splice", self.ledger.run, routes, graph, committed=committed)
         begins = [{"kind": "placed", "robot": k, "visit": routes[k].first} for k in placed]
         self._commit(*begins, {**entry, "withdrawn": [list(job) for job in withdrawn]}, *notes)
         if self._since_snapshot >= self._snapshot_every:
             self._journal.begin_again(self.ledger.make_snapshot())
             self._since_snapshot = 0
-        return self._go_on()
+        return self._release()
 
     def note(self, *entries: Entry) -> list[Message]:
         """Commit what people have asked for, or what a dispatcher has to remember, and go on.
@@ -200,7 +200,7 @@ class FleetControl:
             For the ledger.
         """
         self._commit(*entries)
-        return self._go_on()
+        return self._release()
 
     @property
     def is_done(self) -> bool:
@@ -245,9 +245,9 @@ class FleetControl:
         self.lost.discard(robot)
         own, graph = self.ledger.robots[robot], self.ledger.graph
         before = own.arrived
-        visit = self._proven(own, state)
+        visit = self._find_proven(own, state)
         self._commit(*list_facts(self.ledger, robot, state, visit, self._report))
-        answers = list(self._answers(robot, state))
+        answers = list(self._follow_state(robot, state))
         self._commit(*answers)
         # At once: by the timer alone, a robot that says often that it has no order, because the
         # next one is not sent yet, could be asked without end.
@@ -255,11 +255,11 @@ class FleetControl:
         if any(entry["kind"] in {"doubt", "order"} for entry in answers):
             self._reminded.discard(robot)
             self._just_sent.add(robot)
-            sends += self._open(robot)
+            sends += self._list_unanswered(robot)
         # Nobody else can go on because of a state than those that wait for what it proves.
         let_go = (Arrival(robot, visit) for visit in range(before + 1, own.arrived + 1))
         others = {part.robot for arrival in let_go for part in graph.list_waiting_for(arrival)}
-        return [*sends, *self._go_on(sorted({robot, *others})), *self.dispatch()]
+        return [*sends, *self._release(sorted({robot, *others})), *self.dispatch()]
 
     def connect(self, robot: int, *, is_connected: bool) -> list[Message]:
         """Note whether messages reach a robot. A robot that is lost keeps what it holds.
@@ -275,7 +275,7 @@ class FleetControl:
             self.lost.discard(robot)
         else:
             self.lost.add(robot)
-        return self._go_on()
+        return self._release()
 
     def refuse(self, robot: int) -> None:
         """Release nothing more to a robot that the plan does not fit, as long as we run.
@@ -290,12 +290,12 @@ class FleetControl:
     def remind(self) -> list[Message]:
         """Return again what robots have not answered; call it every few seconds."""
         robots = [k for k in range(len(self.ledger.robots)) if k not in self._just_sent]
-        messages = [message for robot in robots for message in self._open(robot)]
+        messages = [message for robot in robots for message in self._list_unanswered(robot)]
         self._reminded |= {message.robot for message in messages}
         self._just_sent.clear()
         return [*messages, *self.dispatch()]
 
-    def _open(self, robot: int) -> Iterator[Message]:
+    def _list_unanswered(self, robot: int) -> Iterator[Message]:
         own = self.ledger.robots[robot]
         if own.is_off:
             return
@@ -306,13 +306,15 @@ class FleetControl:
         elif own.cancel is not None and own.cancel.action_id is not None:
             yield InstantAction(robot=robot, action_id=own.cancel.action_id, kind="cancelOrder")
 
-    def _proven(self, own: RobotLedger, state: RobotState) -> int | None:
+    # Some methods below are a call and no more: chaos has a wrong wording of the rule for each.
+
+    def _find_proven(self, own: RobotLedger, state: RobotState) -> int | None:
         """Return the visit at whose vertex a state proves that the robot has arrived."""
         return find_proven_visit(own, state)
 
     # --- what follows for its orders (rules 6, 8, 9) ---------------------------------------------
 
-    def _answers(self, robot: int, state: RobotState) -> Iterator[Entry]:
+    def _follow_state(self, robot: int, state: RobotState) -> Iterator[Entry]:
         """Yield acknowledgements, doubts and their ends, and steps of a withdrawal."""
         own = self.ledger.robots[robot]
         if own.message is None or own.is_off:
@@ -348,23 +350,23 @@ class FleetControl:
             elif own.fault is None:
                 yield take_fault(robot, say_stray(state), state, self._report)
 
-    def _update(self, robot: int, end: int) -> Entry:
+    def _make_update(self, robot: int, end: int) -> Entry:
         """Return the entry of an update to a last part."""
         return make_update(self.ledger, robot, end)
 
     # --- what may be released (rules 4 and 5) ----------------------------------------------------
 
-    def _go_on(self, robots: Iterable[int] | None = None) -> list[Message]:
+    def _release(self, robots: Iterable[int] | None = None) -> list[Message]:
         """Release what may be released to robots, by default to all; return what is to be sent."""
         sends: list[Message] = []
         for robot in range(len(self.ledger.robots)) if robots is None else robots:
-            entry = self._next(robot, self.ledger.robots[robot])
+            entry = self._find_step(robot, self.ledger.robots[robot])
             if entry is not None:
                 self._commit(entry)
-                sends += self._open(robot)
+                sends += self._list_unanswered(robot)
         return sends
 
-    def _next(self, robot: int, own: RobotLedger) -> Entry | None:
+    def _find_step(self, robot: int, own: RobotLedger) -> Entry | None:
         """Return the next step of a robot: its first order, a withdrawal, or an update."""
         if own.is_off or own.token is not None:
             return None
@@ -373,36 +375,36 @@ class FleetControl:
         if not own.is_acknowledged:
             return None
         if own.cancel is None:
-            return self._next_release(robot, own)
+            return self._find_release(robot, own)
         if own.cancel.action_id is None:
             action_id = f"{self.ledger.run}-{robot}-cancel{own.cancels}"
             return {"kind": "cancel asked", "robot": robot, "action": action_id}
         return None
 
-    def _next_release(self, robot: int, own: RobotLedger) -> Entry | None:
+    def _find_release(self, robot: int, own: RobotLedger) -> Entry | None:
         """Return an update with all that may be released now, if there is any."""
         if not self.is_fit(robot):
             return None
-        end = find_last_part(self.ledger, robot, self._ahead(robot), self._is_in_base)
+        end = find_last_part(self.ledger, robot, self._count_ahead(robot), self._is_in_base)
         if end == own.released:
             return None
         # All that was released to it is driven and acknowledged, so it stands without an order.
         if own.order_jobs >= self._long_order and own.arrived == own.released:
             return make_order(self.ledger, robot, own.released, end)
-        return self._update(robot, end)
+        return self._make_update(robot, end)
 
     _is_in_base = staticmethod(is_in_base)
 
-    def _ahead(self, robot: int) -> int:
+    def _count_ahead(self, robot: int) -> int:
         """Return how far ahead a robot may be released: twice as far if it asks for more."""
         condition = self.conditions.get(robot)
         return self._look_ahead * (2 if condition and condition.wants_more else 1)
 
     def list_committed(self) -> list[int]:
         """Return the last part of each robot that a splice has to keep."""
-        return [self._committed(own) for own in self.ledger.robots]
+        return [self._find_committed(own) for own in self.ledger.robots]
 
-    def _committed(self, own: RobotLedger) -> int:
+    def _find_committed(self, own: RobotLedger) -> int:
         """Return the last part that a splice has to keep."""
         return own.released
 

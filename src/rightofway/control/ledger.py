@@ -111,7 +111,7 @@ class Ledger:
     def make_snapshot(self) -> Entry:
         """Return an entry that says all that the entries before it say together."""
         robots = [own.to_document() for own in self.robots]
-        waits = _written_waits(self.graph, [own.released for own in self.robots])
+        waits = _write_waits(self.graph, [own.released for own in self.robots])
         return {
             "kind": "snapshot",
             "run": self.run,
@@ -126,7 +126,7 @@ class Ledger:
 
     def _apply_plan(self, entry: Entry) -> None:
         routes = [RouteToDrive.of_document(route) for route in entry["routes"]]
-        self.graph = _graph_of(routes, entry["waits"])
+        self.graph = _make_graph(routes, entry["waits"])
         if entry["kind"] == "plan":
             self.run, self.names = entry["run"], tuple(entry["names"])
             self.robots = [RobotLedger(route) for route in routes]
@@ -142,7 +142,7 @@ class Ledger:
         )
         self.commands, self.answer = entry["commands"], entry["answer"]
         self.robots = [RobotLedger.of_document(robot) for robot in entry["robots"]]
-        self.graph = _graph_of([own.route for own in self.robots], entry["waits"])
+        self.graph = _make_graph([own.route for own in self.robots], entry["waits"])
         self.changed.update(range(len(self.robots)))
 
 
@@ -150,7 +150,7 @@ Waits = list[list[list[Any]]]
 """A release graph in a journal: for each part that waits, the part and its arrivals."""
 
 
-def plan_entry(
+def make_plan_entry(
     kind: str,
     run: str,
     routes: Sequence[RouteToDrive],
@@ -161,11 +161,11 @@ def plan_entry(
 ) -> Entry:
     """Return the entry of routes and their release graph."""
     documents = [asdict(route) for route in routes]
-    waits = _written_waits(graph, committed)
+    waits = _write_waits(graph, committed)
     return {"kind": kind, "run": run, "names": names, "routes": documents, "waits": waits}
 
 
-def _written_waits(graph: ReleaseGraph, committed: Sequence[int]) -> Waits:
+def _write_waits(graph: ReleaseGraph, committed: Sequence[int]) -> Waits:
     """Return who waits for whom behind what is released."""
     return [
         [list(part), [list(arrival) for arrival in graph.waits(part)]]
@@ -174,7 +174,7 @@ def _written_waits(graph: ReleaseGraph, committed: Sequence[int]) -> Waits:
     ]
 
 
-def _graph_of(routes: Sequence[RouteToDrive], waits: Waits) -> ReleaseGraph:
+def _make_graph(routes: Sequence[RouteToDrive], waits: Waits) -> ReleaseGraph:
     return ReleaseGraph(
         [route.end for route in routes],
         {Part(*part): [Arrival(*arrival) for arrival in arrivals] for part, arrivals in waits},

@@ -75,9 +75,9 @@ def find_open_job(
     """Return the robot of a job that is not released, and which of its stops it is."""
     robot, _, job = name.rpartition("/")
     number = find_robot(ledger, robot)
-    for place, stop in enumerate(stops[number]):
+    for index, stop in enumerate(stops[number]):
         if stop.job == job:
-            return number, place
+            return number, index
     own = ledger.robots[number]
     if job in own.route.all_jobs:
         state = "done" if job in own.finished else "released"

@@ -219,12 +219,12 @@ class Operator:
         if not on_floor:
             raise InputError.at("robot", "is off the floor (name another one, or none)")
         stops = self._dispatcher.list_stops()
-        _, place, number = min(
+        _, index, number = min(
             (*self._detour(number, stops[number], at), number) for number in on_floor
         )
         own = robots[number]
         job = f"job{own.next_job}"
-        stops[number].insert(place, StopToMake(at, job, work))
+        stops[number].insert(index, StopToMake(at, job, work))
         name = f"{self._ledger.names[number]}/{job}"
         return name, self._replan(stops, text=f"{name} at {at} is added")
 
@@ -250,9 +250,9 @@ class Operator:
         if at is not None:
             self._scenario.roadmap.get_vertex(at)  # refuses what is none
         stops = self._dispatcher.list_stops()
-        number, place = find_open_job(self._ledger, stops, name)
-        old = stops[number][place]
-        stops[number][place] = old._replace(
+        number, index = find_open_job(self._ledger, stops, name)
+        old = stops[number][index]
+        stops[number][index] = old._replace(
             place=old.place if at is None else at, work=old.work if work is None else work
         )
         return self._replan(stops, text=f"{name} is changed")
@@ -273,8 +273,8 @@ class Operator:
             If no plan without it was found: the old one stands.
         """
         stops = self._dispatcher.list_stops()
-        number, place = find_open_job(self._ledger, stops, name)
-        job = stops[number].pop(place).job
+        number, index = find_open_job(self._ledger, stops, name)
+        job = stops[number].pop(index).job
         text = f"{name} is withdrawn"
         return self._replan(stops, withdrawn=[(number, job)], text=text)
 
@@ -331,8 +331,8 @@ class Operator:
 
         vertex = roadmap.get_vertex(at)
         return min(
-            (ticks(before, vertex) + ticks(vertex, after) - ticks(before, after), place)
-            for place, (before, after) in enumerate(pairwise(vertices))
+            (ticks(before, vertex) + ticks(vertex, after) - ticks(before, after), index)
+            for index, (before, after) in enumerate(pairwise(vertices))
         )
 
     # --- places ----------------------------------------------------------------------------------

@@ -16,8 +16,7 @@ from socket import SHUT_RDWR
 from typing import TYPE_CHECKING, Any
 
 from rightofway.control.broker import Broker
-from rightofway.control.driver import make_timestamp
-from rightofway.control.endpoints import Letter, RobotEnd
+from rightofway.control.endpoints import Letter, RobotEnd, make_timestamp
 from rightofway.control.identities import Identity
 from rightofway.control.messages import Condition, RobotError
 from rightofway.control.simulated_robot import SimulatedRobot

@@ -168,7 +168,7 @@ class OrderMessage(_Model):
         )
         return cls(orderId=order.order_id, orderUpdateId=order.update_id, nodes=nodes, edges=edges)
 
-    def order(self, robot: int) -> Order:
+    def to_order(self, robot: int) -> Order:
         """Return what is released of the order.
 
         Parameters
