@@ -56,7 +56,8 @@ Examples:
 
 
 def _factor(_context: click.Context, _parameter: click.Parameter, given: str) -> float:
-    return read_positive(given, "give a factor, or inf for no pause")
+    remedy = "give a factor, or inf for no pause"
+    return read_positive(given, remedy)
 
 
 def _count(_context: click.Context, _parameter: click.Parameter, given: str | None) -> int | None:

@@ -93,10 +93,10 @@ class Whole(click.IntRange):
         try:
             return super().convert(value, param, ctx)
         except click.BadParameter:
-            bounds = (
-                f"of {self.min} or more" if self.max is None else f"from {self.min} to {self.max}"
-            )
-            self.fail(f"{value} does not fit (give a whole number {bounds})", param, ctx)
+            remedy = f"give a whole number from {self.min} to {self.max}"
+            if self.max is None:
+                remedy = f"give a whole number of {self.min} or more"
+            self.fail(f"{value} does not fit ({remedy})", param, ctx)
 
 
 def read_positive(given: str, remedy: str) -> float:
@@ -112,7 +112,8 @@ def read_positive(given: str, remedy: str) -> float:
 
 def _seconds(_context: click.Context, _parameter: click.Parameter, given: str) -> float | None:
     """Return a time limit [s]; None for no limit."""
-    seconds = read_positive(given, "give seconds, or inf for no limit")
+    remedy = "give seconds, or inf for no limit"
+    seconds = read_positive(given, remedy)
     return None if seconds == math.inf else seconds
 
 

@@ -95,8 +95,13 @@ def robots(
         )
 
     def on_failure(error: BaseException) -> None:
-        sentence = "no connection to {broker}: {reason}; trying again"
-        say(Phrase(sentence, broker=address.address, reason=str(error)))
+        say(
+            Phrase(
+                "no connection to {broker}: {reason}; trying again",
+                broker=address.address,
+                reason=str(error),
+            )
+        )
 
     asyncio.run(
         run_robots(
