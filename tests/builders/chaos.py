@@ -679,7 +679,7 @@ class Observer:
 
     def _look_at_jobs(self, robot: int, own: RobotLedger) -> None:
         """Tell whether a job or a lap is lost: neither done nor in the route (I6)."""
-        laps = own.laps_done + sum(end > own.arrived for end in own.route.lap_ends)
+        laps = own.count_laps()
         if laps < self._laps[robot]:
             raise Fault(f"robot {robot} has lost {self._laps[robot] - laps} laps")
         self._laps[robot] = laps

@@ -203,6 +203,21 @@ def test_the_next_period_has_the_rights_of_way_of_the_plan() -> None:
     assert not graph.find_rotation()
 
 
+@pytest.mark.parametrize("plan", [door(), chosen_timetable()], ids=["whole", "timetable"])
+def test_laps_that_are_counted_end_at_home_with_nothing_released_beyond(plan: Plan) -> None:
+    """The timetable has one lap more of R1 than of R2."""
+    dispatcher = Dispatcher(FleetControl(MemoryJournal()), plan, LapsToDrive(plan, 6))
+    dispatcher.begin("run")
+    floor = Floor(dispatcher)
+    floor.drive(300)
+    assert dispatcher.control.is_done
+    assert min(own.laps_done for own in dispatcher.ledger.robots) == 6
+    for own, robot in zip(dispatcher.ledger.robots, floor.robots, strict=True):
+        assert own.jobs_done == own.laps_done
+        assert robot.place == own.route.places[-1]
+        assert not robot.ahead
+
+
 def test_a_robot_that_does_not_return_makes_no_laps() -> None:
     scenario = door().scenario
     rules = replace(scenario.rules, ends="none")

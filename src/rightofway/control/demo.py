@@ -10,7 +10,7 @@ import heapq
 import math
 import time
 from collections import Counter, deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from functools import partial
@@ -153,7 +153,7 @@ def drive_demo(
     if not judged.ok:
         raise InputError.at("", f"the plan has {judged.summary} (only one without can be driven)")
     names = [robot.name for robot in plan.scenario.robots]
-    repeated = None if laps is None else LapsToDrive(plan)
+    repeated = None if laps is None else LapsToDrive(plan, laps)
     durations = Durations(plan, delays, seed, repeated)
     for name, completion in zip(names, durations.round(0).completion, strict=True):
         if completion is None:
@@ -256,18 +256,15 @@ class _Demo:
         return self._stamp[1]
 
     def run(self, wait_until: Callable[[Tick], None], laps: int | None) -> DemoResult:
-        """Go from step to step until no robot has anything to do, or all laps are made."""
-        robots = self._control.ledger.robots
+        """Go from step to step until no robot has anything to do."""
         try:
-            for _ in self._steps(wait_until):
-                if laps and all(own.laps_done >= laps for own in robots if own.route.end > 1):
-                    break
+            self._take_steps(wait_until)
         except KeyboardInterrupt:
             if laps is None:
                 raise
         return self._result(is_endless=laps is not None)
 
-    def _steps(self, wait_until: Callable[[Tick], None]) -> Iterator[None]:
+    def _take_steps(self, wait_until: Callable[[Tick], None]) -> None:
         """Have robots do one thing after another, as long as there is something."""
         agenda: list[tuple[int, int]] = []  # when the next step of a robot ends
         self._exchange(self._end.make_letters(self._control.start()))
@@ -288,7 +285,6 @@ class _Demo:
             self._robots[number].end_step(moment)
             self._may_begin.add(number)
             self._exchange([self._robots[number].end.report_state()])
-            yield
 
     @property
     def _waits_for_people(self) -> bool:

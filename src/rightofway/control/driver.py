@@ -100,8 +100,7 @@ class Driver:
         notices = Notices(names, report, keep=self._keep)
         self._metrics = metrics
         self.control = FleetControl(self._journal, report=notices.report_on)
-        self._laps = laps
-        repeated = None if laps is None else LapsToDrive(plan)
+        repeated = None if laps is None else LapsToDrive(plan, laps)
         self._dispatcher = dispatcher = Dispatcher(self.control, plan, repeated)
         self.operator = Operator(dispatcher)
         self._commands, self._switches = commands, switch
@@ -131,7 +130,7 @@ class Driver:
         self._keep(make_notice(to_parts(text), kind=kind, is_over=is_over))
 
     async def run(self, broker: Broker, *, stays: bool = False) -> None:
-        """Drive over any number of connections, until robots are at their ends or made all laps.
+        """Drive over any number of connections, until robots are at the ends of their ways.
 
         Parameters
         ----------
@@ -169,11 +168,7 @@ class Driver:
 
     @property
     def is_done(self) -> bool:
-        """Whether robots have come to the end of their way, or made all laps."""
-        if self._laps:
-            return all(
-                own.is_off or own.laps_done >= self._laps for own in self.control.ledger.robots
-            )
+        """Whether robots have come to the end of their way, or of all laps that are wanted."""
         return self.control.is_done
 
     def send(self, messages: Iterable[Message]) -> None:

@@ -73,6 +73,8 @@ class LapsToDrive:
     ----------
     plan
         A plan that keeps the rules, whose robots end where they have begun.
+    count
+        How many laps each robot makes at least, those of the plan included; 0 for laps without end.
 
     Raises
     ------
@@ -80,8 +82,8 @@ class LapsToDrive:
         If a robot ends elsewhere, or the visits of a period do not repeat.
     """
 
-    def __init__(self, plan: Plan) -> None:
-        self._scenario, self._routes = plan.scenario, make_routes_to_drive(plan)
+    def __init__(self, plan: Plan, count: int = 0) -> None:
+        self._count, self._routes = 0, make_routes_to_drive(plan)
         names = [robot.name for robot in plan.scenario.robots]
         for name, route in zip(names, self._routes, strict=True):
             if route.places[0] != route.places[-1]:
@@ -100,6 +102,7 @@ class LapsToDrive:
             those = ", ".join(names[robot] for robot in sorted({part.robot for part in cycle}))
             message = f"{those} move round a circle at one instant from one lap to the next"
             raise InputError.at("plan", f"{message} (plan with rotations: false)")
+        self._count = count
 
     def _whole(self) -> _Group:
         moving = [robot for robot, route in enumerate(self._routes) if route.end > 1]
@@ -153,7 +156,7 @@ class LapsToDrive:
             )
             and not any(robots[robot].is_off for robot in group.robots)
         ]
-        if not needy:
+        if not needy or self._are_enough(robots):
             return None
         latest = max(route.enter[-1] for route in routes)
         for group in needy:
@@ -174,6 +177,18 @@ class LapsToDrive:
                 routes[robot] = route.join(_next_lap(route, lap, begin, first, numbers), later)
         rows = zip(robots, routes, strict=True)
         return MoreLaps([route.cut_before(own.arrived) for own, route in rows], missed)
+
+    def _are_enough(self, robots: Sequence[RobotLedger]) -> bool:
+        """Return whether each robot has made as many laps as are wanted, or will on its route."""
+        if not self._count:
+            return False
+        driving = [
+            robots[robot]
+            for group in self._groups
+            for robot, visits in zip(group.robots, group.visits, strict=True)
+            if visits and not robots[robot].is_off
+        ]
+        return all(own.count_laps() >= self._count for own in driving)
 
     def find_planned_visit(self, robot: int, visit: int) -> tuple[int, int]:
         """Return how often a robot in step has come to the end of the plan, and a visit of it.

@@ -85,6 +85,10 @@ class RobotLedger:
         """Whether it is at the end of its route, with all its jobs done."""
         return self.arrived == self.route.end - 1 and self.finished >= self.route.all_jobs
 
+    def count_laps(self) -> int:
+        """Return how many laps it has made, or will have made at the end of its route."""
+        return self.laps_done + sum(end > self.arrived for end in self.route.lap_ends)
+
     def find_held(self, place: str) -> int | None:
         """Return the held part whose vertex is a place, None if there is none."""
         held = self.held
