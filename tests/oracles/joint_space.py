@@ -8,6 +8,7 @@ or more do not rotate where the rules forbid it.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import cache, partial
@@ -63,6 +64,8 @@ class _Fleet:
 
     def _is_closed(self, robot: int, booked: Booked, tick: int) -> bool:
         """Return whether something that a robot books in a tick is closed."""
+        if not self.scenario.closures:
+            return False
         places = [shape for shape in booked if shape[0] >= 0]  # the others are zones
         now = Fraction(tick)
         return any(is_shut(self.scenario, robot, shape, now, now + 1) for shape in places)
@@ -79,21 +82,28 @@ class _Fleet:
         start = State(self.scenario.problem.itineraries[robot].home)
         return costs_to_go(start, partial(self.actions, robot))
 
-    def together(self, states: tuple[State, ...], tick: int) -> list[tuple[Action, ...]]:
-        """Return what all robots can do in a tick without booking what excludes each other."""
+    def together(
+        self,
+        states: tuple[State, ...],
+        tick: int,
+        is_late: Callable[[int, State, Action], bool],
+    ) -> list[tuple[Action, ...]]:
+        """Return what all robots can do in a tick, none too late, without exclusive bookings."""
         found: list[tuple[Action, ...]] = [()]
         for j, state in enumerate(states):
-            found = [
-                (*before, action)
-                for action in self.actions(j, state)
-                if not self.is_closed(j, action[1], tick)
-                for before in found
-                if not any(
-                    self.clash(i, one[1], j, action[1])
-                    or _exchanges(states[i], one[0], state, action[0])
-                    for i, one in enumerate(before)
-                )
-            ]
+            chosen = found
+            found = []
+            for action in self.actions(j, state):
+                if is_late(j, state, action) or self.is_closed(j, action[1], tick):
+                    continue
+                for before in chosen:  # a loop without a generator: all of the search is here
+                    for i, one in enumerate(before):
+                        if self.clash(i, one[1], j, action[1]) or _exchanges(
+                            states[i], one[0], state, action[0]
+                        ):
+                            break
+                    else:
+                        found.append((*before, action))
         if self.scenario.rules.rotations:
             return found
         return [chosen for chosen in found if not _rotates(states, [one[0] for one in chosen])]
@@ -171,13 +181,19 @@ def costs_to_go(start: S, actions: Callable[[S], Iterable[tuple[S, Any, int]]]) 
     return costs
 
 
-def least_flowtime(scenario: Scenario, latest: int | None = None, *, parts: int = 1) -> int | None:
+def least_flowtime(
+    scenario: Scenario,
+    latest: int | None = None,
+    *,
+    below: float = math.inf,
+    parts: int = 1,
+) -> int | None:
     """Return the least sum of completions by weight [ticks], None where there is no plan.
 
-    With ``latest``, of the plans that are complete at that tick. With ``parts``, each tick counts
-    so many, and each drive and wait one: a wait is a visit that lasts longer than what the robot
-    does there. Joint states in the order of what they cost and what each robot alone would cost
-    from there.
+    With ``latest``, of the plans that are complete at that tick; None if it is not ``below``.
+    With ``parts``, each tick counts so many, and each drive and wait one: a wait is a visit that
+    lasts longer than what the robot does there. Joint states in the order of what they cost and
+    what each robot alone would cost from there.
     """
     fleet = _Fleet(scenario, parts)
     itineraries = scenario.problem.itineraries
@@ -202,8 +218,10 @@ def least_flowtime(scenario: Scenario, latest: int | None = None, *, parts: int 
     least = least_left(start[1])
     heap = [] if least is None else [(least, 0, *start)]
     while heap:
-        _, negative, tick, states = heappop(heap)
+        whole, negative, tick, states = heappop(heap)
         cost = -negative
+        if whole >= below:
+            return None
         if tick >= opens and all(
             state.is_done and not fleet.is_closed(robot, ((state.vertex,),), tick)
             for robot, state in enumerate(states)
@@ -212,9 +230,7 @@ def least_flowtime(scenario: Scenario, latest: int | None = None, *, parts: int 
         if best[tick, states] < cost or (not opens and tick >= earliest.get(states, tick + 1)):
             continue
         earliest[states] = tick
-        for chosen in fleet.together(states, tick):
-            if _is_late(alone, states, chosen, tick, latest):
-                continue
+        for chosen in fleet.together(states, tick, _lateness(alone, tick, latest)):
             after = (min(tick + 1, horizon), tuple(each[0] for each in chosen))
             total = cost + sum(w * each[2] for w, each in zip(weights, chosen, strict=True))
             if total < best.get(after, total + 1) and (left := least_left(after[1])) is not None:
@@ -223,18 +239,19 @@ def least_flowtime(scenario: Scenario, latest: int | None = None, *, parts: int 
     return None
 
 
-def _is_late(
-    alone: Sequence[dict[State, int]],
-    states: tuple[State, ...],
-    chosen: Sequence[Action],
-    tick: int,
-    latest: int | None,
-) -> bool:
-    """Tell whether a robot completes too late, or would do so alone from its next state on."""
-    return latest is not None and any(
-        not before.is_done and tick + ticks + costs.get(after, latest) > latest
-        for costs, before, (after, _, ticks) in zip(alone, states, chosen, strict=True)
-    )
+def _lateness(
+    alone: Sequence[dict[State, int]], tick: int, latest: int | None
+) -> Callable[[int, State, Action], bool]:
+    """Return whether a robot completes too late, or would do so alone from its next state on."""
+    if latest is None:
+        return lambda *_: False
+
+    def is_late(robot: int, before: State, action: Action) -> bool:
+        after, _, ticks = action
+        left = alone[robot].get(after, latest)
+        return not before.is_done and tick + ticks + left > latest
+
+    return is_late
 
 
 def least_value(objective: Objective, scenario: Scenario) -> int | None:
@@ -251,10 +268,9 @@ def least_value(objective: Objective, scenario: Scenario) -> int | None:
     makespan, best = least_makespan(scenario), None
     assert makespan is not None
     while best is None or weight * makespan + flowtime < best:
-        cost = least_flowtime(scenario, makespan)
-        if cost is not None:
-            value = weight * makespan + cost
-            best = value if best is None else min(best, value)
+        below = math.inf if best is None else best - weight * makespan
+        cost = least_flowtime(scenario, makespan, below=below)
+        best = best if cost is None else weight * makespan + cost
         makespan += 1
     return best
 
@@ -291,10 +307,9 @@ def _least_until(
         if not reached or (best is not None and tick >= best):
             break
         after: dict[tuple[State, ...], int] = {}
+        is_late = _lateness(alone, tick, limit)
         for robots in reached:
-            for chosen in fleet.together(robots, tick):
-                if _is_late(alone, robots, chosen, tick, limit):
-                    continue
+            for chosen in fleet.together(robots, tick, is_late):
                 latest = known[robots]
                 for before, action in zip(robots, chosen, strict=True):
                     if action[0].is_done and not before.is_done:
