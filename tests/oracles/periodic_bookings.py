@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import cache
 from itertools import combinations
 from typing import NamedTuple
 
@@ -115,10 +116,20 @@ def _taken(
             booked.setdefault(vertex, set()).update(t % period for t in range(start, end))
         comes.update((t % period, a, b) for t, a, b in _moves(others, robot))
 
+    is_free_for = {vertex: _free_ticks(ticks, period) for vertex, ticks in booked.items()}
+
     def free(vertex: int, first: int, end: int) -> bool:
-        return not any(t % period in booked.get(vertex, ()) for t in range(first, end))
+        return vertex not in is_free_for or end - first <= is_free_for[vertex][first % period]
 
     return free, comes
+
+
+def _free_ticks(booked: set[int], period: int) -> list[int]:
+    """Return how many ticks from each tick on are free, where some tick is booked."""
+    free = [0] * period
+    for tick in reversed(range(2 * period)):  # the second time, what follows the end is known
+        free[tick % period] = 0 if tick % period in booked else free[(tick + 1) % period] + 1
+    return free
 
 
 def has_a_route(
@@ -138,12 +149,16 @@ def has_a_route(
     free, comes = _taken(others, headway=headway, books_ahead=books_ahead)
     turn = itinerary.stages[-1].work + itinerary.stages[-1].turn
 
+    @cache
+    def drive_of(tail: int, head: int) -> int:
+        return compute_drives_along(roadmap, itinerary, [tail, head])[0]
+
     def steps(state: _State, dwell: int, end: int) -> Iterator[_State]:
         """Yield all that may follow a visit that lasts so long at least and is left by the end."""
         vertex, stage, enter, before = state
         for edge in range(int(roadmap.indptr[vertex]), int(roadmap.indptr[vertex + 1])):
             head = int(roadmap.heads[edge])
-            drive = compute_drives_along(roadmap, itinerary, [vertex, head])[0]
+            drive = drive_of(vertex, head)
             ahead = drive if books_ahead else 0
             turns = itinerary.turning.compute_turn(before, edge) if itinerary.turning else 0
             for leave in range(enter + dwell + turns + drive, end + 1):
