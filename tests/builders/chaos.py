@@ -143,10 +143,7 @@ KINDS = {
     "laps, all": Chaos(laps=2, kills=0.03, resets=0.01, wrong=0.1, cancels=0.02),
     "people": Chaos(people=0.04),
     "people, all": Chaos(people=0.04, kills=0.03, resets=0.01, wrong=0.1, cancels=0.01, jobs=0.02),
-    "people in laps": Chaos(people=0.04, laps=2, jobs=0.01),
-    "work at home": Chaos(
-        people=0.04, kills=0.03, cancels=0.02, laps=2, jobs=0.02, works_at_home=True
-    ),
+    "people in laps": Chaos(people=0.04, laps=2, jobs=0.01, works_at_home=True),
 }
 """Kinds of chaos by name."""
 
