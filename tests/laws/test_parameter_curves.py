@@ -9,10 +9,11 @@ from __future__ import annotations
 import random
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 
 import pytest
 
-from rightofway.cyclic import GroupResult, ParameterCurve, compute_parameter_curves, run_laps
+from rightofway.cyclic import ParameterCurve, compute_parameter_curves, run_laps
 from rightofway.cyclic.sensitivity import find_stages_at
 from rightofway.errors import InputError
 from rightofway.io import parse_scenario
@@ -21,7 +22,7 @@ from rightofway.model.lap import compute_turns_of_lap
 from rightofway.model.route import compute_drives_along
 from rightofway.native import BookedRows
 from rightofway.planners import make_planning_problem
-from rightofway.precedence import TimedEventGraph
+from rightofway.precedence import CyclicSchedule, TimedEventGraph
 from tests.builders.fleets import random_fleet
 from tests.builders.sizes import repeated
 
@@ -44,13 +45,11 @@ def changed(scenario: Scenario, curve: ParameterCurve, value: Fraction) -> Scena
     return replace(scenario, robots=tuple(robots))
 
 
-def period_by_hand(group: GroupResult, scenario: Scenario) -> Fraction | None:
-    """Return the period of the group's laps in their order in a changed scenario [time unit].
+def period_by_hand(timetable: CyclicSchedule, old: Scenario, scenario: Scenario) -> Fraction | None:
+    """Return the period of the timetable's laps in their order in a changed scenario [time unit].
 
     None if robots wait for each other for ever.
     """
-    timetable, old = group.timetable, group.context.scenario
-    assert timetable is not None
     laps = []
     for number, lap in zip(timetable.robots, timetable.laps, strict=True):
         itinerary = scenario.problem.itineraries[number]
@@ -89,9 +88,10 @@ def check_curves(scenario: Scenario, draw: random.Random) -> int:
     """Compare the curves of all groups that repeat; return the number of breakpoints."""
     breakpoints = 0
     for group in run_laps(scenario, draw.choice(["first-come", "two-level"]), time_limit=2).groups:
-        graph = group.build_graph()
-        if graph is None or not scenario.problem.clock.exact:
+        graph, timetable = group.build_graph(), group.timetable
+        if graph is None or timetable is None or not scenario.problem.clock.exact:
             continue
+        by_hand = partial(period_by_hand, timetable, group.context.scenario)
         curves = compute_parameter_curves(scenario, graph, most_visits=MOST_CURVES * len(graph))
         assert len(curves) <= MOST_CURVES
         period = graph.find_critical_circuit().cycle_time * scenario.problem.clock.tick
@@ -103,12 +103,12 @@ def check_curves(scenario: Scenario, draw: random.Random) -> int:
             if curve.pieces[0].start == curve.pieces[-1].until:
                 # A circle of robots leaves no room for a headway.
                 assert curve.kind == "headway"
-                assert period_by_hand(group, changed(scenario, curve, Fraction(1))) is None
+                assert by_hand(changed(scenario, curve, Fraction(1))) is None
                 continue
             for value in values_of(curve, draw):
                 other = changed(scenario, curve, value)
                 if other.problem.clock.exact:
-                    assert curve.compute_period(value) == period_by_hand(group, other)
+                    assert curve.compute_period(value) == by_hand(other)
     return breakpoints
 
 
