@@ -32,6 +32,8 @@ clear : bool
     Whether tracks with the fewest conflicts are looked for.
 targets : bool
     Whether conflicts with robots that have reached their ends are resolved as such.
+disjoint : bool
+    Whether one child of a conflict holds a robot to where it is, and the other keeps it away.
 pairs : bool
     Whether nodes are split by the completion times of pairs that lose to each other.
 pair_nodes : int
@@ -267,7 +269,7 @@ void bind_cbs(nb::module_& module) {
         .def(
             "__init__",
             [](ConflictBasedSearch* self, const Problem& problem, bool cardinal, bool bypass,
-               bool clear, bool targets, bool pairs, std::int64_t pair_nodes,
+               bool clear, bool targets, bool disjoint, bool pairs, std::int64_t pair_nodes,
                std::int64_t joint_states, std::int64_t factor, Tick latest) {
                 require_range("pair_nodes", pair_nodes, 0, never);
                 require_range("joint_states", joint_states, 0, never);
@@ -278,12 +280,13 @@ void bind_cbs(nb::module_& module) {
                 if (latest != never && problem.has_surcharges()) {
                     throw std::invalid_argument("latest: costs have surcharges");
                 }
-                new (self) ConflictBasedSearch(problem, {cardinal, bypass, clear, targets, pairs,
-                                                         pair_nodes, joint_states, factor, latest});
+                new (self)
+                    ConflictBasedSearch(problem, {cardinal, bypass, clear, targets, disjoint, pairs,
+                                                  pair_nodes, joint_states, factor, latest});
             },
             nb::arg("problem"), nb::arg("cardinal"), nb::arg("bypass"), nb::arg("clear"),
-            nb::arg("targets"), nb::arg("pairs"), nb::arg("pair_nodes"), nb::arg("joint_states"),
-            nb::arg("factor"), nb::arg("latest"), nb::keep_alive<1, 2>())
+            nb::arg("targets"), nb::arg("disjoint"), nb::arg("pairs"), nb::arg("pair_nodes"),
+            nb::arg("joint_states"), nb::arg("factor"), nb::arg("latest"), nb::keep_alive<1, 2>())
         .def("run", &run, nb::arg("upper"), nb::arg("enough"), nb::arg("most_nodes"),
              nb::arg("most_bytes"), nb::arg("time_limit").none(), run_doc)
         .def("search_together", &together, array("robots"), nb::arg("most_states"),

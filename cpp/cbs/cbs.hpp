@@ -6,12 +6,14 @@
 // constraints (track_conflicts.hpp), and the node gets a child for each. The search expands the
 // node of least bound first; a node without conflicts is an optimal plan.
 //
-// What makes it fast can be switched (CbsOptions): conflicts that cost both robots something are
-// resolved first, tracks of equal cost with fewer conflicts replace others without a split, and the
-// losses of pairs of robots, each solved for itself, raise the bound of a node by the least
-// weighted vertex cover. Two symmetries are one split each: a robot that has reached its end, and a
-// pair of which one robot or the other has to complete later (decision 36). A fleet of few robots
-// is searched by joint states in turn, which ends also where there is no plan (decision 44).
+// What makes it fast can be switched (CbsOptions): of the children of a conflict of points, one
+// holds a robot to where it is and the other keeps it away (decision 54), conflicts that cost both
+// robots something are resolved first, tracks of equal cost with fewer conflicts replace others
+// without a split, and the losses of pairs of robots, each solved for itself, raise the bound of a
+// node by the least weighted vertex cover. Two symmetries are one split each: a robot that has
+// reached its end, and a pair of which one robot or the other has to complete later (decision 36).
+// A fleet of few robots is searched by joint states in turn, which ends also where there is no plan
+// (decision 44).
 //
 // With a factor above 1 it is a focal search: it takes in turn the node of least bound, and the
 // node with the fewest conflicts of those whose tracks cost little enough.
@@ -22,6 +24,8 @@
 // IJCAI 2015 (cardinal conflicts, bypass).
 // Li, Felner, Boyarski, Ma & Koenig, "Improved heuristics for multi-agent path finding with
 // conflict-based search", IJCAI 2019 (WDG).
+// Li, Harabor, Stuckey, Ma, Felner & Koenig, "Disjoint splitting for multi-agent path finding with
+// conflict-based search", ICAPS 2019.
 // Barer, Sharon, Stern & Felner, "Suboptimal variants of the conflict-based search algorithm for
 // the multi-agent pathfinding problem", SoCS 2014 (focal search). Li et al., "Pairwise symmetry
 // reasoning for multi-agent path finding search", Artificial Intelligence 301, 2021 (targets,
@@ -108,6 +112,9 @@ class ConflictTree {
     std::optional<TrackConflict> choose(Node& node, const StopCondition& is_over);
     std::optional<TrackConflict> split_pair(const Node& node, RobotId first, RobotId second,
                                             const StopCondition& is_over);
+    bool may_hold() const;
+    const Constraint* held_in(const Node& node, const TrackConflict& conflict,
+                              std::size_t side) const;
     void weigh(const Node& node, TrackConflict& conflict, const StopCondition& is_over);
     bool bypass(Node& node, const TrackConflict& conflict, const StopCondition& is_over);
     bool offer(Node& node, RobotId robot, const ConstrainedTrack* track);

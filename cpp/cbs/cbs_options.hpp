@@ -13,6 +13,7 @@ struct CbsOptions {
     bool bypass;    // replace tracks by others of equal cost with fewer conflicts
     bool clear;     // look for tracks with the fewest conflicts
     bool targets;   // resolve conflicts with robots that have reached their ends as such
+    bool disjoint;  // one child of a conflict holds a robot to its row, the other keeps it away
     bool pairs;     // split by completion times of pairs that lose to each other
     // Nodes at most to solve each pair of robots, whose losses raise the bounds of nodes; 0: no
     // such losses.

@@ -144,12 +144,32 @@ const ConstrainedTrack* ConstrainedTracks::clearest(RobotId robot, SetId set, Ti
     }
 }
 
+// Calls `use` with each vertex at which a robot cannot be while it books a vertex.
+template <class Use>
+void ConstrainedTracks::for_each_left(const Constraint& hold, const Use& use) const {
+    const Graph& roads = problem_.graph();
+    const VertexId held = hold.held_row();
+    for (VertexId vertex = 0; vertex < problem_.n_vertices(); ++vertex) {
+        const bool is_near = problem_.rules().books_ahead &&
+                             (roads.edge(vertex, held) >= 0 || roads.edge(held, vertex) >= 0);
+        if (vertex != held && !is_near) {
+            use(vertex);
+        }
+    }
+}
+
 // Puts constraints into the table and, those of the end of the track, into the request.
 SearchRequest ConstrainedTracks::constrained(SetId set, SearchRequest request,
                                              BookingTable& table) const {
     for (const Constraint& one : sets_.at(set)) {
         if (one.row >= 0) {
             table.insert(one.row, {one.start, one.end}, nobody);
+            continue;
+        }
+        if (one.is_hold()) {
+            for_each_left(one, [&](std::int32_t row) {
+                table.insert(row, {one.start, one.end}, nobody);
+            });
             continue;
         }
         Tick& earliest = one.row == Constraint::completion ? request.ends_from : request.stays_from;
@@ -161,8 +181,13 @@ SearchRequest ConstrainedTracks::constrained(SetId set, SearchRequest request,
 // The last one first: of equal starts in a row, the table erases the latest.
 void ConstrainedTracks::release(SetId set, BookingTable& table) const {
     const auto constraints = sets_.at(set);
-    for (std::size_t k = constraints.size(); k-- > 0 && constraints[k].row >= 0;) {
-        table.erase(constraints[k].row, constraints[k].start, nobody);
+    for (std::size_t k = constraints.size(); k-- > 0;) {
+        const Constraint& one = constraints[k];
+        if (one.is_hold()) {
+            for_each_left(one, [&](std::int32_t row) { table.erase(row, one.start, nobody); });
+        } else if (one.row >= 0) {
+            table.erase(one.row, one.start, nobody);
+        }
     }
 }
 

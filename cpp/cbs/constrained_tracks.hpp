@@ -107,6 +107,8 @@ class ConstrainedTracks {
   private:
     const ConstrainedTrack* search(RobotId robot, SetId set, SearchRequest request,
                                    BookingTable& table, const StopCondition& is_over);
+    template <class Use>
+    void for_each_left(const Constraint& hold, const Use& use) const;
     SearchRequest constrained(SetId set, SearchRequest request, BookingTable& table) const;
     void release(SetId set, BookingTable& table) const;
     const ConstrainedTrack* keep(RobotId robot, ConstrainedTrack&& track);

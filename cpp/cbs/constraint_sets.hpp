@@ -12,11 +12,18 @@
 
 namespace rightofway {
 
-// The robot may not book the row at any tick of [start, end). Two rows that no robot books stand
-// for the end of its track: what it must not have begun, or completed, before `end`.
+// The robot may not book the row at any tick of [start, end). Rows that no robot books stand for
+// other constraints: two for the end of its track, what it must not have begun, or completed,
+// before `end`; and one for each row that it must be at or next to at `start` (disjoint splitting).
 struct Constraint {
     static constexpr std::int32_t last_visit = -1;  // the booking of its last visit
     static constexpr std::int32_t completion = -2;  // its completion
+
+    static constexpr Constraint hold(std::int32_t row, Tick tick) {
+        return {completion - 1 - row, tick, tick + 1};
+    }
+    bool is_hold() const { return row < completion; }
+    std::int32_t held_row() const { return completion - 1 - row; }
 
     std::int32_t row;
     Tick start;

@@ -16,6 +16,9 @@ void RobotStates::prepare(const GroupMember& member) {
             constraints_.push_back({one.row, {one.start, one.end}});
             continue;
         }
+        if (one.is_hold()) {
+            continue;  // a bound without it holds as well
+        }
         Tick& from = one.row == Constraint::completion ? ends_from_ : stays_from_;
         from = std::max(from, one.end);
     }

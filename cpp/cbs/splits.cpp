@@ -11,9 +11,23 @@ namespace rightofway {
 // Makes the children of a node; true if it has no conflict.
 bool ConflictTree::split(Node& node, Tick upper, const StopCondition& is_over) {
     std::vector<std::pair<RobotId, SetId>> changes;
+    std::optional<std::pair<RobotId, SetId>> held;
     if (const std::optional<TrackConflict> chosen = choose(node, is_over)) {
         for (std::size_t side = 0; side < 2; ++side) {
+            if (const Constraint* hold = held_in(node, *chosen, 1 - side)) {
+                const RobotId robot = chosen->robot[side];
+                const std::int32_t row = chosen->constraint[side].row;
+                changes.assign(1, {robot, tracks_.sets().with(node.sets[index(robot)],
+                                                              {row, hold->start, hold->end})});
+                break;
+            }
             changes.emplace_back(chosen->robot[side], chosen->set[side]);
+        }
+        if (changes.size() > 1 && may_hold() && chosen->since < never) {
+            const Constraint& away = chosen->constraint[0];
+            held.emplace(chosen->robot[0],
+                         tracks_.sets().with(node.sets[index(chosen->robot[0])],
+                                             Constraint::hold(away.row, away.start)));
         }
     } else if (const Problem& problem = tracks_.problem();
                !problem.rules().rotations && problem.may_follow()) {
@@ -30,6 +44,9 @@ bool ConflictTree::split(Node& node, Tick upper, const StopCondition& is_over) {
     std::vector<Node> children;
     for (const auto& [robot, set] : changes) {
         if (std::optional<Node> one = child(node, robot, set, upper, is_over)) {
+            if (held && held->first != robot) {
+                one->sets[index(held->first)] = held->second;
+            }
             children.push_back(std::move(*one));
         }
     }
@@ -37,6 +54,29 @@ bool ConflictTree::split(Node& node, Tick upper, const StopCondition& is_over) {
         push(std::move(one), upper);
     }
     return changes.empty();
+}
+
+// Disjoint splitting, for points without headway: others book by edges or by the past, too.
+bool ConflictTree::may_hold() const {
+    const Problem& problem = tracks_.problem();
+    return options_.disjoint && !problem.has_sizes() && problem.rules().headway == 0;
+}
+
+// The constraint that holds a robot of a conflict to its row at a tick of the overlap, if any: no
+// plan of the node has the other robot there.
+const Constraint* ConflictTree::held_in(const Node& node, const TrackConflict& conflict,
+                                        std::size_t side) const {
+    if (!may_hold() || conflict.since >= never) {
+        return nullptr;
+    }
+    const Constraint& away = conflict.constraint[side];
+    for (const Constraint& one : tracks_.sets().at(node.sets[index(conflict.robot[side])])) {
+        if (one.is_hold() && one.held_row() == away.row && one.start >= conflict.since &&
+            one.start < away.end) {
+            return &one;
+        }
+    }
+    return nullptr;
 }
 
 // Fills in what the robots of a conflict lose by its constraints.

@@ -58,7 +58,8 @@ void ConflictFinder::meet(RobotId other, const ConstrainedTrack& track,
             }
             conflicts.push_back(
                 {.robot = {robot_, other},
-                 .constraint = {{{one->own, tick, tick + 1}, {booking.row, tick, tick + 1}}}});
+                 .constraint = {{{one->own, tick, tick + 1}, {booking.row, tick, tick + 1}}},
+                 .since = std::max(one->time.start, booking.time.start)});
         }
     }
     if (problem_.may_follow()) {

@@ -19,6 +19,7 @@ struct TrackConflict {
     // What each robot loses by its constraint, and its set with it; -1 while not known.
     std::array<Tick, 2> loss{-1, -1};
     std::array<SetId, 2> set{-1, -1};
+    Tick since = never;  // first tick of the overlap, of the last of which the constraints are
 };
 
 // The constraint for a robot whose drive along an edge ends at `tick`, together with robots that

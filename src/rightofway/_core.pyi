@@ -941,6 +941,8 @@ class ConflictBasedSearch:
         Whether tracks with the fewest conflicts are looked for.
     targets : bool
         Whether conflicts with robots that have reached their ends are resolved as such.
+    disjoint : bool
+        Whether one child of a conflict holds a robot to where it is, and the other keeps it away.
     pairs : bool
         Whether nodes are split by the completion times of pairs that lose to each other.
     pair_nodes : int
@@ -954,7 +956,7 @@ class ConflictBasedSearch:
         No robot completes later, NEVER for no limit; only without surcharges. [ticks]
     """
 
-    def __init__(self, problem: Problem, cardinal: bool, bypass: bool, clear: bool, targets: bool, pairs: bool, pair_nodes: int, joint_states: int, factor: int, latest: int) -> None: ...
+    def __init__(self, problem: Problem, cardinal: bool, bypass: bool, clear: bool, targets: bool, disjoint: bool, pairs: bool, pair_nodes: int, joint_states: int, factor: int, latest: int) -> None: ...
 
     def run(self, upper: int, enough: int, most_nodes: int, most_bytes: int, time_limit: float | None) -> tuple[int, int]:
         """

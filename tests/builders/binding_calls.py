@@ -415,6 +415,7 @@ def _conflict_based(rng: random.Random, problem: Part) -> Arguments:
     return {
         "problem": problem, "cardinal": rng.random() < 1 / 2, "bypass": rng.random() < 1 / 2,
         "clear": rng.random() < 1 / 2, "targets": rng.random() < 1 / 2,
+        "disjoint": rng.random() < 1 / 2,
         "pairs": rng.random() < 1 / 2, "pair_nodes": rng.randrange(9),
         "joint_states": rng.choice((0, 9, 1000)),
         "factor": rng.choice((10**6, 11 * 10**5)), "latest": rng.choice(limits),

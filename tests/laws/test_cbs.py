@@ -45,6 +45,7 @@ switches = st.fixed_dictionaries(
         "bypass": st.booleans(),
         "clear": st.booleans(),
         "targets": st.booleans(),
+        "disjoint": st.booleans(),
         "pairs": st.booleans(),
         "pair_nodes": st.sampled_from([0, 3, 100]),
         "joint_states": st.sampled_from([0, 100, 10_000]),

@@ -82,7 +82,7 @@ def test_the_planner_and_the_search_have_the_same_defaults() -> None:
         name: given.default
         for name, given in signature(ConflictBasedSearch.__init__).parameters.items()
     }
-    for switch in ("bypass", "clear", "targets", "pairs"):
+    for switch in ("bypass", "clear", "targets", "disjoint", "pairs"):
         assert (getattr(said, switch) == "yes") is of_search[switch]
     assert (said.cardinal == "first") is of_search["cardinal"]
     for count in ("pair_nodes", "joint_states"):

@@ -83,6 +83,7 @@ def _search(task: Task, **limits: Any) -> ConflictBasedSearch:
         bypass=task.options["bypass"] == "yes",
         clear=task.options["clear"] == "yes",
         targets=task.options["targets"] == "yes",
+        disjoint=task.options["disjoint"] == "yes",
         pairs=task.options["pairs"] == "yes",
         pair_nodes=task.options["pair_nodes"],
         joint_states=task.options["joint_states"],

@@ -309,6 +309,11 @@ class CbsOptions(PlannerOptions):
         Literal["yes", "no"],
         "Resolve conflicts with robots that have reached their ends for all later ticks at once.",
     ] = "yes"
+    disjoint: Annotated[
+        Literal["yes", "no"],
+        "Split a conflict so that one robot is there, or is kept away; or keep one or the other"
+        " away. For points without headway.",
+    ] = "yes"
     pairs: Annotated[
         Literal["no", "yes"],
         "Split nodes by the completion times of two robots that lose to each other; or do not.",

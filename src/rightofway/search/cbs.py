@@ -41,6 +41,9 @@ class ConflictBasedSearch:
         Whether tracks with the fewest conflicts are looked for.
     targets
         Whether conflicts with robots that have reached their ends are resolved as such.
+    disjoint
+        Whether one child of a conflict holds a robot to where it is, and the other keeps it away;
+        for points without headway.
     pairs
         Whether nodes are split by the completion times of pairs that lose to each other.
     pair_nodes
@@ -76,6 +79,7 @@ class ConflictBasedSearch:
         bypass: bool = True,
         clear: bool = True,
         targets: bool = True,
+        disjoint: bool = True,
         pairs: bool = False,
         pair_nodes: int = 20,
         joint_states: int = 10_000,
@@ -83,8 +87,8 @@ class ConflictBasedSearch:
         latest: int | None = None,
     ) -> None:
         self._core = _core.ConflictBasedSearch(
-            bind_native(problem), cardinal, bypass, clear, targets, pairs, pair_nodes,
-            joint_states, int(min(factor, MOST_FACTOR) * MILLION),
+            bind_native(problem), cardinal, bypass, clear, targets, disjoint, pairs,
+            pair_nodes, joint_states, int(min(factor, MOST_FACTOR) * MILLION),
             NEVER if latest is None else latest,
         )  # fmt: skip
         self.bound: Tick | None = Tick(0)
