@@ -11,11 +11,12 @@ import pytest
 import rightofway
 from rightofway.bench.fleets import make_scenario_document
 from rightofway.io import parse_scenario
-from rightofway.model import OutcomeKind, Plan, Scenario
+from rightofway.model import OutcomeKind, Plan, Rules, Scenario
 from rightofway.planners import cbs, lns
 from rightofway.planners.cbs import ITERATIONS_PER_ROBOT, TURNS_WITHIN_FACTOR
 from rightofway.planners.options import CbsOptions
 from rightofway.search import ConflictBasedSearch
+from tests.builders.fleets import random_fleet
 
 ROBOTS = 20
 
@@ -87,3 +88,22 @@ def test_the_planner_and_the_search_have_the_same_defaults() -> None:
     assert (said.cardinal == "first") is of_search["cardinal"]
     for count in ("pair_nodes", "joint_states"):
         assert getattr(said, count) == of_search[count]
+
+
+def test_disjoint_splits_prove_the_same_optima_with_fewer_nodes() -> None:
+    bounds, nodes = [], []
+    for disjoint in (True, False):
+        searches = [
+            ConflictBasedSearch(fleet.problem, disjoint=disjoint)
+            for fleet in (
+                random_fleet(seed, size=7, robots=6, rules=Rules(occupancy="both"))
+                for seed in (2, 4, 17, 26)
+            )
+        ]
+        for search in searches:
+            search.run(nodes=1000)
+        assert all(search.is_proven for search in searches)
+        bounds.append([search.bound for search in searches])
+        nodes.append(sum(search.n_nodes for search in searches))
+    assert bounds[0] == bounds[1]
+    assert nodes[0] < nodes[1]
