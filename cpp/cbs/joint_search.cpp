@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace rightofway {
 namespace {
@@ -19,7 +20,7 @@ SearchEnd JointSearch::run(std::span<const GroupMember> members, std::int64_t mo
     while (!open_.empty()) {
         const std::int32_t node = open_.pop().node;
         const Node& here = nodes_[index(node)];
-        if (here.cost > nodes_[index(here.first)].best) {
+        if (is_known(here.first, node, here.now, here.cost)) {
             continue;
         }
         bound_ = std::max(bound_, here.least);
@@ -62,6 +63,7 @@ void JointSearch::prepare(std::span<const GroupMember> members, const KnownPlan*
         robots_.emplace_back(problem_, closures_, rules_);
     }
     choices_.resize(std::max(choices_.size(), size_));
+    has_latest_ = false;
     Tick last = 0;
     Tick longest = 0;
     const auto note = [&](Tick tick) {
@@ -78,6 +80,7 @@ void JointSearch::prepare(std::span<const GroupMember> members, const KnownPlan*
             note(one.end);
         }
         robots_[k].prepare(members[k]);
+        has_latest_ = has_latest_ || is_finite(members[k].most);
         longest = std::max(longest, problem_.slowest_edge(members[k].robot));
     }
     rules_.horizon = last + longest + problem_.rules().headway + 1;
@@ -135,6 +138,17 @@ void JointSearch::start() {
     }
 }
 
+// Whether another node of a state makes one of this instant and cost useless.
+bool JointSearch::is_known(std::int32_t first, std::int32_t node, Tick now, Tick cost) const {
+    for (std::int32_t other = first; other != none; other = nodes_[index(other)].next) {
+        const Node& one = nodes_[index(other)];
+        if (other != node && one.cost <= cost && (!has_latest_ || one.now <= now)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 // Adds a node for the states `after_`, unless they are known at no greater cost.
 void JointSearch::reach(Tick now, Tick cost) {
     Tick least = cost;
@@ -163,13 +177,14 @@ void JointSearch::reach(Tick now, Tick cost) {
                std::equal(after_.begin(), after_.end(),
                           states_.begin() + static_cast<std::ptrdiff_t>(index(other) * size_));
     });
+    std::int32_t next = none;
     if (first != fresh) {
-        if (cost >= nodes_[index(first)].best) {
+        if (is_known(first, fresh, now, cost)) {
             return;
         }
-        nodes_[index(first)].best = cost;
+        next = std::exchange(nodes_[index(first)].next, fresh);
     }
-    nodes_.push_back({now, cost, least, node_, first, cost});
+    nodes_.push_back({now, cost, least, node_, first, next});
     states_.insert(states_.end(), after_.begin(), after_.end());
     for (const Choice& choice : chosen_) {
         edges_.push_back(choice.edge);

@@ -9,7 +9,8 @@
 //
 // A state is what each robot does and since when, counted from the instant of the state. Where
 // nothing closes or opens any more, the instant itself is no part of the state. So the states are
-// finite in number, and a search that runs out of states proves that there is no plan.
+// finite in number, and a search that runs out of states proves that there is no plan. Where robots
+// may not complete after some tick, a state at less cost is no better if it comes later.
 //
 // Where robots book ahead, a drive begins in a step. Else a robot is at one vertex until it is at
 // the next one, and it enters a vertex in a step, after the ticks of the drive.
@@ -86,7 +87,7 @@ class JointSearch {
         Tick least;  // of all plans from here
         std::int32_t parent;
         std::int32_t first;  // the first node of this state
-        Tick best;           // least cost of the nodes of this state; of the first node only
+        std::int32_t next;   // another node of this state
     };
 
     void prepare(std::span<const GroupMember> members, const KnownPlan* known);
@@ -99,6 +100,7 @@ class JointSearch {
     bool is_arrival_free() const;
     void step();
     void reach(Tick now, Tick cost);
+    bool is_known(std::int32_t first, std::int32_t node, Tick now, Tick cost) const;
     std::int32_t state_of(std::int32_t node, std::size_t k) const {
         return states_[index(node) * size_ + k];
     }
@@ -108,7 +110,8 @@ class JointSearch {
     StepRules rules_;
     std::deque<RobotStates> robots_;
     std::size_t size_ = 0;
-    Tick limit_ = never;  // nothing of this cost or more is looked for
+    Tick limit_ = never;       // nothing of this cost or more is looked for
+    bool has_latest_ = false;  // robots may not complete after some tick
     std::vector<Node> nodes_;
     std::vector<std::int32_t> states_;  // of all members, node after node
     std::vector<EdgeId> edges_;         // chosen in the step before the node

@@ -258,6 +258,30 @@ def test_the_least_makespan_is_proven(kind: str, seed: int) -> None:
         assert answer.makespan == least
 
 
+@law(st.sampled_from(["sizes", "three", "trips", "zones"]), seeds, st.integers(0, 30))
+def test_joint_states_have_the_least_cost_of_plans_that_end_by_a_tick(
+    kind: str, seed: int, later: int
+) -> None:
+    """A state at less cost may come too late for the last tick."""
+    scenario = KINDS[kind](seed)
+    alone = compute_least_completions(scenario)
+    if alone is None or any(ticks is None for ticks in alone):
+        leave("a robot has no way")
+    latest = max(int(ticks) for ticks in alone) + later
+    search = ConflictBasedSearch(scenario.problem, latest=latest)
+    ended, least = search.search_together(range(len(scenario.robots)), states=10_000)
+    if not ended:
+        leave("too many joint states")
+    assert least == joint_space.least_flowtime(scenario, latest)
+
+
+def test_a_joint_state_at_less_cost_may_come_too_late() -> None:
+    problem = KINDS["three"](241440).problem
+    for latest, cost in ((206, None), (210, 573), (222, 570)):
+        search = ConflictBasedSearch(problem, latest=latest)
+        assert search.search_together((0, 1, 2), states=10_000) == (True, cost)
+
+
 @law(any_fleet())
 def test_two_robots_lose_what_is_forced_in_any_plan(scenario: Scenario) -> None:
     completions = compute_completions(scenario, planned(scenario, "lns").tracks)
