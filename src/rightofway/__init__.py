@@ -113,7 +113,7 @@ if _TYPE_CHECKING:
         Theme,
     )
 
-__version__ = "0.1.0"
+__version__ = "1.0.0"
 
 _provided["figures"] = _PackageFigures()
 
