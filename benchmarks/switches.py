@@ -63,9 +63,9 @@ def trips(rows: Sequence[str], robots: int, seed: int, *, classic: bool = False)
     return deal(fleet_on(rows, draw, robots=robots, work=0), classic=classic)
 
 
-def round_trips(seed: int) -> Scenario:
-    """Return six robots that work and come home."""
-    return random_fleet(seed, size=7, robots=6, rules=Rules(occupancy="both"))
+def round_trips(robots: int, seed: int) -> Scenario:
+    """Return robots that work and come home."""
+    return random_fleet(seed, size=7, robots=robots, rules=Rules(occupancy="both"))
 
 
 def grids(name: str, robots: int, seed: int, *, classic: bool = False) -> Scenario:
@@ -74,7 +74,7 @@ def grids(name: str, robots: int, seed: int, *, classic: bool = False) -> Scenar
 
 
 SWITCHES = (
-    "", "clear=no", "bypass=no", "targets=no", "pairs=yes", "joint_states=0",
+    "", "clear=no", "bypass=no", "targets=no", "disjoint=no", "pairs=yes", "joint_states=0",
     "targets=no joint_states=0", "pair_nodes=0 joint_states=0", "cardinal=any",
 )  # fmt: skip
 
@@ -84,10 +84,11 @@ NODES_OF = (
 )
 FEW = Family("few robots", TINY["three"], 20)
 
-COLUMNS = ("", "pairs=yes", "pair_nodes=0", "targets=no")
+COLUMNS = ("", "disjoint=no", "pairs=yes", "pair_nodes=0", "targets=no")
 
 FAMILIES = (
-    Family("round trips, 7 x 7 cells, 6 robots", round_trips, 24),
+    Family("round trips, 7 x 7 cells, 6 robots", partial(round_trips, 6), 24),
+    Family("the same, 8 robots", partial(round_trips, 8), 12),
     Family("24 x 24 cells, 20 % walls, 30 robots", partial(grids, "24x20", 30), 6),
     Family("the same, classic", partial(grids, "24x20", 30, classic=True), 6),
     Family("hall, 14 x 14 cells, 5 % walls, 24 robots", partial(grids, "14x5", 24), 6),

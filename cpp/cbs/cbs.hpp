@@ -112,6 +112,7 @@ class ConflictTree {
     std::optional<TrackConflict> choose(Node& node, const StopCondition& is_over);
     std::optional<TrackConflict> split_pair(const Node& node, RobotId first, RobotId second,
                                             const StopCondition& is_over);
+    static void hold(Node& node, RobotId robot, SetId set);
     bool may_hold() const;
     const Constraint* held_in(const Node& node, const TrackConflict& conflict,
                               std::size_t side) const;

@@ -45,7 +45,7 @@ bool ConflictTree::split(Node& node, Tick upper, const StopCondition& is_over) {
     for (const auto& [robot, set] : changes) {
         if (std::optional<Node> one = child(node, robot, set, upper, is_over)) {
             if (held && held->first != robot) {
-                one->sets[index(held->first)] = held->second;
+                hold(*one, held->first, held->second);
             }
             children.push_back(std::move(*one));
         }
@@ -54,6 +54,19 @@ bool ConflictTree::split(Node& node, Tick upper, const StopCondition& is_over) {
         push(std::move(one), upper);
     }
     return changes.empty();
+}
+
+// Gives a robot that stays on its track another set; what its conflicts would cost is by its set.
+void ConflictTree::hold(Node& node, RobotId robot, SetId set) {
+    node.sets[index(robot)] = set;
+    for (TrackConflict& conflict : node.conflicts) {
+        for (std::size_t side = 0; side < 2; ++side) {
+            if (conflict.robot[side] == robot) {
+                conflict.loss[side] = -1;
+                conflict.set[side] = -1;
+            }
+        }
+    }
 }
 
 // Disjoint splitting, for points without headway: others book by edges or by the past, too.

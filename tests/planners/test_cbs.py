@@ -9,6 +9,7 @@ from inspect import signature
 import pytest
 
 import rightofway
+from benchmarks.proofs import fleet
 from rightofway.bench.fleets import make_scenario_document
 from rightofway.io import parse_scenario
 from rightofway.model import OutcomeKind, Plan, Rules, Scenario
@@ -107,3 +108,21 @@ def test_disjoint_splits_prove_the_same_optima_with_fewer_nodes() -> None:
         nodes.append(sum(search.n_nodes for search in searches))
     assert bounds[0] == bounds[1]
     assert nodes[0] < nodes[1]
+
+
+@pytest.mark.slow
+def test_a_robot_that_is_held_keeps_to_its_row_in_the_conflicts_that_it_has() -> None:
+    """Their sets of constraints were those without the hold: after 1280 nodes none was left."""
+    scenario = fleet(None, "14x5", 24, 3, classic=False)
+    search = ConflictBasedSearch(scenario.problem, pair_nodes=0)
+    search.run(nodes=1300)
+    assert search.n_nodes == 1300
+
+
+def test_a_search_that_has_ended_stays_as_it_is() -> None:
+    search = ConflictBasedSearch(random_fleet(2, size=7, robots=6).problem)
+    search.run()
+    ended = search.bound, search.tracks, search.n_nodes
+    assert search.is_proven
+    search.run()
+    assert (search.bound, search.tracks, search.n_nodes) == ended

@@ -105,6 +105,8 @@ class ConflictBasedSearch:
     ) -> None:
         """Search until a plan of least cost is found or known to be so, or a limit is reached.
 
+        A search that has proven its bound has ended: another call does nothing.
+
         Parameters
         ----------
         upper
@@ -116,6 +118,8 @@ class ConflictBasedSearch:
         time_limit
             When to stop [s].
         """
+        if self.is_proven:
+            return
         end, least = self._core.run(
             NEVER if upper is None else upper,
             NEVER if enough is None else enough,
