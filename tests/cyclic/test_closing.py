@@ -156,6 +156,14 @@ def test_a_closed_stretch_keeps_every_rule_across_the_seam(
         )
 
 
+def test_a_stretch_in_which_a_robot_makes_no_lap_cannot_be_closed() -> None:
+    run = long_run_of(random_fleet(22, size=4, robots=6, rules=RULES[2], apart=True))
+    assert run is not None
+    longest = run.context.longest
+    stretch = Stretch(begins=longest, period=4 * longest)
+    assert close_stretch(bind_problem(run), run, stretch) is None
+
+
 @law(long_runs())
 def test_the_value_of_a_stretch_is_a_bound(run: GroupResult) -> None:
     problem = bind_problem(run)

@@ -179,8 +179,13 @@ class _WindowClosing:
 
 
 def _cycle(lap: Lap, enter: Enters, period: int, *, early: bool) -> RobotCycle:
-    """Return a cycle; its stay at home begins with the last arrival, or else the first."""
+    """Return a cycle; its stay at home begins with the last arrival, or else the first.
+
+    Of a robot that makes no lap it is empty.
+    """
     visits = enter[:-1].copy()
+    if not len(visits):
+        return RobotCycle(lap, 0, visits)
     if early:
         visits[0] = enter[-1] - period
     return RobotCycle(lap, len(visits) // len(lap), visits - visits[0] // period * period)

@@ -151,7 +151,7 @@ def _read_text(path: Path) -> str:
 
     refuse_layout(path)
     text = read_text(path)
-    if text[:9].lower() == "<!doctype":
+    if text[:14].lower() == "<!doctype html":
         message = "this is a page (give the scenario or the plan that it was made of)"
         raise InputError.at("", message)
     return text
