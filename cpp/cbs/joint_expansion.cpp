@@ -103,11 +103,13 @@ bool JointSearch::is_circle_forbidden() const {
     return false;
 }
 
-// Whether robots that drive without booking ahead may arrive, as the others go on.
+// Whether robots that drive without booking ahead may arrive, as the others go on: the last one
+// may come to what another robot has left and books for a headway more.
 bool JointSearch::is_arrival_free() const {
     for (std::size_t k = 0; k < size_; ++k) {
-        for (std::size_t other = 0; other < k && entered_[k] >= 0; ++other) {
-            if (exclude(problem_, robots_[other].facts(after_[other]).rows,
+        for (std::size_t other = 0; other < k; ++other) {
+            if ((entered_[k] >= 0 || entered_[other] >= 0) &&
+                exclude(problem_, robots_[other].facts(after_[other]).rows,
                         robots_[k].facts(after_[k]).rows)) {
                 return false;
             }
