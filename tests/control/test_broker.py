@@ -12,8 +12,10 @@ import subprocess
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
+from typing import Any
 from urllib.request import urlopen
 
+import aiomqtt
 import pytest
 
 from rightofway.control.broker import PASSWORD, Broker
@@ -188,6 +190,33 @@ def test_robots_say_that_there_is_no_broker_and_when_all_are_there(broker: Mosqu
 
     assert "refused" in asyncio.run(begin(nowhere))
     assert asyncio.run(begin(Broker.of(broker.url))) == "all are there"
+
+
+def test_a_task_that_is_cancelled_ends_though_its_connection_fails_as_it_is_closed(
+    broker: Mosquitto, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whoever connects again after each failure of a connection would else never end."""
+    closes = aiomqtt.Client.__aexit__
+
+    async def fails(client: aiomqtt.Client, *error: Any) -> None:
+        await closes(client, *error)
+        raise aiomqtt.MqttError("Operation timed out")
+
+    monkeypatch.setattr(aiomqtt.Client, "__aexit__", fails)
+    plan = door()
+    identities = make_simulated_identities([robot.name for robot in plan.scenario.robots])
+
+    async def everything() -> None:
+        up = asyncio.Event()
+        task = asyncio.create_task(
+            run_robots(plan, identities, Broker.of(broker.url), is_up=up.set)
+        )
+        await asyncio.wait_for(up.wait(), 60)
+        task.cancel()
+        _, left = await asyncio.wait([task], timeout=60)
+        assert not left
+
+    asyncio.run(everything())
 
 
 def test_a_password_comes_from_the_environment(tmp_path: Path) -> None:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 import secrets
 import ssl
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from importlib.util import find_spec
 from pathlib import Path
@@ -17,7 +20,7 @@ from rightofway.errors import InputError, quote
 if TYPE_CHECKING:
     import aiomqtt
 
-__all__ = ["Broker"]
+__all__ = ["Broker", "check_cancellation"]
 
 PASSWORD = "RIGHTOFWAY_BROKER_PASSWORD"  # noqa: S105 (the name of a variable)
 """The environment variable with the password."""
@@ -105,8 +108,13 @@ class Broker:
         """Where it is, in short."""
         return f"{self.host}:{self.port}"
 
-    def open_client(self, name: str, will: Letter | None = None) -> aiomqtt.Client:
-        """Return a connection: nothing is kept for it when it is gone.
+    @asynccontextmanager
+    async def open_client(
+        self, name: str, will: Letter | None = None
+    ) -> AsyncIterator[aiomqtt.Client]:
+        """Open a connection: nothing is kept for it when it is gone.
+
+        A task that is cancelled ends, even where the connection fails as it is closed.
 
         Parameters
         ----------
@@ -130,7 +138,29 @@ class Broker:
             will=None if will is None else aiomqtt.Will(will.topic, will.payload, 1, retain=True),
         )
         client.pending_calls_threshold = MANY
-        return client
+        try:
+            async with client:
+                yield client
+        except (aiomqtt.MqttError, BaseExceptionGroup):
+            check_cancellation()
+            raise
+
+
+def check_cancellation() -> None:
+    """End the task at hand if it was cancelled, whatever has become of that since.
+
+    `asyncio.wait_for`, by which aiomqtt waits, loses a cancellation in Python 3.11 where what it
+    waits for ends at the same time; and an error of a connection that is closed takes its place.
+    Whoever sends again, or connects again, would then go on for ever.
+
+    Raises
+    ------
+    asyncio.CancelledError
+        If the task was cancelled.
+    """
+    task = asyncio.current_task()
+    if task is not None and task.cancelling():
+        raise asyncio.CancelledError
 
 
 def _tls(ca_file: str | None) -> ssl.SSLContext:

@@ -14,7 +14,7 @@ import time
 from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from rightofway.control.broker import Broker
+from rightofway.control.broker import Broker, check_cancellation
 from rightofway.control.commands import Answer, Commands, say_answer
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.endpoints import ControlEnd, Letter, make_timestamp
@@ -189,6 +189,7 @@ class Driver:
         await client.subscribe(
             [(topic, int(topic.endswith("/connection"))) for topic in self.end.topics]
         )
+        check_cancellation()
         self._heard = [time.monotonic()] * len(self._heard)
         async with asyncio.TaskGroup() as tasks:
             reader = tasks.create_task(self._read(client))
@@ -265,6 +266,7 @@ class Driver:
         await asyncio.gather(
             *(client.publish(letter.topic, letter.payload, qos=0) for letter in sent)
         )
+        check_cancellation()
         for happening in self._story.go_on():
             self._report(happening.text)
         if self._metrics is not None:

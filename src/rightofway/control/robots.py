@@ -15,7 +15,7 @@ from dataclasses import dataclass, field, replace
 from socket import SHUT_RDWR
 from typing import TYPE_CHECKING, Any
 
-from rightofway.control.broker import Broker
+from rightofway.control.broker import Broker, check_cancellation
 from rightofway.control.endpoints import Letter, RobotEnd, make_timestamp
 from rightofway.control.identities import Identity
 from rightofway.control.messages import Condition, RobotError
@@ -240,6 +240,7 @@ def _ignore_cut_cables(loop: asyncio.AbstractEventLoop, context: dict[str, Any])
 async def _publish(client: aiomqtt.Client, letter: Letter) -> None:
     is_kept = letter.name == "connection"
     await client.publish(letter.topic, letter.payload, qos=int(is_kept), retain=is_kept)
+    check_cancellation()
 
 
 def _works(plan: Plan, number: int) -> dict[str, float]:
