@@ -195,7 +195,7 @@ def test_robots_say_that_there_is_no_broker_and_when_all_are_there(broker: Mosqu
 def test_a_task_that_is_cancelled_ends_though_its_connection_fails_as_it_is_closed(
     broker: Mosquitto, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Whoever connects again after each failure of a connection would else never end."""
+    """A loop that connects again after each failure of a connection would else never end."""
     closes = aiomqtt.Client.__aexit__
 
     async def fails(client: aiomqtt.Client, *error: Any) -> None:

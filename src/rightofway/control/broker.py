@@ -151,7 +151,7 @@ def check_cancellation() -> None:
 
     `asyncio.wait_for`, by which aiomqtt waits, loses a cancellation in Python 3.11 where what it
     waits for ends at the same time; and an error of a connection that is closed takes its place.
-    Whoever sends again, or connects again, would then go on for ever.
+    A loop that sends or connects again would then go on for ever.
 
     Raises
     ------
