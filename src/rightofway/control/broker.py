@@ -153,6 +153,9 @@ def check_cancellation() -> None:
     waits for ends at the same time; and an error of a connection that is closed takes its place.
     A loop that sends or connects again would then go on for ever.
 
+    In Python 3.11 and 3.12 a task also counts as cancelled after it has left a task group of which
+    a task failed while the group waited for its end: let the body of the group do what lasts.
+
     Raises
     ------
     asyncio.CancelledError

@@ -179,8 +179,8 @@ class _NetworkRobot:
                     await _publish(client, self.end.report_connection("ONLINE"))
                     arrivals.note(self.identity.serial_number)
                     async with asyncio.TaskGroup() as tasks:
-                        tasks.create_task(self.listen(client))
                         tasks.create_task(self.speak(client))
+                        await self.listen(client)
             except* aiomqtt.MqttError as errors:
                 self.client = None
                 arrivals.note_failure(self.identity.serial_number, errors.exceptions[0])
