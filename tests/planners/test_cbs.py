@@ -119,6 +119,27 @@ def test_a_robot_that_is_held_keeps_to_its_row_in_the_conflicts_that_it_has() ->
     assert search.n_nodes == 1300
 
 
+def test_a_robot_that_comes_home_last_keeps_the_headway_behind_the_robot_that_left() -> None:
+    """Of two plans with the least flowtime, that with fewer actions was against the rules."""
+    vertices = {"left": [0, 0], "middle": ["23/4", 0], "right": ["43/4", 0]}
+    robots = [
+        {"name": "R1", "home": "middle", "target": "left", "work": 2, "speed": 1},
+        {"name": "R2", "home": "right", "target": "middle", "work": 3, "speed": 1},
+    ]
+    edges = [{"from": "left", "to": "middle"}, {"from": "middle", "to": "right"}]
+    scenario = parse_scenario(
+        {
+            "format": "rightofway-scenario/1",
+            "map": {"roadmap": {"vertices": vertices, "edges": edges}},
+            "robots": robots,
+            "rules": {"occupancy": "one", "headway": 1},
+        }
+    )
+    plan = rightofway.solve(scenario, "cbs", time_limit=None)
+    assert plan.run.outcome.kind is OutcomeKind.OPTIMAL
+    assert rightofway.check(plan).ok
+
+
 def test_a_search_that_has_ended_stays_as_it_is() -> None:
     search = ConflictBasedSearch(random_fleet(2, size=7, robots=6).problem)
     search.run()
