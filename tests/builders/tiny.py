@@ -8,13 +8,15 @@ from dataclasses import replace
 from fractions import Fraction
 from math import ceil
 
+import numpy as np
+
 from rightofway.model import Robot, Rules, Scenario, Stop
 from rightofway.site import VertexId, make_grid_roadmap
 from tests.builders.closures import with_closures
 from tests.builders.sizes import crowded_roadmap, has_room, tiny, zoned
 from tests.oracles import joint_space, turning
 
-__all__ = ["KINDS", "least_flowtime"]
+__all__ = ["KINDS", "least_cost"]
 
 
 def closed(seed: int) -> Scenario:
@@ -103,6 +105,18 @@ def trips(seed: int) -> Scenario:
     return Scenario(roadmap=make_grid_roadmap(lines), robots=fleet, rules=rules)
 
 
+def charged(seed: int) -> Scenario:
+    """Return a fleet of `trips` in which some edges have surcharges."""
+    draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+    fleet = trips(seed)
+    plain = fleet.roadmap.edge_classes[0]
+    classes = [replace(plain, surcharge=Fraction(surcharge)) for surcharge in (0, 1, 4)]
+    edges = range(len(fleet.roadmap.heads))
+    class_of_edge = np.array([draw.choice([0, 0, 0, 1, 2]) for _ in edges], np.int32)
+    roadmap = replace(fleet.roadmap, edge_classes=tuple(classes), class_of_edge=class_of_edge)
+    return replace(fleet, roadmap=roadmap)
+
+
 KINDS: dict[str, Callable[[int], Scenario]] = {
     "sizes": tiny,
     "three": three,
@@ -110,12 +124,13 @@ KINDS: dict[str, Callable[[int], Scenario]] = {
     "closures": closed,
     "turning": turning_fleet,
     "trips": trips,
+    "surcharges": charged,
 }
 """Tiny fleets by seed; those that turn are one way trips without work, as their oracle knows."""
 
 
-def least_flowtime(kind: str, scenario: Scenario) -> int | None:
-    """Return the least sum of completions [ticks] by search over joint states, None for no plan."""
+def least_cost(kind: str, scenario: Scenario) -> int | None:
+    """Return the least cost [ticks] by a search over joint states, None where there is no plan."""
     if kind == "turning":
         return turning.least_flowtime(scenario)
     return joint_space.least_flowtime(scenario)

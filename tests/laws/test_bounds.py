@@ -13,7 +13,7 @@ from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import STRICT, planned
 from tests.builders.fleets import random_fleet
 from tests.builders.laws import law, leave
-from tests.builders.tiny import KINDS, least_flowtime
+from tests.builders.tiny import KINDS, least_cost
 
 kinds, seeds = st.sampled_from(sorted(KINDS)), st.integers(0, 10**6)
 
@@ -24,7 +24,7 @@ def test_no_prices_bound_a_tiny_fleet_above_its_optimum(kind: str, seed: int, st
     alone = compute_least_completions(scenario)
     if alone is None or alone.min() < 0:
         leave("a robot cannot reach its places")
-    least = least_flowtime(kind, scenario)
+    least = least_cost(kind, scenario)
     if least is None:
         leave("no plan exists")
     prices = PriceAscent(scenario.problem)

@@ -21,21 +21,24 @@ from rightofway.model import (
     Plan,
     PlannerRun,
     Scenario,
-    compute_completions,
     compute_cost,
 )
 from rightofway.model.outcome import choose_objective
+from rightofway.model.stays import compute_costs
 from rightofway.planners.bounds import prove_bound
 from rightofway.planners.impossible import make_fleet_of
 from rightofway.search import (
+    Bookings,
     ConflictBasedSearch,
+    Distances,
     compute_least_completions,
+    find_earliest_track,
     find_fewest_actions,
 )
 from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import planned
 from tests.builders.laws import law, leave, once
-from tests.builders.tiny import KINDS, least_flowtime
+from tests.builders.tiny import KINDS, least_cost
 from tests.oracles import joint_space
 
 kinds, seeds = st.sampled_from(sorted(KINDS)), st.integers(0, 10**6)
@@ -55,7 +58,7 @@ switches = st.fixed_dictionaries(
 PARTS = 1000
 """Of a tick, of which a wait or a drive counts as one."""
 
-UNKNOWN = {"barred", "laps", "limits", "spacing", "surcharges", "turn rates"}
+UNKNOWN = {"barred", "laps", "limits", "spacing", "turn rates"}
 """What the oracle does not know, or what makes trips too long for it."""
 
 LONGEST = 24
@@ -93,7 +96,7 @@ def test_a_tree_finds_the_optimum_and_its_bound_is_never_above_it(
 ) -> None:
     scenario = KINDS[kind](seed)
     search = _search(scenario, **options)
-    least = least_flowtime(kind, scenario)
+    least = least_cost(kind, scenario)
     search.run(nodes=NODES)
     if least is None:
         assert search.tracks is None
@@ -103,7 +106,7 @@ def test_a_tree_finds_the_optimum_and_its_bound_is_never_above_it(
     if search.tracks is not None:
         plan = Plan(scenario=scenario, tracks=search.tracks, run=PlannerRun(name="cbs"))
         assert check(plan).ok
-        assert plan.flowtime == search.bound == least
+        assert compute_cost(scenario, plan.tracks) == search.bound == least
 
 
 @law(kinds, seeds)
@@ -113,7 +116,7 @@ def test_a_search_over_joint_states_finds_the_optimum_or_proves_that_there_is_no
 ) -> None:
     scenario = KINDS[kind](seed)
     search = _search(scenario)
-    least = least_flowtime(kind, scenario)
+    least = least_cost(kind, scenario)
     is_solved, together = search.search_together(range(len(scenario.robots)), states=10_000)
     assert together == least if is_solved else least is None or (together or 0) <= least
 
@@ -149,7 +152,7 @@ def test_of_the_plans_of_least_cost_that_with_the_fewest_actions_is_taken(
     assert _count_actions(plan) == _count_actions(answer)
     least = joint_space.least_flowtime(scenario, parts=PARTS)
     assert least is not None
-    assert least // PARTS == answer.flowtime
+    assert least // PARTS == compute_cost(scenario, answer.tracks)
     assert not is_proven or _count_actions(answer) == least % PARTS
 
 
@@ -166,7 +169,7 @@ def test_a_plan_with_fewer_actions_keeps_the_rules_and_costs_no_more(scenario: S
 @law(kinds, seeds)
 def test_among_plans_below_a_known_one_none_is_missed(kind: str, seed: int) -> None:
     scenario = KINDS[kind](seed)
-    least = least_flowtime(kind, scenario)
+    least = least_cost(kind, scenario)
     if least is None:
         leave("no plan exists")
     for above, pair_nodes in product((0, 1), (0, 100)):
@@ -180,7 +183,7 @@ def test_among_plans_below_a_known_one_none_is_missed(kind: str, seed: int) -> N
 @law(kinds, seeds, st.sampled_from([Fraction(21, 20), Fraction(6, 5), Fraction(2)]))
 def test_a_bounded_plan_keeps_its_factor(kind: str, seed: int, factor: Fraction) -> None:
     scenario = KINDS[kind](seed)
-    least = least_flowtime(kind, scenario)
+    least = least_cost(kind, scenario)
     answer = _answer(scenario, {"suboptimality": factor, "nodes": NODES})
     if isinstance(answer, NoPlanExists):
         assert least is None
@@ -193,9 +196,10 @@ def test_a_bounded_plan_keeps_its_factor(kind: str, seed: int, factor: Fraction)
     outcome = plan.run.outcome
     assert outcome is not None
     assert outcome.bound is not None
-    assert outcome.bound <= least <= plan.flowtime
+    cost = compute_cost(scenario, plan.tracks)
+    assert outcome.bound <= least <= cost
     if outcome.kind is not OutcomeKind.BEST_FOUND:
-        assert plan.flowtime <= factor * least
+        assert cost <= factor * least
 
 
 @law(kinds, seeds, st.sampled_from([Fraction(51, 50), Fraction(6, 5), Fraction(3)]), switches)
@@ -204,7 +208,7 @@ def test_a_focal_search_finds_a_plan_within_its_factor_of_a_bound_that_holds(
 ) -> None:
     scenario = KINDS[kind](seed)
     search = _search(scenario, factor=factor, **options)
-    least = least_flowtime(kind, scenario)
+    least = least_cost(kind, scenario)
     search.run(nodes=NODES)
     if least is None:
         assert search.tracks is None
@@ -216,7 +220,7 @@ def test_a_focal_search_finds_a_plan_within_its_factor_of_a_bound_that_holds(
         return
     plan = Plan(scenario=scenario, tracks=search.tracks, run=PlannerRun(name="cbs"))
     assert check(plan).ok
-    assert least <= plan.flowtime <= factor * search.bound
+    assert least <= compute_cost(scenario, plan.tracks) <= factor * search.bound
 
 
 @law(seeds)
@@ -227,7 +231,7 @@ def test_robots_count_by_their_weights(seed: int) -> None:
         for k, robot in enumerate(fleet.robots)
     )
     scenario = replace(fleet, robots=robots)
-    least = least_flowtime("trips", scenario)
+    least = least_cost("trips", scenario)
     answer = _answer(scenario, {"nodes": NODES})
     if not isinstance(answer, Plan):
         leave("no plan")
@@ -283,12 +287,13 @@ def test_a_joint_state_at_less_cost_may_come_too_late() -> None:
 
 @law(any_fleet())
 def test_two_robots_lose_what_is_forced_in_any_plan(scenario: Scenario) -> None:
-    completions = compute_completions(scenario, planned(scenario, "lns").tracks)
-    alone = compute_alone_completions(scenario)
+    costs = compute_costs(scenario, planned(scenario, "lns").tracks)
+    bookings, distances = Bookings(scenario.problem), Distances(scenario.roadmap)
+    tracks = [find_earliest_track(robot, bookings, distances) for robot in range(len(costs))]
+    alone = compute_costs(scenario, [track for track in tracks if track is not None])
     weights = [itinerary.weight for itinerary in scenario.problem.itineraries]
     lost = [
-        weight * (completion - least)
-        for weight, completion, least in zip(weights, completions, alone, strict=True)
+        weight * (cost - least) for weight, cost, least in zip(weights, costs, alone, strict=True)
     ]
     for loss in find_forced_losses(scenario):
         assert sum(lost[robot] for robot in loss.robots) >= loss.ticks > 0
@@ -313,7 +318,7 @@ def _prove_alone(scenario: Scenario, robots: tuple[int, ...]) -> int:
 
 @law(any_fleet(robots=(2, 3), without=UNKNOWN, joined=True, tiny=True))
 def test_what_robots_lose_is_forced_by_their_joint_states_alone(scenario: Scenario) -> None:
-    """By weight, where robots have weights."""
+    """By weight, where robots have weights, and with surcharges, where edges have some."""
     _plan_soon(scenario)
     for loss in find_forced_losses(scenario):
         assert loss.objective is choose_objective(scenario)
@@ -321,7 +326,7 @@ def test_what_robots_lose_is_forced_by_their_joint_states_alone(scenario: Scenar
         assert _prove_alone(scenario, loss.robots) - alone >= loss.ticks > 0
 
 
-@law(any_fleet(robots=(2, 3), without={*UNKNOWN, "closures"}, joined=True, tiny=True))
+@law(any_fleet(robots=(2, 3), without={*UNKNOWN, "closures", "surcharges"}, joined=True, tiny=True))
 def test_before_a_forced_makespan_not_all_of_its_robots_can_have_completed(
     scenario: Scenario,
 ) -> None:

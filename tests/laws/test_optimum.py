@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 
 from rightofway import OutcomeKind, check, solve
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.model import Scenario
+from rightofway.model import Scenario, compute_cost
 from tests.builders.any_plan import QUICK, STRICT, knows
 from tests.builders.laws import law, leave
-from tests.builders.tiny import KINDS, least_flowtime
+from tests.builders.tiny import KINDS, least_cost
 
 kinds, seeds = st.sampled_from(sorted(KINDS)), st.integers(0, 10**6)
 
@@ -28,7 +28,7 @@ def test_no_plan_is_below_the_optimum_and_what_a_planner_proves_is_true(
     scenario = KINDS[kind](seed)
     if not knows(planner, scenario):
         leave("the planner does not know such fleets")
-    least = least_flowtime(kind, scenario)
+    least = least_cost(kind, scenario)
     try:
         plan = solve(scenario, planner, options=QUICK.get(planner), time_limit=None)
     except NoPlanExists:
@@ -38,20 +38,21 @@ def test_no_plan_is_below_the_optimum_and_what_a_planner_proves_is_true(
         leave("the planner gave up")
     assert check(plan).ok
     assert least is not None
-    assert plan.lower_bound <= least <= plan.flowtime
+    cost = compute_cost(scenario, plan.tracks)
+    assert plan.lower_bound <= least <= cost
     outcome = plan.run.outcome
     assert outcome is not None
     assert outcome.bound is not None
     assert plan.lower_bound <= outcome.bound <= least
     if PROVEN in plan.run.status or outcome.kind is OutcomeKind.OPTIMAL:
-        assert plan.flowtime == least
+        assert cost == least
 
 
 @law(st.integers(0, 10**6))
 def test_without_its_closures_a_fleet_is_at_least_as_quick(seed: int) -> None:
     scenario = KINDS["closures"](seed)
-    free = least_flowtime("closures", replace(scenario, closures=()))
-    among = least_flowtime("closures", scenario)
+    free = least_cost("closures", replace(scenario, closures=()))
+    among = least_cost("closures", scenario)
     assert among is None or (free is not None and free <= among)
 
 
@@ -69,8 +70,8 @@ def test_auto_proves_the_optimum_of_tiny_fleets(kind: str, seed: int) -> None:
 
 
 def _is_optimum_proven(kind: str, scenario: Scenario) -> bool:
-    """Compare what auto proves with the least flowtime; whether it is the optimum, or no plan."""
-    least = least_flowtime(kind, scenario)
+    """Compare what auto proves with the least cost; whether it is the optimum, or no plan."""
+    least = least_cost(kind, scenario)
     try:
         plan = solve(scenario, options={"iterations": 50}, time_limit=None)
     except NoPlanExists:
@@ -82,5 +83,5 @@ def _is_optimum_proven(kind: str, scenario: Scenario) -> bool:
     assert outcome is not None
     assert outcome.bound is not None
     assert least is not None
-    assert outcome.bound <= least <= plan.flowtime
+    assert outcome.bound <= least <= compute_cost(scenario, plan.tracks)
     return outcome.kind is OutcomeKind.OPTIMAL

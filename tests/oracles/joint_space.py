@@ -1,4 +1,4 @@
-"""The least flowtime of a few robots: a search over where all of them are.
+"""The least cost of a few robots: a search over where all of them are.
 
 In each tick a robot stands, serves a stop, drives or is done for ever; what it books in that tick,
 and what it has left less than the headway ago, must not exclude what any other robot books, and
@@ -77,6 +77,11 @@ class _Fleet:
             other = tuple(shape for shape in other if len(shape) == 1)
         return any(self.excludes(i, x, j, y) for x, y in product(one, other))
 
+    def surcharge(self, robot: int, edge: int) -> int:
+        """Return what an edge costs beside the time [ticks]."""
+        by_class = self.scenario.problem.itineraries[robot].surcharges
+        return int(by_class[self.scenario.roadmap.class_of_edge[edge]]) if by_class else 0
+
     def costs_alone(self, robot: int) -> dict[State, int]:
         """Return what a robot alone still costs in each state it can come to, without closures."""
         start = State(self.scenario.problem.itineraries[robot].home)
@@ -146,12 +151,14 @@ class _Fleet:
             counts = self.parts > 1
             yield state._replace(waits=counts), here, self.parts + (counts and not state.waits)
             first, end = roadmap.indptr[state.vertex : state.vertex + 2].tolist()
-            for head in roadmap.heads[first:end].tolist():
+            for lane in range(first, end):
+                head = int(roadmap.heads[lane])
                 ticks = int(drive(self.scenario, robot, state.vertex, head))
+                paid = counts + self.surcharge(robot, lane) * self.parts
                 for after, booked, cost in self._moves(
                     robot, state._replace(head=head, left=ticks)
                 ):
-                    yield after, booked, cost + counts
+                    yield after, booked, cost + paid
 
 
 def costs_to_go(start: S, actions: Callable[[S], Iterable[tuple[S, Any, int]]]) -> dict[S, int]:
@@ -188,9 +195,10 @@ def least_flowtime(
     below: float = math.inf,
     parts: int = 1,
 ) -> int | None:
-    """Return the least sum of completions by weight [ticks], None where there is no plan.
+    """Return the least sum of completions and surcharges by weight [ticks], None for no plan.
 
-    With ``latest``, of the plans that are complete at that tick; None if it is not ``below``.
+    With ``latest``, of the plans that are complete at that tick, only without surcharges; None if
+    it is not ``below``.
     With ``parts``, each tick counts so many, and each drive and wait one: a wait is a visit that
     lasts longer than what the robot does there. Joint states in the order of what they cost and
     what each robot alone would cost from there.

@@ -136,7 +136,9 @@ def test_a_robot_that_comes_home_last_keeps_the_headway_behind_the_robot_that_le
         }
     )
     plan = rightofway.solve(scenario, "cbs", time_limit=None)
-    assert plan.run.outcome.kind is OutcomeKind.OPTIMAL
+    outcome = plan.run.outcome
+    assert outcome is not None
+    assert outcome.kind is OutcomeKind.OPTIMAL
     assert rightofway.check(plan).ok
 
 

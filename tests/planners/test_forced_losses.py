@@ -94,6 +94,21 @@ def test_robots_with_weights_lose_time_by_weight() -> None:
     ]
 
 
+def test_robots_lose_time_or_surcharges_in_every_plan() -> None:
+    """Each edge costs 2 beside its time: a tick of waiting is cheaper than any way round."""
+    roadmap = DOOR.roadmap
+    dear = tuple(replace(each, surcharge=Fraction(2)) for each in roadmap.edge_classes)
+    scenario = replace(DOOR, roadmap=replace(roadmap, edge_classes=dear))
+    plan = rightofway.solve(scenario, "cbs", time_limit=None)
+    loss = ForcedLoss(robots=(0, 1), ticks=Tick(1), vertex=VertexId(1), objective=Objective.COST)
+    assert plan.run.forced_losses == (loss,)
+    assert lines_of(plan)[-2:] == [
+        "In every plan, R1 and R2 lose at least 1 time unit with surcharges to each",
+        "    other: alone they would meet in N1.",
+    ]
+    assert parse_plan(dump_plan(plan)).run.forced_losses == (loss,)
+
+
 @pytest.mark.parametrize("planner", ["auto", "cbs"])
 def test_the_least_makespan_is_forced_by_the_robots_that_need_as_long(planner: str) -> None:
     """Alone both would be home at tick 9, and in N1 at tick 1, so one of them is home at 10."""

@@ -18,6 +18,7 @@ from rightofway.model import (
     require_time_limit,
 )
 from rightofway.model.outcome import ForcedLoss, choose_objective
+from rightofway.model.stays import compute_costs
 from rightofway.search import Bookings, ConflictBasedSearch, Distances, find_earliest_track
 from rightofway.site import VertexId
 
@@ -61,8 +62,8 @@ def find_forced_losses(
     -------
     tuple of ForcedLoss
         Pairs, and groups of up to four robots that lose more than their pairs explain; by weight
-        where robots have weights. None of robots that lose nothing, nor where costs have
-        surcharges.
+        where robots have weights, and with the surcharges of edges. None of robots that lose
+        nothing.
 
     Notes
     -----
@@ -70,13 +71,12 @@ def find_forced_losses(
     add up. Deterministic without a time limit.
     """
     deadline = Deadline.after(require_time_limit(time_limit))
-    tracks = None if scenario.roadmap.has_surcharges else _alone(scenario)
+    tracks = _alone(scenario)
     if tracks is None:
         return ()
     search, objective = ConflictBasedSearch(scenario.problem), choose_objective(scenario)
-    completions = compute_completions(scenario, tracks)
-    both = zip(scenario.problem.itineraries, completions, strict=True)
-    alone = [itinerary.weight * completion for itinerary, completion in both]
+    both = zip(scenario.problem.itineraries, compute_costs(scenario, tracks), strict=True)
+    alone = [itinerary.weight * cost for itinerary, cost in both]
 
     def measure_loss(robots: Robots) -> Tick:
         """Return what robots lose at least, alone on the roads [ticks]; 0 where time is up."""
@@ -128,7 +128,8 @@ def find_forced_makespan(
     -------
     tuple of ForcedLoss
         The robots that need as long alone; else the pairs that do, else groups of three, else of
-        four. None where that is not proven, nor where costs have surcharges.
+        four. None where that is not proven, nor where edges have surcharges: the makespan leaves
+        those out, and best tracks do not.
 
     Notes
     -----
@@ -207,7 +208,7 @@ def _sum_of_disjoint(pairs: Mapping[Robots, ForcedLoss]) -> int:
 
 
 def _alone(scenario: Scenario) -> list[Track] | None:
-    """Return the best track of each robot alone; None if one has none."""
+    """Return the track of least cost of each robot alone; None if one has none."""
     distances, tracks = Distances(scenario.roadmap), []
     for robot in range(len(scenario.robots)):
         track = find_earliest_track(robot, Bookings(scenario.problem), distances)

@@ -157,13 +157,14 @@ class ForcedLoss:
     robots
         By index, the smaller first: two or more, of the makespan also one.
     ticks
-        What they lose together in every plan, at least; of the weighted flowtime as often as their
-        weights say. Of the makespan, before which tick not all of them can have completed [ticks].
+        What they lose together in every plan, at least, of time and of surcharges; of the weighted
+        flowtime as often as their weights say. Of the makespan, before which tick not all of them
+        can have completed [ticks].
     vertex
         Where the first two of them that meet would meet, each on its best track alone; of one
         robot, its last stop.
     objective
-        What is lost: `FLOWTIME`, `WEIGHTED` or `MAKESPAN`.
+        What is lost: `FLOWTIME`, `COST`, `WEIGHTED` or `MAKESPAN`.
     """
 
     robots: tuple[int, ...]

@@ -179,7 +179,12 @@ def describe_forced_loss(
 
 def _lost_time(loss: ForcedLoss, quantities: Quantities) -> str:
     time = quantities.format_duration(loss.ticks)
-    return Phrase("{time} by weight", time=time) if loss.objective is Objective.WEIGHTED else time
+    match loss.objective:
+        case Objective.WEIGHTED:
+            return Phrase("{time} by weight", time=time)
+        case Objective.COST:
+            return Phrase("{time} with surcharges", time=time)
+    return time
 
 
 def describe_improvement(improvement: Improvement, quantities: Quantities) -> Phrase:

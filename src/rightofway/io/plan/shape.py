@@ -94,8 +94,12 @@ class ForcedLossDocument(Document):
         description="the name of the vertex where two of them would meet; of one robot, its last"
         " stop"
     )
-    objective: Literal["flowtime", "weighted flowtime", "makespan"] = Field(
-        default="flowtime", description="what is lost: flowtime, weighted flowtime, or makespan"
+    objective: Literal["flowtime", "flowtime and surcharges", "weighted flowtime", "makespan"] = (
+        Field(
+            default="flowtime",
+            description="what is lost: flowtime, flowtime and surcharges, weighted flowtime, or"
+            " makespan",
+        )
     )
 
 
