@@ -26,7 +26,6 @@ from rightofway.arguments import checks_arguments, require_one_for_each
 from rightofway.model import BookingRules, Problem, Route, Tick, Track, make_route
 from rightofway.native import BookedRows, ClosedPlaces, bind_closures, bind_rows, bind_rules
 from rightofway.precedence.segments import (
-    IncompatiblePair,
     LinkedSegments,
     Segment,
     find_shared_segment,
@@ -242,10 +241,9 @@ class PrecedenceGraph:
     def _segments_of(self, i: int, j: int) -> LinkedSegments:
         """Return the segments of two robots, by the indices of the visits in them."""
         if (i, j) not in self._segments:
-            begin_i, begin_j = self.get_visit(i, 0), self.get_visit(j, 0)
-            indices = self._kernel.incompatible(i, j) - [begin_i, begin_j, begin_i, begin_j]
-            pairs = map(IncompatiblePair._make, indices.tolist())
-            self._segments[i, j] = LinkedSegments(self.routes[i], self.routes[j], pairs)
+            begins = np.array([self.get_visit(i, 0), self.get_visit(j, 0)] * 2, np.int32)
+            indices = self._kernel.incompatible(i, j) - begins
+            self._segments[i, j] = LinkedSegments(self.routes[i], self.routes[j], indices)
         return self._segments[i, j]
 
     def checkpoint(self) -> int:

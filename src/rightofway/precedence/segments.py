@@ -20,6 +20,9 @@ from dataclasses import dataclass
 from operator import mul, neg
 from typing import Literal, NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from rightofway.model import Route
 from rightofway.site import VertexId
 
@@ -117,27 +120,33 @@ def _implying(waits: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
 class LinkedSegments:
     """The segments of two robots, each linked when it is first asked for.
 
-    A graph asks for few of them: most pairs of visits of a plan are never in conflict.
+    A graph asks for few of them: most pairs of visits of a plan are never in conflict. So the pairs
+    stay the rows of an array, shape (n, 4), in the order of an `IncompatiblePair`.
     """
 
-    def __init__(self, first: Route, other: Route, pairs: Iterable[IncompatiblePair]) -> None:
+    def __init__(self, first: Route, other: Route, pairs: NDArray[np.int32]) -> None:
         self._first, self._other = first, other
-        self._pairs = {(pair.i, pair.j): pair for pair in pairs}
+        self._pairs = pairs
+        visits = zip(pairs[:, 0].tolist(), pairs[:, 1].tolist(), strict=True)
+        self._rows = {visit: row for row, visit in enumerate(visits)}
         self._segments: dict[tuple[int, int], Segment] = {}
 
     def find(self, i: int, j: int) -> Segment | None:
         """Return the segment of two visits, None where they do not exclude each other."""
         segment = self._segments.get((i, j))
-        if segment is None and (pair := self._pairs.get((i, j))) is not None:
-            segment = self._link(pair)
+        if segment is None and (i, j) in self._rows:
+            segment = self._link(self._pair(i, j))
         return segment
 
+    def _pair(self, i: int, j: int) -> IncompatiblePair:
+        return IncompatiblePair._make(self._pairs[self._rows[i, j]].tolist())
+
     def _link(self, pair: IncompatiblePair) -> Segment:
-        pairs, linked, seen = self._pairs, [pair], {(pair.i, pair.j)}
+        linked, seen = [pair], {(pair.i, pair.j)}
         for reached in linked:  # grows
             i, j = reached.i, reached.j
             around = [(i + di, j + dj) for di in (-1, 0, 1) for dj in (-1, 0, 1)]
-            near = [pairs[at] for at in around if at in pairs and at not in seen]
+            near = [self._pair(*at) for at in around if at in self._rows and at not in seen]
             new = [other for other in near if reached.is_linked(other)]
             seen.update((other.i, other.j) for other in new)
             linked += new
