@@ -267,10 +267,10 @@ def reread(scenario: Scenario, name: str) -> Scenario:
 
 
 def has_a_sheet_for_all(scenario: Scenario) -> bool:
-    """Return whether a workbook takes the map: it has no sheet for zones and named places."""
+    """Return whether a workbook takes the map: it has no sheet for zones and stations."""
     document = dump_scenario(scenario)["map"]
     return not {*document, *document.get("roadmap", ())} & {
-        "zones", "stations", "parking", "charging", "sides", "obstacles", "picture"
+        "zones", "stations", "sides", "obstacles", "picture"
     }  # fmt: skip
 
 

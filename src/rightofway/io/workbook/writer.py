@@ -69,6 +69,9 @@ HELP = (
     "rules: an empty value stands for the default. Other sheets are not read.",
 )
 
+DIGITS = 11
+"""Digits of a number that a workbook keeps, and that no reader takes for a fraction near it."""
+
 TEMPLATE: dict[str, Any] = {
     "format": SCENARIO_FORMAT,
     "map": {"grid": ["...", "@.@", "..."]},
@@ -228,7 +231,7 @@ def _write_roadmap(workbook: Any, roadmap: dict[str, Any]) -> None:
             else {}
         )
         spots = {key: "true" for key in SPOTS if name in roadmap.get(key, ())}
-        rows.append({"name": name, "x": x, "y": y, **more, **spots})
+        rows.append({"name": name, "x": _cell(x), "y": _cell(y), **more, **spots})
     heads = list(dict.fromkeys(chain(("name", "x", "y"), *rows)))
     _write_table(vertices, heads, [[row.get(key) for key in heads] for row in rows])
     keys = list(dict.fromkeys(["from", "to", "length", "both_ways", *chain(*roadmap["edges"])]))
@@ -286,6 +289,8 @@ def _cell(value: Any) -> Any:
     """Return a value of a document as a cell holds it."""
     if isinstance(value, bool):
         return "true" if value else "false"
+    if isinstance(value, float) and float(f"{value:.{DIGITS}g}") != value:
+        return repr(value)  # text: a number would lose its last digits
     if isinstance(value, dict):
         return json.dumps(value, ensure_ascii=False)
     if isinstance(value, list | tuple) and all(isinstance(item, str) for item in value):
