@@ -90,6 +90,7 @@ const std::vector<RobotId>& Traffic::robots_met(RobotId robot, const Constrained
 ConstrainedTracks::ConstrainedTracks(const Problem& problem, SharedDistances& distances)
     : problem_(problem),
       no_traffic_(problem),
+      held_(problem, no_traffic_.table()),
       search_(problem.roads(), problem.rules()),
       joint_(problem, no_traffic_.table()) {
     for (RobotId robot = 0; robot < problem.n_robots(); ++robot) {
@@ -105,10 +106,15 @@ const ConstrainedTrack* ConstrainedTracks::best(RobotId robot, SetId set,
     if (known != known_.end()) {
         return known->second;
     }
-    BookingTable& table = no_traffic_.table();
+    const auto constraints = sets_.at(set);
+    const auto n_holds = static_cast<std::size_t>(std::count_if(
+        constraints.begin(), constraints.end(), [](const auto& one) { return one.is_hold(); }));
+    const auto holds = constraints.first(n_holds);  // they come first, by their rows
+    BookingTable& table = holds.empty() ? no_traffic_.table() : held_.at(robot, holds);
     const SearchRequest request{trips_[index(robot)].read(robot), table};
-    const ConstrainedTrack* track = search(robot, set, request, table, is_over);
-    bytes_ += sets_.at(set).size_bytes() + 64;
+    const ConstrainedTrack* track =
+        search(robot, constraints.subspan(n_holds), request, table, is_over);
+    bytes_ += constraints.size_bytes() + 64;
     known_.emplace(key, track);
     return track;
 }
@@ -132,7 +138,7 @@ const ConstrainedTrack* ConstrainedTracks::clearest(RobotId robot, SetId set, Ti
     int n_questions = 0;
     bool is_stopped = false;
     try {
-        return search(robot, set, request, traffic.table(), [&] {
+        return search(robot, sets_.at(set), request, traffic.table(), [&] {
             is_stopped = is_over();
             return is_stopped || ++n_questions > most_questions;
         });
@@ -144,32 +150,16 @@ const ConstrainedTrack* ConstrainedTracks::clearest(RobotId robot, SetId set, Ti
     }
 }
 
-// Calls `use` with each vertex at which a robot cannot be while it books a vertex.
-template <class Use>
-void ConstrainedTracks::for_each_left(const Constraint& hold, const Use& use) const {
-    const Graph& roads = problem_.graph();
-    const VertexId held = hold.held_row();
-    for (VertexId vertex = 0; vertex < problem_.n_vertices(); ++vertex) {
-        const bool is_near = problem_.rules().books_ahead &&
-                             (roads.edge(vertex, held) >= 0 || roads.edge(held, vertex) >= 0);
-        if (vertex != held && !is_near) {
-            use(vertex);
-        }
-    }
-}
-
 // Puts constraints into the table and, those of the end of the track, into the request.
-SearchRequest ConstrainedTracks::constrained(SetId set, SearchRequest request,
-                                             BookingTable& table) const {
-    for (const Constraint& one : sets_.at(set)) {
+SearchRequest ConstrainedTracks::constrained(std::span<const Constraint> constraints,
+                                             SearchRequest request, BookingTable& table) const {
+    for (const Constraint& one : constraints) {
         if (one.row >= 0) {
             table.insert(one.row, {one.start, one.end}, nobody);
             continue;
         }
         if (one.is_hold()) {
-            for_each_left(one, [&](std::int32_t row) {
-                table.insert(row, {one.start, one.end}, nobody);
-            });
+            held_.insert(one, table);
             continue;
         }
         Tick& earliest = one.row == Constraint::completion ? request.ends_from : request.stays_from;
@@ -179,12 +169,12 @@ SearchRequest ConstrainedTracks::constrained(SetId set, SearchRequest request,
 }
 
 // The last one first: of equal starts in a row, the table erases the latest.
-void ConstrainedTracks::release(SetId set, BookingTable& table) const {
-    const auto constraints = sets_.at(set);
+void ConstrainedTracks::release(std::span<const Constraint> constraints,
+                                BookingTable& table) const {
     for (std::size_t k = constraints.size(); k-- > 0;) {
         const Constraint& one = constraints[k];
         if (one.is_hold()) {
-            for_each_left(one, [&](std::int32_t row) { table.erase(row, one.start, nobody); });
+            held_.erase(one, table);
         } else if (one.row >= 0) {
             table.erase(one.row, one.start, nobody);
         }
@@ -222,12 +212,13 @@ JointPlan ConstrainedTracks::together(std::span<const RobotId> robots, std::span
     return plan;
 }
 
-const ConstrainedTrack* ConstrainedTracks::search(RobotId robot, SetId set, SearchRequest request,
-                                                  BookingTable& table,
+const ConstrainedTrack* ConstrainedTracks::search(RobotId robot,
+                                                  std::span<const Constraint> constraints,
+                                                  SearchRequest request, BookingTable& table,
                                                   const StopCondition& is_over) {
     ++n_searches_;
-    const SearchEnd end = search_.run(constrained(set, request, table), is_over);
-    release(set, table);
+    const SearchEnd end = search_.run(constrained(constraints, request, table), is_over);
+    release(constraints, table);
     if (end == SearchEnd::stopped) {
         throw Stopped{};
     }

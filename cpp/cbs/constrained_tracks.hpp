@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cbs/constraint_sets.hpp"
+#include "cbs/held_tables.hpp"
 #include "cbs/joint_search.hpp"
 #include "core/search_end.hpp"
 #include "distances/shared_distances.hpp"
@@ -105,17 +106,18 @@ class ConstrainedTracks {
     std::size_t bytes() const { return bytes_; }
 
   private:
-    const ConstrainedTrack* search(RobotId robot, SetId set, SearchRequest request,
-                                   BookingTable& table, const StopCondition& is_over);
-    template <class Use>
-    void for_each_left(const Constraint& hold, const Use& use) const;
-    SearchRequest constrained(SetId set, SearchRequest request, BookingTable& table) const;
-    void release(SetId set, BookingTable& table) const;
+    const ConstrainedTrack* search(RobotId robot, std::span<const Constraint> constraints,
+                                   SearchRequest request, BookingTable& table,
+                                   const StopCondition& is_over);
+    SearchRequest constrained(std::span<const Constraint> constraints, SearchRequest request,
+                              BookingTable& table) const;
+    void release(std::span<const Constraint> constraints, BookingTable& table) const;
     const ConstrainedTrack* keep(RobotId robot, ConstrainedTrack&& track);
     void book(RobotId robot, ConstrainedTrack& track) const;
 
     const Problem& problem_;
     Traffic no_traffic_;
+    HeldTables held_;
     std::deque<TripReader> trips_;  // one per robot: a reader keeps one trip
     SafeIntervalSearch search_;
     ConstraintSets sets_;
