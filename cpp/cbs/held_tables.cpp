@@ -54,10 +54,9 @@ HeldTables::Entry& HeldTables::entry_of(RobotId robot) {
     if (entry == entries_.end() && entries_.size() < most_tables) {
         entry = entries_.insert(entry, {robot, {}, closed_, 0});
     } else if (entry == entries_.end()) {
-        entry = std::min_element(entries_.begin(), entries_.end(),
-                                 [](const Entry& left, const Entry& right) {
-                                     return left.last_use < right.last_use;
-                                 });
+        entry = std::min_element(
+            entries_.begin(), entries_.end(),
+            [](const Entry& left, const Entry& right) { return left.last_use < right.last_use; });
     }
     entry->robot = robot;
     entry->last_use = ++n_uses_;
