@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from rightofway import check, solve
+from rightofway.cli import planning
 from rightofway.cli.main import run
 from rightofway.deadline import Deadline, check_work, limit_loop, limit_work
 from rightofway.errors import GaveUp
@@ -20,6 +21,7 @@ from rightofway.io import load
 from rightofway.model.resources import bind_resources
 from rightofway.native import bind_lists
 from rightofway.site import Edge, make_roadmap
+from tests.cli.conftest import EXAMPLES
 
 
 @pytest.fixture(scope="module")
@@ -123,6 +125,17 @@ def test_a_command_gives_up_in_time_and_says_what_took_it(
     """The limit holds from the beginning on: nothing of the file has been read."""
     assert run([*command, str(dense), "--time-limit", "0.001"]) == 3
     assert "time ran out while reading the map" in capsys.readouterr().err
+
+
+def test_planning_leaves_time_to_write_each_lane(
+    dense: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A grid is written row by row, whatever lanes it has."""
+    monkeypatch.setattr(planning, "SECONDS_PER_LANE", 0.1)
+    lanes = load(dense).roadmap.n_edges
+    for scenario, left in ((load(dense), lanes * 0.9), (load(EXAMPLES / "door.yaml"), lanes)):
+        ends = planning._leave_time_to_write(Deadline.after(lanes), scenario)
+        assert ends.measure_seconds_left() == pytest.approx(left, abs=5)
 
 
 def test_a_fleet_finds_the_rows_that_it_books_and_no_others(dense: Path) -> None:

@@ -44,12 +44,15 @@ from rightofway.planners import DEFAULT_PLANNER, IMPROVER, Feature, PlannerSpec,
 
 if TYPE_CHECKING:
     from rightofway.deadline import Deadline
-    from rightofway.model import ForcedLoss, Plan
+    from rightofway.model import ForcedLoss, Plan, Scenario
     from rightofway.quantities import Quantities
 
 SECONDS_PER_VISIT = 2.2e-6
 """The time to judge a plan, to write it and to report on it, for each visit that it has at least.
 Planning ends so much earlier, so that the time limit holds for the whole command."""
+
+SECONDS_PER_LANE = 6e-6
+"""The time to write a lane into the plan file, of a map that is no grid."""
 
 GRACE = 0.5
 """The time that the report of a plan may take after the time limit [s]."""
@@ -257,7 +260,7 @@ def _run(
         plan = search(
             problem,
             planner,
-            deadline.measure_seconds_left(),
+            _leave_time_to_write(deadline, problem).measure_seconds_left(),
             seed,
             options=options,
             report=report,
@@ -289,6 +292,13 @@ def _run(
         Phrase("the plan still has {faults} (--planner two-level has none)", faults=judged.summary)
     )
     return 1
+
+
+def _leave_time_to_write(deadline: Deadline, problem: Any) -> Deadline:
+    """Return when planning must end, so that the map of a scenario or a plan is written in time."""
+    scenario: Scenario = getattr(problem, "scenario", problem)
+    lanes = scenario.roadmap.n_edges if scenario.roadmap.grid is None else 0
+    return deadline.bring_forward(SECONDS_PER_LANE * lanes)
 
 
 @contextmanager

@@ -541,7 +541,8 @@ def format_json_line(value: Any) -> str:
 def pause_garbage_collection() -> Iterator[None]:
     """Look for no cycles of objects inside: a file becomes millions of objects, all of which stay.
 
-    Threads may overlap: the first one that paused the collection resumes it.
+    Threads may overlap: the first one that paused the collection resumes it. What was made inside
+    counts as old then, or the next look would be at all of it: 1.7 s of a file of 52 MB.
     """
     was_enabled = gc.isenabled()
     gc.disable()
@@ -549,4 +550,7 @@ def pause_garbage_collection() -> Iterator[None]:
         yield
     finally:
         if was_enabled:
+            if not gc.get_freeze_count():  # what a program has frozen stays so
+                gc.freeze()
+                gc.unfreeze()
             gc.enable()

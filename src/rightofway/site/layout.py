@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rightofway.arguments import checks_arguments
+from rightofway.deadline import READING, check_work
 from rightofway.errors import InputError, find_nearest, join_names, quote
 from rightofway.phrases import Phrase, say_count
 from rightofway.site.drawing import Drawing, Picture
@@ -214,7 +215,9 @@ def build_roadmap_of_level(
             level.list_lanes(name)
         selects = bool(known_types)
     lanes = level.lanes if selects else level.list_lanes(vehicle_type)
+    check_work(READING)
     table = _tabulate_slowest(lanes, known_types if selects else (), metre, second)
+    check_work(READING)
     n_parallel = len(lanes) - len(table)
     # Only other vehicle types come there.
     closed = {lanes.names[vertex] for vertex in _list_ends(level.lanes) - _list_ends(lanes)}

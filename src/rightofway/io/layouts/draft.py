@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.deadline import READING, limit_loop
+from rightofway.deadline import READING, STEPS_BETWEEN_LOOKS, check_work, limit_loop
 from rightofway.errors import InputError, find_nearest, is_printable, quote
 from rightofway.io.faults import Faults
 from rightofway.io.source import LONGEST_NAME, Source
@@ -146,6 +146,8 @@ class LevelDraft:
         """Take a lane; InputError if there are too many."""
         lanes = self.lanes
         number = len(lanes.tails)
+        if number % STEPS_BETWEEN_LOOKS == 0:
+            check_work(READING)
         if number == MAX_EDGES:
             raise source.make_fault(f"more than {MAX_EDGES} lanes (give a part of it)")
         lanes.sources.append(source)
@@ -334,11 +336,13 @@ class _LaneFinisher:
 
     def _choose_lengths(self, is_kept: Bools) -> Integers:
         """Return the length of each lane [billionths of a metre], not below the straight one."""
-        nearest_ends = min(self.squares[self.squares > 0], default=0)
+        apart = self.squares[self.squares > 0]
+        nearest_ends = apart.min() if len(apart) else 0
         step = choose_rounding_step([Fraction(int(nearest_ends), MICRO**2)])
         straight = _measure_straight(self.squares, self.roots, step)
         given = self._read_lengths()
         has_length = np.array([length is not None for length in self.lanes.lengths], bool)
+        check_work(READING)
         is_short = has_length & _is_short(given, self.squares, self.roots)
         has_length &= ~self._find_no_lengths(is_short)
         at_one_place = is_kept & (self.squares == 0)
@@ -353,10 +357,10 @@ class _LaneFinisher:
     def _read_lengths(self) -> Integers:
         """Return the lengths that are given [billionths of a metre], rounded up; else 0."""
         # By identity: fractions are slow to hash, and lanes often share theirs.
-        length_of = {id(length): length for length in self.lanes.lengths}
+        length_of = {id(length): length for length in limit_loop(self.lanes.lengths, READING)}
         whole = {
             key: 0 if length is None else ceil(length * BILLION)
-            for key, length in length_of.items()
+            for key, length in limit_loop(length_of.items(), READING)
         }
         return _as_integers([whole[id(length)] for length in self.lanes.lengths])
 
