@@ -9,7 +9,7 @@ import pytest
 from rightofway.errors import InputError
 from rightofway.io.layouts import read_layout
 from rightofway.io.layouts.xml_tree import Element, parse_xml
-from rightofway.io.text import parse_json, read_text
+from rightofway.io.text import parse_json, pause_garbage_collection, read_text
 
 
 @pytest.mark.parametrize(
@@ -120,3 +120,14 @@ def test_garbage_is_collected_after_a_file_as_before_also_a_wrong_one(
         assert (gc.isenabled(), set(seen)) == (was_enabled, {False})
     finally:
         gc.enable()
+
+
+def test_the_collector_does_not_look_at_all_that_was_made_while_it_paused(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(gc, "get_freeze_count", lambda: 0)  # the tests have frozen their modules
+    with pause_garbage_collection():
+        made = [[] for _ in range(10_000)]  # type: ignore[var-annotated]
+    n_young = gc.get_count()[0]
+    gc.freeze()
+    assert n_young < len(made) / 10
