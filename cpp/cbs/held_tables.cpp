@@ -32,16 +32,16 @@ void HeldTables::erase(const Constraint& hold, BookingTable& table) const {
 // Of equal starts in a row, a table erases the latest, and closures came first.
 BookingTable& HeldTables::at(RobotId robot, std::span<const Constraint> holds) {
     Entry& entry = entry_of(robot);
-    std::vector<Constraint> other;
+    std::vector<Constraint> changed;  // first those to take out, then those to put in
     std::set_difference(entry.holds.begin(), entry.holds.end(), holds.begin(), holds.end(),
-                        std::back_inserter(other));
-    for (const Constraint& hold : other) {
+                        std::back_inserter(changed));
+    for (const Constraint& hold : changed) {
         erase(hold, entry.table);
     }
-    other.clear();
+    changed.clear();
     std::set_difference(holds.begin(), holds.end(), entry.holds.begin(), entry.holds.end(),
-                        std::back_inserter(other));
-    for (const Constraint& hold : other) {
+                        std::back_inserter(changed));
+    for (const Constraint& hold : changed) {
         insert(hold, entry.table);
     }
     entry.holds.assign(holds.begin(), holds.end());

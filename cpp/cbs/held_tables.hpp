@@ -34,7 +34,7 @@ class HeldTables {
         BookingTable table;
         std::size_t last_use;
     };
-    static constexpr std::size_t most_tables = 8;
+    static constexpr std::size_t most_tables = 8;  // each is a copy of all rows
 
     template <class Use>
     void for_each_left(const Constraint& hold, const Use& use) const;

@@ -97,8 +97,8 @@ def test_robots_with_weights_lose_time_by_weight() -> None:
 def test_robots_lose_time_or_surcharges_in_every_plan() -> None:
     """Each edge costs 2 beside its time: a tick of waiting is cheaper than any way round."""
     roadmap = DOOR.roadmap
-    dear = tuple(replace(each, surcharge=Fraction(2)) for each in roadmap.edge_classes)
-    scenario = replace(DOOR, roadmap=replace(roadmap, edge_classes=dear))
+    charged = tuple(replace(each, surcharge=Fraction(2)) for each in roadmap.edge_classes)
+    scenario = replace(DOOR, roadmap=replace(roadmap, edge_classes=charged))
     plan = rightofway.solve(scenario, "cbs", time_limit=None)
     loss = ForcedLoss(robots=(0, 1), ticks=Tick(1), vertex=VertexId(1), objective=Objective.COST)
     assert plan.run.forced_losses == (loss,)

@@ -180,7 +180,7 @@ class _NetworkRobot:
                     arrivals.note(self.identity.serial_number)
                     async with asyncio.TaskGroup() as tasks:
                         tasks.create_task(self.speak(client))
-                        await self.listen(client)
+                        await self.listen(client)  # not as a task: see check_cancellation
             except* aiomqtt.MqttError as errors:
                 self.client = None
                 arrivals.note_failure(self.identity.serial_number, errors.exceptions[0])

@@ -111,9 +111,9 @@ def _explain(task: Task, draft: Draft) -> Draft:
         losses = find_forced_makespan(
             scenario, makespan, time_limit=limit, pairs=PAIRS, states=STATES
         )
-    has_surcharges = scenario.roadmap.has_surcharges
-    loses = list(compute_completions(scenario, draft.tracks)) != measure_alone(task)
-    if proof.objective is not Objective.MAKESPAN and (loses or has_surcharges):
+    completions = compute_completions(scenario, draft.tracks)
+    may_lose = list(completions) != measure_alone(task) or scenario.roadmap.has_surcharges
+    if proof.objective is not Objective.MAKESPAN and may_lose:
         limit = deadline.measure_seconds_left()
         losses += find_forced_losses(scenario, time_limit=limit, pairs=PAIRS, states=STATES)
     return replace(draft, forced_losses=losses)

@@ -69,8 +69,9 @@ HELP = (
     "rules: an empty value stands for the default. Other sheets are not read.",
 )
 
-DIGITS = 11
-"""Digits of a number that a workbook keeps, and that no reader takes for a fraction near it."""
+NUMBER_DIGITS = 11
+"""Most digits of a number in a cell; one with more is text. A spreadsheet keeps 15 digits, and the
+reader takes a number of 12 or more that is next to a simple fraction for that fraction."""
 
 TEMPLATE: dict[str, Any] = {
     "format": SCENARIO_FORMAT,
@@ -289,7 +290,7 @@ def _cell(value: Any) -> Any:
     """Return a value of a document as a cell holds it."""
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, float) and float(f"{value:.{DIGITS}g}") != value:
+    if isinstance(value, float) and float(f"{value:.{NUMBER_DIGITS}g}") != value:
         return repr(value)  # text: a number would lose its last digits
     if isinstance(value, dict):
         return json.dumps(value, ensure_ascii=False)
