@@ -57,9 +57,8 @@ def test_any_file_but_a_journal_is_refused_at_once_and_nothing_is_written(cli: C
 
 
 def test_jobs_are_added_listed_changed_and_withdrawn(cli: Cli, journal: Path) -> None:
-    assert (
-        cli("jobs", journal, "add", "--at", "N7", "--work", "2").out == "R1/job1 at N7 is added\n"
-    )
+    added = cli("jobs", journal, "add", "--at", "N7", "--work", "2")
+    assert added.out == "R1/job1 at N7 is added before R1/job0 at N6\n"
     rows = [line.split() for line in cli("jobs", journal, "list").out.splitlines()]
     assert rows == [
         ["R1/job1", "N7", "planned"],
@@ -67,6 +66,9 @@ def test_jobs_are_added_listed_changed_and_withdrawn(cli: Cli, journal: Path) ->
         ["R2/job0", "N8", "released"],
     ]
     assert cli("jobs", journal, "change", "R1/job1", "--at", "N8").out == "R1/job1 is changed\n"
+    added = cli("jobs", journal, "add", "--at", "N6", "--after", "R1/job1")
+    assert added.out == "R1/job2 at N6 is added after R1/job1 at N8 and before R1/job0 at N6\n"
+    assert cli("jobs", journal, "withdraw", "R1/job2").code == 0
     assert cli("jobs", journal, "withdraw", "R1/job1").code == 0
     ended = cli("jobs", journal, "list", "--json")
     assert [job["name"] for job in json.loads(ended.out)["jobs"]] == ["R1/job0", "R2/job0"]

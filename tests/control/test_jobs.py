@@ -67,6 +67,102 @@ def test_a_robot_can_be_named_and_may_be_at_its_end_already() -> None:
     assert floor.robots[1].place == "N2"
 
 
+LOOP = ("H", "S", "Dock", "M", "Rack")
+"""Places of a loop in one direction, at which one robot has its stops."""
+
+
+def loop(*stops: str) -> Floor:
+    """Return a robot that has stops on the loop, before any of them is released."""
+    vertices = dict(zip(LOOP, [[0, 0], [1, 0], [2, 0], [2, 1], [0, 1]], strict=True))
+    edges = [
+        {"from": tail, "to": head, "both_ways": False}
+        for tail, head in zip(LOOP, (*LOOP[1:], LOOP[0]), strict=True)
+    ]
+    robot = {"name": "R1", "home": "H", "stops": [{"at": place, "work": 1} for place in stops]}
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {"roadmap": {"vertices": vertices, "edges": edges}},
+        "rules": {"rotations": False},
+        "robots": [robot],
+    }
+    plan = rightofway.solve(parse_scenario(document), "prioritized")
+    dispatcher = Dispatcher(FleetControl(MemoryJournal(), look_ahead=1), plan)
+    dispatcher.begin("run")
+    return Floor(dispatcher)
+
+
+def order_of_work(floor: Floor) -> list[str]:
+    """Return the jobs in the order in which they were done, as the journal has it."""
+    journal = floor.dispatcher.control._journal
+    return [entry["job"] for entry in journal.read_entries() if entry["kind"] == "finished"]
+
+
+@pytest.mark.parametrize("steps", [0, 3, 6])
+@pytest.mark.parametrize("drop", LOOP[1:])
+@pytest.mark.parametrize("pick", LOOP[1:])
+def test_a_job_after_another_one_is_done_directly_after_it(
+    pick: str, drop: str, steps: int
+) -> None:
+    """Of all pairs of places, also where the drop is on the way to the pick, with other stops."""
+    floor = loop("S", "M")
+    floor.drive(steps)
+    picked, messages = floor.operator.add_job(pick, 1)
+    floor.send(messages)
+    dropped, messages = floor.operator.add_job(drop, 1, after=picked)
+    floor.send(messages)
+    floor.send(floor.operator.add_job("Dock", 1, after=dropped)[1])
+    floor.drive(120)
+    done = order_of_work(floor)
+    at = done.index("job2")
+    assert done[at : at + 3] == ["job2", "job3", "job4"]
+    assert sorted(done) == ["job0", "job1", "job2", "job3", "job4"]
+
+
+def test_a_job_may_come_after_one_that_is_released_or_done() -> None:
+    """It is the next that the robot does; the answer names the jobs before and after it."""
+    floor = loop("S", "M")
+    floor.drive(1)
+    floor.send(floor.operator.add_job("Rack", 1, after="R1/job0")[1])
+    assert list(jobs_of(floor)) == ["R1/job0", "R1/job2", "R1/job1"]
+    floor.drive(4)
+    assert list(jobs_of(floor)) == ["R1/job2", "R1/job1"]
+    floor.send(floor.operator.add_job("S", 1, after="R1/job0")[1])
+    assert list(jobs_of(floor)) == ["R1/job3", "R1/job2", "R1/job1"]
+
+
+@pytest.mark.parametrize(
+    ("steps", "options", "text"),
+    [
+        (1, {"at": "Rack"}, "R1/job1 at Rack is added after R1/job0 at S"),
+        (1, {"at": "Rack", "after": "R1/job0"}, "R1/job1 at Rack is added after R1/job0 at S"),
+        (20, {"at": "Rack"}, "R1/job1 at Rack is added, its only job"),
+    ],
+)
+def test_the_answer_says_where_a_job_was_put(
+    tmp_path: Path, steps: int, options: dict[str, str], text: str
+) -> None:
+    floor, commands = loop("S"), Commands(tmp_path / "run.journal")
+    floor.drive(steps)
+    number = commands.ask({"kind": "add", **options})
+    obey(floor, commands)
+    assert commands.wait_for(number, 0) == {"done": True, "text": text}
+
+
+@pytest.mark.parametrize(
+    ("after", "robot", "message"),
+    [
+        ("R1/job9", None, "'R1/job9' is no job"),
+        ("R9/job0", None, "'R9' is no robot"),
+        ("R1/job0", "R2", "'R1/job0' is no job of R2"),
+    ],
+)
+def test_a_job_after_none_or_of_another_robot_is_refused(
+    after: str, robot: str | None, message: str
+) -> None:
+    with pytest.raises(InputError, match=message):
+        driven(2).operator.add_job("N7", 0, robot, after)
+
+
 def test_a_job_is_changed_and_withdrawn_until_it_is_released() -> None:
     floor = driven(2)
     floor.send(floor.operator.change_job("R1/job0", at="N7", work=1))
@@ -114,12 +210,13 @@ def test_a_command_is_carried_out_once_though_its_answer_was_lost(tmp_path: Path
     people, commands = Commands(file), Commands(file)
     number = people.ask({"kind": "add", "at": "N7", "work": "2"})
     obey(floor, commands)
-    assert people.wait_for(number, 0) == {"done": True, "text": "R1/job1 at N7 is added"}
+    text = "R1/job1 at N7 is added before R1/job0 at N6"
+    assert people.wait_for(number, 0) == {"done": True, "text": text}
     people._database.execute("UPDATE commands SET answer = NULL")
     again = Dispatcher(FleetControl(journal), door())
     [(_, answer)] = Operator(again).obey(commands)[1]
     commands.answer(number, answer)
-    assert people.wait_for(number, 0) == {"done": True, "text": "R1/job1 at N7 is added"}
+    assert people.wait_for(number, 0) == {"done": True, "text": text}
     assert [job["name"] for job in list_jobs(again.ledger)].count("R1/job1") == 1
     assert "R1/job2" not in [job["name"] for job in list_jobs(again.ledger)]
 

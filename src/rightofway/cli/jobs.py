@@ -14,7 +14,7 @@ from rightofway.phrases import Phrase
 
 ACTIONS = {
     "list": "list jobs that are not done",
-    "add": "give a robot a job: --at, perhaps --work and --robot",
+    "add": "give a robot a job: --at, perhaps --work, --robot and --after",
     "change": "change a job NAME that is not released: --at, --work",
     "withdraw": "take back a job NAME that is not released",
     "again": "have a robot do a job NAME again that has failed",
@@ -34,6 +34,7 @@ EXAMPLES = """\b
 Examples:
   rightofway jobs plan.journal list
   rightofway jobs plan.journal add --at N7 --work 5
+  rightofway jobs plan.journal add --at N6 --after R1/job7
   rightofway jobs plan.journal withdraw R1/job7
   rightofway jobs plan.journal close N4
   rightofway jobs plan.journal close N4 --to N7
@@ -57,6 +58,9 @@ def _time(_context: click.Context, _parameter: click.Parameter, given: str | Non
 @click.option("--robot", metavar="ROBOT",
               help="Whose job it is; by default that of the robot which drives least more.",
               )  # fmt: skip
+@click.option("--after", metavar="JOB",
+              help="A job that its robot does directly before it, as R1/job2; by default it comes"
+              " where it is the least detour.")  # fmt: skip
 @click.option("--wait", metavar="SECONDS", type=click.FloatRange(min=0), default=10,
               show_default=True, help="How long to wait for the answer.")  # fmt: skip
 @as_json_option("answer")
@@ -69,6 +73,7 @@ def jobs(
     to: str | None,
     work: str | None,
     robot: str | None,
+    after: str | None,
     wait: float,
     as_json: bool,
 ) -> int:
@@ -104,7 +109,7 @@ def jobs(
 
     JournalReader(Path(journal)).close()
     commands = Commands(Path(journal))
-    values = {"name": name, "at": at, "to": to, "work": work, "robot": robot}
+    values = {"name": name, "at": at, "to": to, "work": work, "robot": robot, "after": after}
     given = {key: value for key, value in values.items() if value is not None}
     number = commands.ask({"kind": action, **given})
     answer = commands.wait_for(number, wait)

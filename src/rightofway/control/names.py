@@ -15,6 +15,7 @@ from rightofway.site import Roadmap
 
 __all__ = [
     "find_failed_job",
+    "find_job",
     "find_open_job",
     "find_robot",
     "list_edges_into",
@@ -69,20 +70,45 @@ def find_failed_job(ledger: Ledger, name: str) -> Entry:
     return {"robot": number, "job": job}
 
 
-def find_open_job(
+def find_job(
     ledger: Ledger, stops: Sequence[Sequence[StopToMake]], name: str
-) -> tuple[int, int]:
-    """Return the robot of a job that is not released, and which of its stops it is."""
+) -> tuple[int, int | None]:
+    """Return the robot of a job, and which of its stops it is; None if it is released or done.
+
+    Parameters
+    ----------
+    ledger
+        What the journal says.
+    stops
+        What each robot has still to do behind what is released.
+    name
+        The job, as ``R1/job2``.
+
+    Raises
+    ------
+    InputError
+        If there is no such job.
+    """
     robot, _, job = name.rpartition("/")
     number = find_robot(ledger, robot)
     for index, stop in enumerate(stops[number]):
         if stop.job == job:
             return number, index
-    own = ledger.robots[number]
-    if job in own.route.all_jobs:
-        state = "done" if job in own.finished else "released"
-        raise InputError.at("job", f"{quote(name)} is {state} already (it cannot be changed)")
+    if job in ledger.robots[number].route.all_jobs:
+        return number, None
     raise InputError.at("job", f"{quote(name)} is no job (see rightofway jobs list)")
+
+
+def find_open_job(
+    ledger: Ledger, stops: Sequence[Sequence[StopToMake]], name: str
+) -> tuple[int, int]:
+    """Return the robot of a job that is not released, and which of its stops it is."""
+    number, index = find_job(ledger, stops, name)
+    if index is None:
+        is_done = name.rpartition("/")[2] in ledger.robots[number].finished
+        state = "done" if is_done else "released"
+        raise InputError.at("job", f"{quote(name)} is {state} already (it cannot be changed)")
+    return number, index
 
 
 def list_edges_into(roadmap: Roadmap, names: Sequence[str]) -> list[Edge]:

@@ -20,6 +20,7 @@ from rightofway.control.journal import Entry
 from rightofway.control.messages import Message
 from rightofway.control.names import (
     find_failed_job,
+    find_job,
     find_open_job,
     find_robot,
     list_edges_into,
@@ -108,7 +109,7 @@ class Operator:
         if kind == "list":
             return [], {"done": True, "text": "", "jobs": list_jobs(ledger)}
         changes: dict[str, Callable[[], list[Message]]] = {
-            "add": lambda: self.add_job(str(at), int(ticks or 0), robot)[1],
+            "add": lambda: self.add_job(str(at), int(ticks or 0), robot, command.get("after"))[1],
             "change": lambda: self.change_job(name, at, ticks),
             "withdraw": lambda: self.withdraw_job(name),
             "again": lambda: self.retry_job(name),
@@ -188,8 +189,10 @@ class Operator:
 
     # --- jobs ------------------------------------------------------------------------------------
 
-    def add_job(self, at: str, work: int, robot: str | None = None) -> tuple[str, list[Message]]:
-        """Give a robot one more job, where it is least out of its way.
+    def add_job(
+        self, at: str, work: int, robot: str | None = None, after: str | None = None
+    ) -> tuple[str, list[Message]]:
+        """Give a robot one more job: where it is least out of its way, or directly after another.
 
         Parameters
         ----------
@@ -199,6 +202,8 @@ class Operator:
             How long it lasts [ticks].
         robot
             Whose job it is; None for the robot that drives least more.
+        after
+            A job of the robot, as ``R1/job2``, that is done before; None for any place in its work.
 
         Returns
         -------
@@ -208,25 +213,53 @@ class Operator:
         Raises
         ------
         InputError
-            If there is no such vertex or robot.
+            If there is no such vertex, robot or job, or the job is of another robot.
         GaveUp
             If no plan with it was found: the old one stands.
         """
         self._scenario.roadmap.get_vertex(at)  # refuses what is none
-        robots = self._ledger.robots
-        candidates = [find_robot(self._ledger, robot)] if robot is not None else range(len(robots))
+        robots, stops = self._ledger.robots, self._dispatcher.list_stops()
+        candidates = range(len(robots)) if robot is None else [find_robot(self._ledger, robot)]
+        if after is not None:
+            owner, place_of_job = find_job(self._ledger, stops, after)
+            if owner not in candidates:
+                remedy = f"leave out --robot, or name a job of {robot}"
+                raise InputError.at("job", f"{quote(after)} is no job of {robot} ({remedy})")
+            candidates = [owner]
         on_floor = [number for number in candidates if not robots[number].is_off]
         if not on_floor:
             raise InputError.at("robot", "is off the floor (name another one, or none)")
-        stops = self._dispatcher.list_stops()
-        _, index, number = min(
-            (*self._detour(number, stops[number], at), number) for number in on_floor
-        )
-        own = robots[number]
-        job = f"job{own.next_job}"
+        if after is not None:
+            number, index = owner, 0 if place_of_job is None else place_of_job + 1
+        else:
+            _, index, number = min(
+                (*self._detour(number, stops[number], at), number) for number in on_floor
+            )
+        job = f"job{robots[number].next_job}"
         stops[number].insert(index, StopToMake(at, job, work))
         name = f"{self._ledger.names[number]}/{job}"
-        return name, self._replan(stops, text=f"{name} at {at} is added")
+        text = f"{name} at {at} is added{self._describe_neighbours(number, stops[number], index)}"
+        return name, self._replan(stops, text=text)
+
+    def _describe_neighbours(self, robot: int, stops: Sequence[StopToMake], index: int) -> str:
+        """Return before and after which jobs of a robot one of its stops is."""
+        own, name = self._ledger.robots[robot], self._ledger.names[robot]
+        route = own.route
+        released = [
+            (route.get_place(visit), job)
+            for visit in range(own.arrived, own.released + 1)
+            for job in route.get_jobs(visit)
+            if job not in own.finished
+        ]
+        jobs_of_stops = [(stop.place, stop.job) for stop in stops if stop.job]
+        before = sum(bool(stop.job) for stop in stops[:index])
+        earlier, later = [*released, *jobs_of_stops[:before]], jobs_of_stops[before + 1 :]
+        neighbours = [
+            f"{word} {name}/{job} at {place}"
+            for word, rows in (("after", earlier[-1:]), ("before", later[:1]))
+            for place, job in rows
+        ]
+        return f" {' and '.join(neighbours)}" if neighbours else ", its only job"
 
     def change_job(
         self, name: str, at: str | None = None, work: int | None = None

@@ -310,9 +310,10 @@ class RestPlanner:
         stops_ahead = [*stops, StopToMake(own.route.places[-1])]
         if stops_ahead[0].job and roadmap.get_vertex(stops_ahead[0].place) == place:
             heads = roadmap.heads[roadmap.indptr[place] : roadmap.indptr[place + 1]].tolist()
-            back = [head for head in heads if roadmap.find_edge(head, place) is not None]
-            if not back:
+            if not heads:
                 raise GaveUp(f"{stops_ahead[0].place} cannot be left and entered again")
+            # From a neighbour on a one-way lane the planner finds a longer way back.
+            back = [head for head in heads if roadmap.find_edge(head, place) is not None] or heads
             stops_ahead.insert(0, StopToMake(roadmap.name(back[aside % len(back)])))
         return stops_ahead
 
