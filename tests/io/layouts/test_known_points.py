@@ -160,6 +160,29 @@ def test_old_plant_models_have_other_names_for_positions() -> None:
     }
 
 
+@pytest.mark.parametrize("version", ["0.0.2", "0.0.3", "0.0.4", "0.0.5", "6.0.0", "6.1.0", "7.0.0"])
+def test_each_version_of_a_plant_model_is_read_alike(version: str, tmp_path: Path) -> None:
+    """The model has identifiers, a route and a location without `locked`: version 0.0.2 has these.
+
+    From 6 on positions have other names.
+    """
+    text = (HERE / "plant-2.xml").read_text("utf-8").replace('"0.0.2"', f'"{version}"')
+    if version[0] in "67":
+        for axis in "xyz":
+            text = text.replace(f"{axis}Position", f"position{axis.upper()}")
+    (tmp_path / "plant.xml").write_text(text, "utf-8")
+    found = read_layout(tmp_path / "plant.xml")
+    assert isinstance(found, Layout)
+    level = found.get_level()
+    assert points(level) == {"A": at(-1.5, 2.25), "B": at(0.5, 2.25)}
+    assert lanes(level) == {"A > B": (2, 1), "B > A": (2, 0.5)}  # the path from B to A is locked
+    assert [(vertex.is_parking, vertex.is_charging) for vertex in level.vertices] == [
+        (False, True), (True, False),
+    ]  # fmt: skip
+    assert [station.name for station in level.stations] == ["Socket"]
+    assert level.zones[0].edges == (("A", "B"), ("B", "A"))
+
+
 def test_rmf_navigation_graphs_are_in_metres() -> None:
     level = level_of("hall.nav.yaml", "L1")
     assert points(level) == {

@@ -135,8 +135,25 @@ def test_what_does_not_fit_is_told_with_place_and_remedy(
         (
             "a.xml",
             '<model name="old"><point name="A"/></model>',
-            "a plant model of version nothing (open and save it with openTCS 6)",
+            (
+                "a plant model without a version"
+                " (add it; 0.0.2, 0.0.3, 0.0.4, 0.0.5, 6 and 7 are known)"
+            ),
         ),
+        *[
+            (
+                "a.xml",
+                f'<model version="{version}" name="other"><point name="A"/></model>',
+                (
+                    f"a plant model of version '{version}'"
+                    " (0.0.2, 0.0.3, 0.0.4, 0.0.5, 6 and 7 are known: update rightofway for a newer"
+                    " one; save an older one with an openTCS that opens it)"
+                ),
+            )
+            for version in ("0.0.1", "0.0.25", "8.0.0", "60.0.0", "")
+        ],
+        ("a.xml", '<model version="0.0.2"/>', "the openTCS plant model has no vertex"),
+        ("a.xml", "<model><name>robot</name></model>", "an XML file of <model> is no layout"),
         (
             "a.yaml",
             "levels: {L1: {vertices: [[0, 0]], lanes: [[0, -1]]}}",

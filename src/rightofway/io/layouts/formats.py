@@ -88,7 +88,7 @@ def _own() -> dict[str, LayoutFormat]:
             recognizes=ros_map.recognizes, read=ros_map.read,
         ),
         "opentcs": LayoutFormat(
-            summary="plant model of openTCS, 0.0.4 to 7.0.0", content="xml",
+            summary="plant model of openTCS, 0.0.2 to 7.0.0", content="xml",
             recognizes=opentcs.recognizes, read=lambda content, _: opentcs.read(content),
         ),
         "graphml": LayoutFormat(
@@ -261,7 +261,7 @@ def _open(text: str) -> tuple[LayoutFormat, Any] | None:
     )
     first = next(known, None)
     if first is None and isinstance(content, Element):
-        message = f"an XML file of <{content.name}> is no layout (known: GraphML, openTCS 0.0.4 on)"
+        message = f"an XML file of <{content.name}> is no layout (known: GraphML and openTCS)"
         raise InputError.at(Location(line=content.line), message)
     return None if first is None else (first, content)
 

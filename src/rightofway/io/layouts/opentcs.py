@@ -1,4 +1,4 @@
-"""Plant models of openTCS as XML, versions 0.0.4, 0.0.5, 6.0.0 and 7.0.0.
+"""Plant models of openTCS as XML, versions 0.0.2 to 0.0.5, 6 and 7.
 
 Lengths are millimetres there, speeds millimetres per second; a speed of 0 means that a path is not
 driven in that direction. Control points are in coordinates of the drawing, so they are not read.
@@ -16,14 +16,16 @@ from rightofway.phrases import Phrase
 from rightofway.site.layout import Layout, LayoutVertex, Station
 from rightofway.site.zones import NamedZone
 
-VERSIONS = ("0.0.4", "0.0.5", "6.0.0", "7.0.0")
+VERSIONS = ("0.0.2", "0.0.3", "0.0.4", "0.0.5", "6", "7")
+"""The versions that are read; a whole number stands for all versions that begin with it."""
+
 MILLIMETRE = Fraction(1, 1000)
 X, Y = ("positionX", "xPosition"), ("positionY", "yPosition")
 
 
 def recognizes(root: Element) -> bool:
-    """Return whether an XML file is a plant model."""
-    return root.name == "model" and any(child.name == "point" for child in root.children)
+    """Return whether an XML file is a plant model: other programs use the element, too."""
+    return root.name == "model" and ("version" in root.value or any(root.list_all("point")))
 
 
 def read(root: Element) -> Layout:
@@ -32,7 +34,7 @@ def read(root: Element) -> Layout:
     Raises
     ------
     InputError
-        For a version before 0.0.4, and with every point, path and location that cannot be used.
+        For an unknown version, and with every point, path and location that cannot be used.
     """
     _check_version(root)
     draft = LayoutDraft("openTCS plant model")
@@ -63,10 +65,20 @@ def read(root: Element) -> Layout:
 
 
 def _check_version(root: Element) -> None:
+    known = f"{', '.join(VERSIONS[:-1])} and {VERSIONS[-1]} are known"
     version = root.value.get("version")
-    if version is None or (version not in VERSIONS and not version.startswith(("6.", "7."))):
-        message = f"a plant model of version {quote(version)} (open and save it with openTCS 6)"
-        raise root.make_fault(message)
+    if version is None:
+        raise root.make_fault(f"a plant model without a version (add it; {known})")
+    if version not in VERSIONS and version.partition(".")[0] not in VERSIONS:
+        remedy = (
+            "update rightofway for a newer one; save an older one with an openTCS that opens it"
+        )
+        raise root.make_fault(f"a plant model of version {quote(version)} ({known}: {remedy})")
+
+
+def _is_locked(element: Element) -> bool:
+    locked = element.get("locked")
+    return locked is not None and locked.read_flag()
 
 
 def _add_point(level: LevelDraft, point: Element) -> None:
@@ -86,7 +98,7 @@ def _add_path(
 ) -> None:
     tail, head = path.need("sourcePoint").read_text(), path.need("destinationPoint").read_text()
     lanes = paths.setdefault(path.need("name").read_text(), [])
-    if path.value.get("locked") == "true":
+    if _is_locked(path):
         draft.repair(Phrase("a locked path is left out"))
         return
     length = path.need("length").number() * MILLIMETRE if path.value.get("length") else None
@@ -100,7 +112,7 @@ def _add_path(
 def _add_location(level: LevelDraft, location: Element, draft: LayoutDraft) -> list[str]:
     """Add a location as a station, and return its points."""
     points = [link.need("point").read_text() for link in location.list_all("link")]
-    if location.value.get("locked") == "true":
+    if _is_locked(location):
         draft.repair(Phrase("a locked location is left out"))
         return []
     level.stations.append(Station(name=location.need("name").read_text(), vertices=tuple(points)))
