@@ -175,12 +175,13 @@ def test_a_timetable_below_its_baseline_says_so(slower: Path) -> None:
 def test_what_would_help_is_exact_for_programs(cli: Cli, slower: Path) -> None:
     ended = cli("laps", slower, "--json")
     [group] = json.loads(ended.out)["groups"]
-    # R2's own lap decides: 24 of its 30 are driving, 6 are turning at home and away.
+    # R2's own lap decides: 24 of its 30 are driving, 6 are turning at home and away, each in the
+    # time in which it crosses a cell.
     assert [(lever["kind"], lever["gain"]) for lever in group["sensitivity"]] == [
-        ("speed", 24),
+        ("speed", 30),
         ("turn", 6),
     ]
-    assert group["sensitivity"][0]["ten_per_cent"] == str(Fraction(30) - Fraction(24, 11))
+    assert group["sensitivity"][0]["ten_per_cent"] == str(Fraction(300, 11))
 
 
 def test_the_period_is_written_as_a_function_of_each_parameter(cli: Cli, slower: Path) -> None:

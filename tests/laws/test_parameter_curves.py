@@ -1,5 +1,7 @@
 """The period as a function of a speed, a work time or the headway is that of the changed scenario.
 
+So is the period that the sensitivity names for ten per cent of a parameter.
+
 The slow and obvious way: change the scenario, let it choose its ticks, give the same laps in the
 same order their new durations, and ask for the critical circuit.
 """
@@ -13,7 +15,13 @@ from functools import partial
 
 import pytest
 
-from rightofway.cyclic import ParameterCurve, compute_parameter_curves, run_laps
+from rightofway.cyclic import (
+    ParameterCurve,
+    ParameterEffect,
+    compute_parameter_curves,
+    compute_parameter_effects,
+    run_laps,
+)
 from rightofway.cyclic.sensitivity import find_stages_at
 from rightofway.errors import InputError
 from rightofway.io import parse_scenario
@@ -30,8 +38,10 @@ RULES = [Rules(), Rules(headway=Fraction(1)), Rules(occupancy="both"), Rules(tur
 MOST_CURVES = 7
 
 
-def changed(scenario: Scenario, curve: ParameterCurve, value: Fraction) -> Scenario:
-    """Return the scenario with another value of the parameter of a curve."""
+def changed(
+    scenario: Scenario, curve: ParameterCurve | ParameterEffect, value: Fraction
+) -> Scenario:
+    """Return the scenario with another value of a parameter."""
     if curve.robot is None:
         return replace(scenario, rules=replace(scenario.rules, headway=value))
     robots = list(scenario.robots)
@@ -84,6 +94,32 @@ def values_of(curve: ParameterCurve, draw: random.Random) -> set[Fraction]:
     return set(draw.sample(found, min(len(found), 6)))
 
 
+def take_ten_per_cent(scenario: Scenario, effect: ParameterEffect) -> Scenario | None:
+    """Return the scenario with ten per cent of a parameter; None where no file can have that."""
+    if effect.kind == "turn":
+        return None  # in a cell's crossing time
+    if effect.robot is None:
+        return changed(scenario, effect, scenario.rules.headway * Fraction(9, 10))
+    robot = scenario.robots[effect.robot]
+    if effect.kind == "speed":
+        return changed(scenario, effect, robot.speed * Fraction(11, 10))
+    if effect.stop is None or effect.stop == len(robot.stops):
+        return None
+    return changed(scenario, effect, robot.stops[effect.stop].work * Fraction(9, 10))
+
+
+def check_ten_per_cent(scenario: Scenario, graph: TimedEventGraph, old: Scenario) -> int:
+    """Compare what ten per cent of each parameter does; return the number of parameters."""
+    compared = 0
+    for effect in compute_parameter_effects(scenario, graph, most=MOST_CURVES):
+        other = take_ten_per_cent(scenario, effect)
+        if other is not None and other.problem.clock.exact:
+            ticks = effect.ten_per_cent * scenario.problem.clock.tick
+            assert ticks == period_by_hand(graph.timetable, old, other)
+            compared += 1
+    return compared
+
+
 def check_curves(scenario: Scenario, draw: random.Random) -> int:
     """Compare the curves of all groups that repeat; return the number of breakpoints."""
     breakpoints = 0
@@ -91,6 +127,7 @@ def check_curves(scenario: Scenario, draw: random.Random) -> int:
         graph, timetable = group.build_graph(), group.timetable
         if graph is None or timetable is None or not scenario.problem.clock.exact:
             continue
+        assert check_ten_per_cent(scenario, graph, group.context.scenario)
         by_hand = partial(period_by_hand, timetable, group.context.scenario)
         curves = compute_parameter_curves(scenario, graph, most_visits=MOST_CURVES * len(graph))
         assert len(curves) <= MOST_CURVES

@@ -11,9 +11,8 @@ Where the clock is not exact (`Clock.exact`), drives are rounded up to ticks as 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
 
@@ -21,9 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
-from rightofway.cyclic.sensitivity import find_stages_at
-from rightofway.model import Robot, Scenario
-from rightofway.model.problem import compute_turning_time
+from rightofway.cyclic.sensitivity import find_stages_at, grow_by_speed
+from rightofway.model import Scenario
 from rightofway.precedence import Growth, TimedEventGraph, compute_period_curve
 
 MOST_VISITS = 100_000
@@ -148,7 +146,7 @@ def _of_robot(
     robot, arcs = scenario.robots[number], graph.arcs
     itinerary = scenario.problem.itineraries[number]
     at = find_stages_at(scenario.roadmap, itinerary, graph.timetable.laps[place])
-    growth, tick = _of_speed(scenario, graph, place, robot), scenario.problem.clock.tick
+    growth, tick = grow_by_speed(scenario, graph, place), scenario.problem.clock.tick
     ends = Fraction(1, RANGE), Fraction(RANGE)
     yield ParameterCurve(
         kind="speed",
@@ -206,57 +204,3 @@ def _of_time(
             graph, growth, Fraction(least), most, time_limit=time_limit
         )
     )
-
-
-def _of_speed(scenario: Scenario, graph: TimedEventGraph, place: int, robot: Robot) -> Growth:
-    """Return the arcs as functions of ``speed now / speed``.
-
-    Notes
-    -----
-    A drive along an edge with a speed limit has two entries: at its own speed, and at the limit.
-    """
-    arcs = graph.arcs
-    drive = np.where(graph.robot[arcs.head] == place, graph.drives, 0)
-    turns = _turns_by_speed(scenario, graph, place, robot)
-    of, fixed = np.arange(len(arcs)), arcs.length - drive - turns
-    limits = [edge_class.max_speed for edge_class in scenario.roadmap.edge_classes]
-    if not any(limits):
-        return Growth(of=of, fixed=fixed, slope=drive + turns)
-    # Of what a drive takes now: at the robot's own speed, and at the limit.
-    shares = [
-        (min(limit / robot.speed, Fraction(1)), min(robot.speed / limit, Fraction(1)))
-        if limit
-        else (Fraction(1), Fraction(0))
-        for limit in limits
-    ]
-    parts = math.lcm(*(share.denominator for pair in shares for share in pair))
-    at_own, at_limit = np.array([[int(share * parts) for share in pair] for pair in shares]).T
-    before = np.empty(len(graph), np.int64)
-    before[graph.after] = np.arange(len(graph))
-    edges = scenario.roadmap.find_edges(graph.vertex[before[arcs.head]], graph.vertex[arcs.head])
-    classes = scenario.roadmap.class_of_edge[edges]
-    limited = np.flatnonzero((drive > 0) & (at_limit[classes] > 0))
-    slow = drive[limited] * at_limit[classes[limited]]
-    return Growth(
-        of=np.concatenate((of, limited)),
-        fixed=np.concatenate((fixed * parts, fixed[limited] * parts + slow)),
-        slope=np.concatenate((drive * at_own[classes] + turns * parts, turns[limited] * parts)),
-        parts=parts,
-    )
-
-
-def _turns_by_speed(
-    scenario: Scenario, graph: TimedEventGraph, place: int, robot: Robot
-) -> NDArray[np.int64]:
-    """Return the turning in each arc that a faster robot makes faster: by the cell [ticks]."""
-    arcs, rules = graph.arcs, (scenario.roadmap, scenario.rules)
-    faster = replace(robot, speed=2 * robot.speed)
-    if compute_turning_time(rules[0], robot, rules[1]) == compute_turning_time(
-        rules[0], faster, rules[1]
-    ):
-        return np.zeros(len(arcs), np.int64)
-    itinerary = scenario.problem.itineraries[graph.timetable.robots[place]]
-    at = find_stages_at(scenario.roadmap, itinerary, graph.timetable.laps[place])
-    turn = np.array([sum(stage.turn for _, stage in stages) for stages in at], np.int64)
-    dwells = (arcs.first < 0) & (graph.robot[arcs.tail] == place)
-    return np.where(dwells, turn[np.where(dwells, graph.index[arcs.tail], 0)], 0)

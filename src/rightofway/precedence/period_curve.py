@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp
-from rightofway.precedence.timed_event_graph import Arcs, TimedEventGraph, trace_circuit
+from rightofway.precedence.timed_event_graph import TimedEventGraph, trace_circuit
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -105,16 +105,10 @@ def compute_period_curve(
     GaveUp
         If time ran out, or numbers become too large for the native core.
     """
-    arcs = graph.arcs.choose(growth.of.astype(np.int32))
 
     def line_at(x: Fraction) -> PeriodPiece | None:
-        """Return the line of the critical circuit at ``x``; None for a deadlock."""
-        length = growth.fixed * x.denominator + growth.slope * x.numerator
-        try:
-            circuit = trace_circuit(len(graph), arcs.stretch(length), time_limit)
-        except ValueError as error:
-            raise GaveUp(f"the numbers of this period are too large ({error})") from None
-        return None if circuit is None else _line(arcs, growth, circuit.arcs, x, until)
+        line = find_line_at(graph, growth, x, time_limit=time_limit)
+        return None if line is None else replace(line, until=until)
 
     first, last = line_at(start), line_at(until)
     assert first is not None, "orders that are live for some parameter are live for less"
@@ -136,15 +130,30 @@ def compute_period_curve(
     return tuple(line for line in lines if line.until > line.start or start == until)
 
 
-def _line(
-    arcs: Arcs, growth: Growth, chosen: NDArray[np.int32], start: Fraction, until: Fraction
-) -> PeriodPiece:
-    """Return the mean of a circuit as a function of the parameter."""
+def find_line_at(
+    graph: TimedEventGraph, growth: Growth, x: Fraction, *, time_limit: float | None = None
+) -> PeriodPiece | None:
+    """Return the line of the critical circuit at a parameter, as a point; None for a deadlock.
+
+    Raises
+    ------
+    GaveUp
+        If time ran out, or numbers become too large for the native core.
+    """
+    arcs = graph.arcs.choose(growth.of.astype(np.int32))
+    length = growth.fixed * x.denominator + growth.slope * x.numerator
+    try:
+        circuit = trace_circuit(len(graph), arcs.stretch(length), time_limit)
+    except ValueError as error:
+        raise GaveUp(f"the numbers of this period are too large ({error})") from None
+    if circuit is None:
+        return None
+    chosen = circuit.arcs
     height = int(arcs.height[chosen].sum()) or 1  # no arcs: no circuit takes any time
     parts = height * growth.parts
     return PeriodPiece(
-        start=start,
-        until=until,
+        start=x,
+        until=x,
         fixed=Fraction(int(growth.fixed[chosen].sum()), parts),
         slope=Fraction(int(growth.slope[chosen].sum()), parts),
         arcs=growth.of[chosen],

@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp
-from rightofway.precedence.timed_event_graph import Arcs, Circuit, TimedEventGraph, trace_circuit
+from rightofway.precedence.period_curve import Growth, PeriodPiece, find_line_at
+from rightofway.precedence.timed_event_graph import Circuit, TimedEventGraph, trace_circuit
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,7 +51,7 @@ class Sensitivity:
 @checks_arguments
 def compute_sensitivity(
     graph: TimedEventGraph,
-    share: NDArray[np.int64],
+    share: NDArray[np.int64] | Growth,
     *,
     tight: NDArray[np.bool_] | None = None,
     time_limit: float | None = None,
@@ -62,7 +63,8 @@ def compute_sensitivity(
     graph
         Laps and orders.
     share
-        How much of each arc's length it is [ticks]; int64, shape (M,), at most the length.
+        How much of each arc's length it is [ticks]; int64, shape (M,), at most the length. Or the
+        lengths of the arcs as a function of the part of that time that is left: 1 is as it is.
     tight
         What `find_tight_arcs` returns, where several shares are asked for.
     time_limit
@@ -74,15 +76,18 @@ def compute_sensitivity(
         If time ran out.
     """
     mask = find_tight_arcs(graph, time_limit=time_limit) if tight is None else tight
-    critical, on_critical = graph.arcs.choose(mask), share[mask]
+    growth, now = _grow(graph, share), graph.find_critical_circuit(time_limit=time_limit).cycle_time
+    as_it_is = growth.fixed + growth.slope == graph.arcs.length[growth.of] * growth.parts
+    on_critical = mask[growth.of] & as_it_is
+    critical = graph.arcs.choose(growth.of[on_critical].astype(np.int32))
 
     def mean(length: NDArray[np.int64]) -> Fraction:
-        return _circuit(graph, critical.stretch(length), time_limit).cycle_time
+        circuit = trace_circuit(len(graph), critical.stretch(length[on_critical]), time_limit)
+        assert circuit is not None, "the orders of the graph are live, also with other lengths"
+        return circuit.cycle_time / growth.parts
 
-    now = mean(critical.length)
-    gain = now - mean(critical.length - on_critical)
-    loss = mean(on_critical)
-    until, at_best = _reach(graph, share, now, gain, time_limit)
+    gain, loss = now - mean(growth.fixed), mean(growth.slope)
+    until, at_best = _reach(graph, growth, now, gain, time_limit)
     return Sensitivity(cycle_time=now, gain=gain, loss=loss, until=until, at_best=at_best)
 
 
@@ -117,7 +122,7 @@ def find_tight_arcs(
 
 def find_critical_circuit_without(
     graph: TimedEventGraph,
-    share: NDArray[np.int64],
+    share: NDArray[np.int64] | Growth,
     part: Fraction,
     *,
     time_limit: float | None = None,
@@ -129,7 +134,7 @@ def find_critical_circuit_without(
     graph
         Laps and orders.
     share
-        The part of each arc that can be saved [ticks]; int64, shape (M,).
+        What can be saved, as in `compute_sensitivity`.
     part
         The part of the share that is saved, 0 to 1.
     time_limit
@@ -140,21 +145,29 @@ def find_critical_circuit_without(
     GaveUp
         If time ran out.
     """
-    whole, saved = part.denominator, part.numerator
-    arcs = graph.arcs.stretch(graph.arcs.length * whole - share * saved)
-    circuit = _circuit(graph, arcs, time_limit)
-    return Circuit(cycle_time=circuit.cycle_time / whole, arcs=circuit.arcs)
+    line = _find_line(graph, _grow(graph, share), part, time_limit)
+    return Circuit(cycle_time=line.compute_period(1 - part), arcs=line.arcs.astype(np.int32))
 
 
-def _circuit(graph: TimedEventGraph, arcs: Arcs, time_limit: float | None) -> Circuit:
-    circuit = trace_circuit(len(graph), arcs, time_limit)
-    assert circuit is not None, "the orders of the graph are live, also with other lengths"
-    return circuit
+def _grow(graph: TimedEventGraph, share: NDArray[np.int64] | Growth) -> Growth:
+    """Return the lengths of arcs as a function of the part of a time that is left."""
+    if isinstance(share, Growth):
+        return share
+    return Growth(of=np.arange(len(share)), fixed=graph.arcs.length - share, slope=share)
+
+
+def _find_line(
+    graph: TimedEventGraph, growth: Growth, saved: Fraction, time_limit: float | None
+) -> PeriodPiece:
+    """Return the line of the critical circuit where a part is saved."""
+    line = find_line_at(graph, growth, 1 - saved, time_limit=time_limit)
+    assert line is not None, "the orders of the graph are live, also with other lengths"
+    return line
 
 
 def _reach(
     graph: TimedEventGraph,
-    share: NDArray[np.int64],
+    growth: Growth,
     now: Fraction,
     gain: Fraction,
     time_limit: float | None,
@@ -165,13 +178,9 @@ def _reach(
     which one decides there, until it is the first line itself.
     """
     until = Fraction(1)
-    other_circuit = find_critical_circuit_without(graph, share, until, time_limit=time_limit)
-    at_best = other_circuit.cycle_time
-    while other_circuit.cycle_time > now - gain * until:
-        arcs = graph.arcs.choose(other_circuit.arcs)
-        height = int(arcs.height.sum())
-        mean = Fraction(int(arcs.length.sum()), height)
-        slope = Fraction(int(share[other_circuit.arcs].sum()), height)
-        until = (now - mean) / (gain - slope)
-        other_circuit = find_critical_circuit_without(graph, share, until, time_limit=time_limit)
+    other = _find_line(graph, growth, until, time_limit)
+    at_best = other.fixed
+    while other.compute_period(1 - until) > now - gain * until:
+        until = (now - other.compute_period(Fraction(1))) / (gain - other.slope)
+        other = _find_line(graph, growth, until, time_limit)
     return until, at_best
