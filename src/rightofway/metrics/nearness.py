@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
+from itertools import product
 from math import dist
 
 import numpy as np
@@ -14,6 +16,7 @@ from rightofway.phrases import Phrase, join_items, say_count
 from rightofway.site import Roadmap
 from rightofway.site.geometry import measure_squared_distance
 from rightofway.site.walls import reaches_walls
+from rightofway.site.zones import ZoneGuard
 
 TOUCHING = Fraction(1, 10**6)
 """Vertices and lanes nearer than this touch, whatever the size of the robots [length unit]."""
@@ -176,10 +179,13 @@ def _find_drawn_pairs(
     if not joints:
         return pairs, []
     lane_at, lane_of = dict[int, tuple[int, int]](), dict[frozenset[int], tuple[int, int]]()
+    pieces_at = defaultdict[int, list[tuple[int, int]]](list)
     for lane in roadmap.lanes:
         ends = min(lane.ends, lane.ends[::-1])
         lane_at.update((joint, ends) for joint in lane.joints if joint in joints)
         lane_of.update((frozenset(piece), ends) for piece in lane.pieces)
+        for piece, end in product(lane.pieces, (0, 1)):
+            pieces_at[piece[end]].append(piece)
 
     def whole(edge: tuple[int, int]) -> tuple[int, int]:
         return lane_of.get(frozenset(edge), edge)
@@ -198,12 +204,15 @@ def _find_drawn_pairs(
         if vertex not in lane and not any(frozenset((vertex, end)) in near_ends for end in lane)
     ]
 
+    guard = ZoneGuard(roadmap)
+
     def meeting(pairs: ClosePairs) -> Iterator[Lanes]:
         for first, other in pairs.vertices:
             if first in lane_at and other in lane_at:
-                yield lane_at[first], lane_at[other]
+                if not guard.are_apart(pieces_at[first], pieces_at[other]):
+                    yield lane_at[first], lane_at[other]
         for joint, edge in pairs.beside:
-            if joint in lane_at:
+            if joint in lane_at and not guard.are_apart(pieces_at[joint], [edge]):
                 yield lane_at[joint], whole(edge)
 
     # Lanes that cross at a joint touch there: no piece is on both sides of the other lane.

@@ -28,7 +28,7 @@ from rightofway.deadline import check_work
 from rightofway.errors import InputError, quote
 from rightofway.site import Point, Roadmap, measure_squared_distance
 from rightofway.site.nearness import Lines, PointGrid
-from rightofway.site.zones import Zone
+from rightofway.site.zones import Zone, ZoneGuard
 
 RADIUS_STEP = Fraction(1, 10**6)
 """The radius of a robot that is given by length and width is rounded up to this [length unit]."""
@@ -140,7 +140,8 @@ class ClosePairs:
     beside
         Vertices that lie nearer than that beside a lane, whose ends are not as near.
     crossings
-        Pairs of lanes that cross in a point that is an end of neither.
+        Pairs of lanes that cross in a point that is an end of neither, but for those that a zone
+        keeps robots apart on.
     """
 
     vertices: list[tuple[int, int]]
@@ -150,7 +151,12 @@ class ClosePairs:
 
 def close_pairs(roadmap: Roadmap, distance: Fraction) -> ClosePairs:
     """Return the vertices and lanes nearer than a distance, and lanes that cross; exact."""
-    return _Drawing(roadmap, [distance]).close_pairs(distance)
+    pairs = _Drawing(roadmap, [distance]).close_pairs(distance)
+    if not pairs.crossings or not roadmap.zones:
+        return pairs
+    guard = ZoneGuard(roadmap)
+    open_pairs = [lanes for lanes in pairs.crossings if not guard.are_apart(lanes[:1], lanes[1:])]
+    return replace(pairs, crossings=open_pairs)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, weakref_slot=True)

@@ -1,6 +1,7 @@
 """Lanes of a drawn roadmap that cross where no vertex is.
 
-Only robots with a radius book such a crossing. A reader warns of it where no robot has one.
+Robots with a radius book such a crossing, and robots without one if a zone holds both lanes. A
+reader warns of the other crossings.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 from rightofway.model import Scenario
 from rightofway.phrases import Phrase, say_count
 from rightofway.site import Roadmap
+from rightofway.site.zones import ZoneGuard
 
 SLACK = 1e-9
 """Part of a lane's length by which lanes have to pass beyond each other to count as crossing."""
@@ -22,18 +24,23 @@ MAX_LANES = 5_000
 
 
 def note_crossings(scenario: Scenario) -> Iterator[Phrase]:
-    """Yield a note on lanes that cross without a vertex, if no robot has a size."""
+    """Yield a note on lanes that cross without a vertex or a zone, if no robot has a size."""
     roadmap = scenario.roadmap
     if roadmap.grid is not None or any(robot.radius for robot in scenario.robots):
         return
     lanes = _lanes(roadmap)
     if len(lanes) > MAX_LANES:
         return
-    crossings = list(_crossings(roadmap.positions[lanes], lanes))
+    guard, ends = ZoneGuard(roadmap), list(map(tuple, lanes.tolist()))
+    crossings = [
+        (ends[lane], ends[other])
+        for lane, other in _crossings(roadmap.positions[lanes], lanes)
+        if not guard.are_apart([ends[lane]], [ends[other]])
+    ]
     if crossings:
         lane, other = (
             Phrase("{tail} to {head}", tail=roadmap.name(tail), head=roadmap.name(head))
-            for tail, head in lanes[list(crossings[0])].tolist()
+            for tail, head in crossings[0]
         )
         pairs = len(crossings) - 1
         fact = Phrase(
