@@ -185,7 +185,8 @@ def _find_drawn_pairs(
         lane_at.update((joint, ends) for joint in lane.joints if joint in joints)
         lane_of.update((frozenset(piece), ends) for piece in lane.pieces)
         for piece, end in product(lane.pieces, (0, 1)):
-            pieces_at[piece[end]].append(piece)
+            if piece[end] in joints:
+                pieces_at[piece[end]].append(piece)
 
     def whole(edge: tuple[int, int]) -> tuple[int, int]:
         return lane_of.get(frozenset(edge), edge)
@@ -207,13 +208,11 @@ def _find_drawn_pairs(
     guard = ZoneGuard(roadmap)
 
     def meeting(pairs: ClosePairs) -> Iterator[Lanes]:
-        for first, other in pairs.vertices:
-            if first in lane_at and other in lane_at:
-                if not guard.are_apart(pieces_at[first], pieces_at[other]):
-                    yield lane_at[first], lane_at[other]
-        for joint, edge in pairs.beside:
-            if joint in lane_at and not guard.are_apart(pieces_at[joint], [edge]):
-                yield lane_at[joint], whole(edge)
+        at_joints = ((pieces_at[first], pieces_at[other]) for first, other in pairs.vertices)
+        at_lanes = ((pieces_at[joint], [edge]) for joint, edge in pairs.beside)
+        for pieces, others in (*at_joints, *at_lanes):
+            if pieces and others and not guard.are_apart(pieces, others):
+                yield whole(pieces[0]), whole(others[0])
 
     # Lanes that cross at a joint touch there: no piece is on both sides of the other lane.
     touching = _list_apart(meeting(close_pairs(roadmap, TOUCHING)))
