@@ -37,6 +37,7 @@ __all__ = [
     "Steps",
     "Where",
     "as_location",
+    "describe_error",
     "escape_text",
     "find_nearest",
     "format_path",
@@ -479,6 +480,17 @@ def escape_text(text: str) -> str:
 def is_printable(text: str) -> bool:
     """Return whether a name may stand in tables and messages: not empty, no control codes."""
     return bool(text) and text.isprintable()
+
+
+def describe_error(error: BaseException) -> str:
+    """Return the kind and the text of an exception in one line.
+
+    Parameters
+    ----------
+    error
+        The exception.
+    """
+    return " ".join([f"{type(error).__name__}:", *str(error).split()])
 
 
 def find_nearest(word: object, known: Collection[str]) -> str | None:

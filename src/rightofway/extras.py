@@ -1,18 +1,25 @@
-"""Libraries that are not installed with the package: each comes with an extra of it.
+"""Code of other packages: optional libraries, and plugins that add planners and layout formats.
 
-They are imported where they are used, so that commands that do without them start fast.
+It is imported where it is used, so that commands that do without it start fast.
 """
 
 from __future__ import annotations
 
+import warnings
 from importlib import import_module
 from importlib.util import find_spec
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from rightofway.arguments import checks_arguments, get_value
-from rightofway.errors import InputError
+from rightofway.errors import InputError, describe_error, quote
+from rightofway.phrases import Phrase
 
-__all__ = ["EXTRAS", "load_library", "need"]
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
+
+__all__ = ["EXTRAS", "load_library", "load_plugins", "need"]
+
+T = TypeVar("T")
 
 EXTRAS = {
     "distributed": "dask",
@@ -44,3 +51,35 @@ def load_library(module: str, purpose: str) -> Any:
     """Return a module of an optional library, or refuse as `need`."""
     need(module.partition(".")[0], purpose)
     return import_module(module)
+
+
+def load_plugins(group: str, kind: type[T]) -> dict[str, T]:
+    """Return the objects that other packages add by entry points of a group, by name.
+
+    A plugin that fails is left out, with a `UserWarning` that names it and its package.
+    """
+    from importlib.metadata import entry_points  # here, because it imports much
+
+    plugins: dict[str, T] = {}
+    for point in entry_points(group=group):
+        try:
+            plugin = point.load()
+            if not isinstance(plugin, kind):
+                raise TypeError(f"{quote(plugin)} is no {kind.__name__}")  # noqa: TRY301
+        except (Exception, SystemExit) as error:  # noqa: BLE001 - code of others
+            warnings.warn(_describe_failure(point, error), stacklevel=2)
+        else:
+            plugins.setdefault(point.name, plugin)
+    return plugins
+
+
+def _describe_failure(point: EntryPoint, error: BaseException) -> Phrase:
+    package = point.dist.name if point.dist else point.module.partition(".")[0]
+    return Phrase(
+        "{group}: the plugin {name} of the package {package} is left out: {error} (update or"
+        " uninstall {package})",
+        group=point.group,
+        name=point.name,
+        package=package,
+        error=describe_error(error),
+    )

@@ -20,18 +20,20 @@ import sys
 import threading
 import time
 import traceback
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
-from typing import NoReturn, cast
+from typing import Any, NoReturn, cast
 
 import click
 
 from rightofway import __version__
-from rightofway.cli.terminal import add_shared_options, complain, speak_utf8
-from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists
+from rightofway.cli.terminal import add_shared_options, complain, say, speak_utf8
+from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists, describe_error
+from rightofway.phrases import Phrase
 
 MANY = 1000
 """Characters of the longest sentence of help, which is not cut."""
@@ -212,7 +214,8 @@ def run(args: Sequence[str] | None = None, session: _Session | None = None) -> i
     try:
         if COMPLETE in os.environ:
             import_module("rightofway.cli.completion")  # makes its script for Bash known to click
-        ended = commands.main(args, prog_name="rightofway", standalone_mode=False, obj=session)
+        with _say_warnings():
+            ended = commands.main(args, prog_name="rightofway", standalone_mode=False, obj=session)
         return int(ended or DONE)
     except click.ClickException as error:
         error.show()
@@ -234,8 +237,22 @@ def run(args: Sequence[str] | None = None, session: _Session | None = None) -> i
         return DEFECT
 
 
+@contextmanager
+def _say_warnings() -> Iterator[None]:
+    """Show warnings of ours as messages; those of other packages as Python does."""
+    with warnings.catch_warnings():
+        show = warnings.showwarning
+
+        def show_or_say(message: Warning | str, *more: Any, **named: Any) -> None:
+            text = message.args[0] if isinstance(message, Warning) and message.args else None
+            say(text) if isinstance(text, Phrase) else show(message, *more, **named)
+
+        warnings.showwarning = show_or_say
+        yield
+
+
 def _confess(error: Exception, *, debug: bool) -> None:
     if debug:
         complain("".join(traceback.format_exception(error)).rstrip("\n"))
-    words = " ".join([f"{type(error).__name__}:", *str(error).split()])
-    complain(f"unexpected {words} (please report it; `rightofway --debug …` says more)")
+    remedy = "please report it; `rightofway --debug …` says more"
+    complain(f"unexpected {describe_error(error)} ({remedy})")

@@ -10,11 +10,15 @@ from importlib import import_module
 from typing import Any, cast
 
 from rightofway.arguments import checks_arguments
-from rightofway.errors import InputError
+from rightofway.errors import InputError, describe_error
+from rightofway.extras import load_plugins
 from rightofway.planners import options
 from rightofway.planners.features import ANY_FLEET, Feature
 from rightofway.planners.options import Option, PlannerOptions, Value
 from rightofway.planners.task import Planner
+
+GROUP = "rightofway.planners"
+"""Entry points of this group are further planners."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,9 +51,22 @@ class PlannerSpec:
         return self.options_type.described()
 
     def load(self) -> Planner:
-        """Import the planner."""
+        """Import the planner.
+
+        Raises
+        ------
+        InputError
+            If it is a planner of another package and its module fails.
+        """
         module, function = self.target.split(":")
-        return cast("Planner", getattr(import_module(module), function))
+        try:
+            return cast("Planner", getattr(import_module(module), function))
+        except (Exception, SystemExit) as error:
+            if module.startswith("rightofway."):
+                raise
+            message = f"{self.name} cannot be imported: {describe_error(error)}"
+            remedy = f"update or uninstall the package of {module}"
+            raise InputError.at("planner", f"{message} ({remedy})") from error
 
     def settle(self, given: PlannerOptions | Mapping[str, Any]) -> dict[str, Value]:
         """Return a value for every option: the given ones, and defaults for the rest.
@@ -176,13 +193,7 @@ def find_all() -> dict[str, PlannerSpec]:
 @cache
 def _of_other_packages(_path: tuple[str, ...]) -> dict[str, PlannerSpec]:
     """Return the planners of packages that are installed on this ``sys.path``."""
-    from importlib.metadata import entry_points  # here, because it imports much
-
-    points = entry_points(group="rightofway.planners")
-    specs: dict[str, PlannerSpec] = {}
-    for point in points:
-        specs.setdefault(point.name, cast("PlannerSpec", point.load()))
-    return specs
+    return load_plugins(GROUP, PlannerSpec)
 
 
 def name_able(feature: Feature) -> str:

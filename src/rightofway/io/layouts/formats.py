@@ -12,6 +12,7 @@ from typing import Any, Literal
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, Location, join_names, name_file
+from rightofway.extras import load_plugins
 from rightofway.io.layouts import csv_pair, graphml, lif, nav2, open_rmf, opentcs, ros_map
 from rightofway.io.layouts.xml_tree import Element, parse_xml
 from rightofway.io.locations import add_lines
@@ -109,12 +110,8 @@ def _own() -> dict[str, LayoutFormat]:
 @cache
 def list_layout_formats() -> dict[str, LayoutFormat]:
     """Return the formats of layouts by name: ours, and those of other packages."""
-    from importlib.metadata import entry_points  # here, because it imports much
-
-    formats = _own()
-    for point in entry_points(group=GROUP):
-        formats.setdefault(point.name, point.load())
-    return formats
+    own = _own()
+    return {**own, **load_plugins(GROUP, LayoutFormat), **own}
 
 
 @checks_arguments
