@@ -12,7 +12,7 @@ Where the clock is not exact (`Clock.exact`), drives are rounded up to ticks as 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Literal
 
@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
 from rightofway.cyclic.sensitivity import find_stages_at, grow_by_speed
-from rightofway.model import Scenario
+from rightofway.model import Scenario, Tick
 from rightofway.precedence import Growth, TimedEventGraph, compute_period_curve
 
 MOST_VISITS = 100_000
@@ -68,8 +68,9 @@ class ParameterCurve:
     value
         The value of the scenario [time unit; of a speed: length unit per time unit].
     pieces
-        Each begins where the one before ends. A time is examined from 0 (a headway where rotations
-        are forbidden: from one tick) up to the period or four times its value, whichever is longer.
+        Each begins where the one before ends. A time is examined from 0 (a headway where only a
+        rule forbids rotations: from one tick) up to the period or four times its value, whichever
+        is longer.
         A headway has one piece that is a point where robots would wait for each other for ever
         with any longer one.
     """
@@ -129,7 +130,8 @@ def _curves(
     for place in critical:
         yield from _of_robot(scenario, graph, place, time_limit)
     if len(graph.timetable.robots) > 1:
-        is_right, least = graph.arcs.first >= 0, 0 if scenario.rules.rotations else 1
+        least = replace(scenario.problem.booking_rules, headway=Tick(0)).to_plan_with().headway
+        is_right = graph.arcs.first >= 0
         pieces = _of_time(scenario, graph, is_right, graph.rules.headway, time_limit, least=least)
         value = scenario.rules.headway
         yield ParameterCurve(kind="headway", robot=None, stop=None, value=value, pieces=pieces)

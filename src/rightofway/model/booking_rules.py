@@ -34,17 +34,24 @@ class BookingRules:
     rotations: bool = True
 
     @property
+    def may_follow(self) -> bool:
+        """Whether a robot can enter a vertex at the instant at which another one leaves it."""
+        return not self.books_ahead and self.headway == 0
+
+    @property
     def may_rotate(self) -> bool:
         """Whether bookings let robots move round a circle at one instant."""
-        return self.rotations and not self.books_ahead and self.headway == 0
+        return self.rotations and self.may_follow
 
     def to_plan_with(self) -> BookingRules:
         """Return the rules that planners keep.
 
-        Where rotations are forbidden their headway is at least one tick: a vertex that is never
+        Where only a rule forbids rotations, their headway is one tick: a vertex that is never
         entered at the instant at which it is left cannot be part of a rotation.
         """
-        return replace(self, headway=Tick(max(self.headway, 0 if self.rotations else 1)))
+        if self.rotations or not self.may_follow:
+            return self
+        return replace(self, headway=Tick(1))
 
     def start(self, enter: Ticks, drive: Ticks) -> Ticks:
         """Return from when a visit books its vertex, by its enter and the drive into it."""
