@@ -12,7 +12,7 @@
 namespace rightofway::bind {
 namespace {
 
-constexpr auto class_doc = R"(A plan that is executed with delays.
+constexpr auto adg_doc = R"(A plan that is executed with delays.
 
 Parameters
 ----------
@@ -280,9 +280,9 @@ struct BoundDelays {
     }
 };
 
-void init(BoundAdg* self, const BookingRules& rules, const BoundRoutes& routes,
-          const BoundOrder& order, const BoundDelays& model, const BoundVisitRows* rows,
-          const BoundVisitClosures* closures) {
+void init_adg(BoundAdg* self, const BookingRules& rules, const BoundRoutes& routes,
+              const BoundOrder& order, const BoundDelays& model, const BoundVisitRows* rows,
+              const BoundVisitClosures* closures) {
     require_length("since", order.since.size(), routes.vertex.size());
     const auto first = view(model.first_stoppage);
     new (self)
@@ -305,8 +305,8 @@ void bind_adg(nb::module_& module) {
             nb::init<ArrayIn<double>, Ints, ArrayIn<double>, ArrayIn<double>, Ints, Ticks, Ticks>(),
             array("pace"), array("kind"), array("a"), array("b"), array("first_stoppage"),
             array("stoppage_tick"), array("stoppage_ticks"));
-    nb::class_<BoundAdg>(module, "ActionDependencyGraph", class_doc)
-        .def("__init__", &init, nb::arg("rules"), nb::arg("routes"), nb::arg("order"),
+    nb::class_<BoundAdg>(module, "ActionDependencyGraph", adg_doc)
+        .def("__init__", &init_adg, nb::arg("rules"), nb::arg("routes"), nb::arg("order"),
              nb::arg("delays"), nb::arg("rows").none() = nb::none(),
              nb::arg("closures").none() = nb::none())
         .def("runs", &BoundAdg::runs, nb::arg("seed"), nb::arg("first"), nb::arg("count"),

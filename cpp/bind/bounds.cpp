@@ -9,14 +9,14 @@
 namespace rightofway::bind {
 namespace {
 
-constexpr auto class_doc = R"(A lower bound of all plans, raised step by step by prices of places.
+constexpr auto bounds_doc = R"(A lower bound of all plans, raised step by step by prices of places.
 
 Parameters
 ----------
 problem : Problem
     What the fleet has to do; every robot can reach its places.)";
 
-constexpr auto run_doc = R"(Take more steps; more can follow.
+constexpr auto run_ascent_doc = R"(Take more steps; more can follow.
 
 Parameters
 ----------
@@ -28,7 +28,7 @@ time_limit : float or None
 }  // namespace
 
 void bind_bounds(nb::module_& module) {
-    nb::class_<PriceAscent>(module, "PriceAscent", class_doc)
+    nb::class_<PriceAscent>(module, "PriceAscent", bounds_doc)
         .def(nb::init<const Problem&>(), nb::arg("problem"), nb::keep_alive<1, 2>())
         .def(
             "run",
@@ -38,7 +38,7 @@ void bind_bounds(nb::module_& module) {
                 const nb::gil_scoped_release released;
                 self.run(steps, [&] { return deadline(); });
             },
-            nb::arg("steps"), nb::arg("time_limit").none(), run_doc)
+            nb::arg("steps"), nb::arg("time_limit").none(), run_ascent_doc)
         .def_prop_ro("bound", &PriceAscent::bound, "No plan costs less. [ticks]")
         .def_prop_ro("n_steps", &PriceAscent::n_steps, "The number of steps taken.")
         .def_prop_ro("is_over", &PriceAscent::is_over, "Whether more steps change nothing.");

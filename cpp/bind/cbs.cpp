@@ -18,7 +18,7 @@
 namespace rightofway::bind {
 namespace {
 
-constexpr auto class_doc = R"(Conflict-based search for a plan of least cost, with its proof.
+constexpr auto cbs_doc = R"(Conflict-based search for a plan of least cost, with its proof.
 
 Parameters
 ----------
@@ -46,7 +46,7 @@ factor : int
 latest : int
     No robot completes later, NEVER for no limit; only without surcharges. [ticks])";
 
-constexpr auto run_doc = R"(Search on; the search can be continued.
+constexpr auto run_search_doc = R"(Search on; the search can be continued.
 
 Parameters
 ----------
@@ -265,7 +265,7 @@ void bind_cbs(nb::module_& module) {
     module.def("fewest_actions", &fewest_actions, nb::arg("problem"), array("first_visit"),
                array("vertices"), array("enter"), array("waits"), nb::arg("latest"),
                nb::arg("most_states"), nb::arg("time_limit").none(), actions_doc);
-    nb::class_<ConflictBasedSearch>(module, "ConflictBasedSearch", class_doc)
+    nb::class_<ConflictBasedSearch>(module, "ConflictBasedSearch", cbs_doc)
         .def(
             "__init__",
             [](ConflictBasedSearch* self, const Problem& problem, bool cardinal, bool bypass,
@@ -288,7 +288,7 @@ void bind_cbs(nb::module_& module) {
             nb::arg("targets"), nb::arg("disjoint"), nb::arg("pairs"), nb::arg("pair_nodes"),
             nb::arg("joint_states"), nb::arg("factor"), nb::arg("latest"), nb::keep_alive<1, 2>())
         .def("run", &run, nb::arg("upper"), nb::arg("enough"), nb::arg("most_nodes"),
-             nb::arg("most_bytes"), nb::arg("time_limit").none(), run_doc)
+             nb::arg("most_bytes"), nb::arg("time_limit").none(), run_search_doc)
         .def("search_together", &together, array("robots"), nb::arg("most_states"),
              nb::arg("time_limit").none(), together_doc)
         .def(

@@ -5,7 +5,7 @@
 namespace rightofway::bind {
 namespace {
 
-constexpr auto class_doc =
+constexpr auto distances_doc =
     R"(Least ticks from every vertex to one target, on a graph in compressed rows.
 
 The graph is copied (reversed) once; several threads may ask one object at once.
@@ -31,7 +31,8 @@ Raises
 OverflowError
     If a least time does not fit int32.)";
 
-void init(DistanceTables* self, const ArrayIn<EdgeId>& indptr, const ArrayIn<VertexId>& indices) {
+void init_distances(DistanceTables* self, const ArrayIn<EdgeId>& indptr,
+                    const ArrayIn<VertexId>& indices) {
     const nb::gil_scoped_release released;
     new (self) DistanceTables(view(indptr), view(indices));
 }
@@ -74,7 +75,7 @@ start, target : int
 to_go : int32[V]
     The least ticks from each vertex to the target, -1 where no way leads there.)";
 
-constexpr auto add_doc =
+constexpr auto add_congestion_doc =
     R"(Count one more robot on a path.
 
 Parameters
@@ -87,8 +88,8 @@ oncoming : int
 }  // namespace
 
 void bind_distances(nb::module_& module) {
-    nb::class_<DistanceTables>(module, "DistanceTables", class_doc)
-        .def("__init__", &init, array("indptr"), array("indices"))
+    nb::class_<DistanceTables>(module, "DistanceTables", distances_doc)
+        .def("__init__", &init_distances, array("indptr"), array("indices"))
         .def("to", &to, nb::arg("target"), array("edge_ticks"), to_doc);
     nb::class_<Congestion>(module, "Congestion", congestion_doc)
         .def(
@@ -116,7 +117,7 @@ void bind_distances(nb::module_& module) {
             [](Congestion& self, const ArrayIn<VertexId>& path, std::int64_t oncoming) {
                 self.add(view(path), oncoming);
             },
-            array("path"), nb::arg("oncoming"), add_doc);
+            array("path"), nb::arg("oncoming"), add_congestion_doc);
 }
 
 }  // namespace rightofway::bind

@@ -12,7 +12,7 @@
 namespace rightofway::bind {
 namespace {
 
-constexpr auto class_doc = R"(The tracks of a whole fleet: finding first ones, and better ones.
+constexpr auto fleet_doc = R"(The tracks of a whole fleet: finding first ones, and better ones.
 
 The seed decides all that is drawn; what `improve` finds does not depend on ``n_threads``. Robots
 without a track are left where they are by `tracks`: an empty one. Ctrl-C leaves a plan as good as
@@ -140,8 +140,9 @@ TrackArrays tracks(const FleetSearch& self) {
             to_numpy(std::move(all.enter))};
 }
 
-void init(FleetSearch* self, const Problem& problem, std::uint64_t seed, std::size_t n_threads,
-          const std::optional<ArrayIn<Tick>>& alone, Objective objective) {
+void init_fleet(FleetSearch* self, const Problem& problem, std::uint64_t seed,
+                std::size_t n_threads, const std::optional<ArrayIn<Tick>>& alone,
+                Objective objective) {
     new (self) FleetSearch(problem, seed, n_threads, objective);
     if (alone) {
         try {
@@ -160,8 +161,8 @@ void bind_fleet(nb::module_& module) {
         .value("flowtime", Objective::flowtime, "The flowtime by weights, and surcharges.")
         .value("makespan", Objective::makespan, "The makespan; on ties the flowtime by weights.")
         .value("both", Objective::both, "Makespan plus completion, summed over robots by weights.");
-    nb::class_<FleetSearch>(module, "FleetSearch", class_doc)
-        .def("__init__", &init, nb::arg("problem"), nb::arg("seed"), nb::arg("n_threads"),
+    nb::class_<FleetSearch>(module, "FleetSearch", fleet_doc)
+        .def("__init__", &init_fleet, nb::arg("problem"), nb::arg("seed"), nb::arg("n_threads"),
              nb::arg("alone").none() = nb::none(), nb::arg("objective") = Objective::flowtime,
              nb::keep_alive<1, 2>())
         .def(

@@ -11,7 +11,7 @@
 namespace rightofway::bind {
 namespace {
 
-constexpr auto class_doc =
+constexpr auto graph_doc =
     R"(Routes, rights of way, the timetable they give, and the conflicts left.
 
 A conflict is a tuple ``(tick, kind, visit_a, visit_b)`` where the robot of ``visit_a`` is below
@@ -166,8 +166,9 @@ std::optional<ConflictTuple> to_tuple(const std::optional<Conflict>& found) {
                          found->visit_b};
 }
 
-void init(PrecedenceGraph* self, const BookingRules& rules, const BoundRoutes& routes,
-          bool swaps_conflict, const BoundVisitRows* rows, const BoundVisitClosures* closures) {
+void init_graph(PrecedenceGraph* self, const BookingRules& rules, const BoundRoutes& routes,
+                bool swaps_conflict, const BoundVisitRows* rows,
+                const BoundVisitClosures* closures) {
     const std::vector<Tick> leasts = routes.leasts();
     const std::vector<Tick> approaches = routes.approaches(rules);
     const std::vector<std::uint8_t> active(std::max<std::size_t>(routes.first_visit.size(), 1) - 1,
@@ -265,9 +266,10 @@ void bind_changes(nb::class_<PrecedenceGraph>& graph) {
 }  // namespace
 
 void bind_graph(nb::module_& module) {
-    nb::class_<PrecedenceGraph> graph(module, "PrecedenceGraph", class_doc);
-    graph.def("__init__", &init, nb::arg("rules"), nb::arg("routes"), nb::arg("swaps_conflict"),
-              nb::arg("rows").none() = nb::none(), nb::arg("closures").none() = nb::none());
+    nb::class_<PrecedenceGraph> graph(module, "PrecedenceGraph", graph_doc);
+    graph.def("__init__", &init_graph, nb::arg("rules"), nb::arg("routes"),
+              nb::arg("swaps_conflict"), nb::arg("rows").none() = nb::none(),
+              nb::arg("closures").none() = nb::none());
     bind_queries(graph);
     bind_changes(graph);
 }

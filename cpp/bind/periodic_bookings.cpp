@@ -17,7 +17,7 @@
 namespace rightofway::bind {
 namespace {
 
-constexpr auto class_doc =
+constexpr auto periodic_bookings_doc =
     R"(Bookings of vertices with a period or none, and when one more robot can make given visits.
 
 Parameters
@@ -31,7 +31,7 @@ period : int or None
 lists : ExcludedRows or None
     Where robots have sizes: the lists of all rows.)";
 
-constexpr auto add_doc =
+constexpr auto add_bookings_doc =
     R"(Book consecutive visits of a robot, with a period all those of one period.
 
 Parameters
@@ -190,8 +190,8 @@ Visits visits_of(const ArrayIn<VertexId>& vertex, const ArrayIn<Tick>& dwell,
     return {view(vertex), view(dwell), view(drive), view_or_empty(edge)};
 }
 
-void init(PeriodicBookings* self, const BookingRules& rules, std::int32_t n_rows,
-          std::optional<Tick> period, const BoundExcludedRows* lists) {
+void init_periodic_bookings(PeriodicBookings* self, const BookingRules& rules, std::int32_t n_rows,
+                            std::optional<Tick> period, const BoundExcludedRows* lists) {
     new (self) PeriodicBookings(n_rows, period, rules.headway, rules.books_ahead,
                                 lists == nullptr ? ExcludedRows{} : lists->rows());
 }
@@ -232,9 +232,9 @@ void bind_periodic_bookings(nb::module_& module) {
         .def(nb::init<Ints, Ints, Ticks, Ticks, std::vector<Ints>, std::optional<BoundTurning>>(),
              array("pace"), array("stage_vertex"), array("stage_work"), array("stage_turn"),
              nb::arg("stage_tables"), nb::arg("turning").none() = nb::none());
-    nb::class_<PeriodicBookings>(module, "PeriodicBookings", class_doc)
-        .def("__init__", &init, nb::arg("rules"), nb::arg("n_rows"), nb::arg("period").none(),
-             nb::arg("lists").none() = nb::none(), nb::keep_alive<1, 5>())
+    nb::class_<PeriodicBookings>(module, "PeriodicBookings", periodic_bookings_doc)
+        .def("__init__", &init_periodic_bookings, nb::arg("rules"), nb::arg("n_rows"),
+             nb::arg("period").none(), nb::arg("lists").none() = nb::none(), nb::keep_alive<1, 5>())
         .def_prop_ro("reached", &PeriodicBookings::reached,
                      "The last visit that the latest search could enter; it got stuck at the next.")
         .def(
@@ -245,7 +245,7 @@ void bind_periodic_bookings(nb::module_& module) {
                 return self.add(robot, visits_of(vertex, dwell, drive, edge), view(enter), leave);
             },
             nb::arg("robot"), array("vertex"), array("dwell"), array("drive"), array("enter"),
-            nb::arg("leave") = nb::none(), array("edge").none() = nb::none(), add_doc)
+            nb::arg("leave") = nb::none(), array("edge").none() = nb::none(), add_bookings_doc)
         .def("remove", &PeriodicBookings::remove, nb::arg("robot"),
              R"(Remove all bookings of a robot; nothing happens if it has none.
 

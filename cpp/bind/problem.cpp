@@ -167,9 +167,10 @@ void init_lists(BoundExcludedRows* self, const BoundRoads& roads, const BoundDra
     new (self) BoundExcludedRows{std::move(finder)};
 }
 
-void init(Problem* self, const BoundRoads& roads, const BoundRobots& robots,
-          const BookingRules& rules, const BoundExcludedRows* lists, const BoundTurning* turning,
-          const std::optional<Ticks>& surcharges, const BoundClosures* closures) {
+void init_problem(Problem* self, const BoundRoads& roads, const BoundRobots& robots,
+                  const BookingRules& rules, const BoundExcludedRows* lists,
+                  const BoundTurning* turning, const std::optional<Ticks>& surcharges,
+                  const BoundClosures* closures) {
     const ProblemArrays arrays{
         view(roads.indptr),          view(roads.heads),         view(roads.length_class),
         view(robots.paces),          view(robots.pace_of),      view(robots.home),
@@ -243,7 +244,7 @@ row : int
     nb::class_<BoundClosures>(module, "Closures", closures_doc)
         .def(nb::init<Ints, Ticks, Ticks>(), array("row"), array("start"), array("end"));
     nb::class_<Problem>(module, "Problem", problem_doc)
-        .def("__init__", &init, nb::arg("roads"), nb::arg("robots"), nb::arg("rules"),
+        .def("__init__", &init_problem, nb::arg("roads"), nb::arg("robots"), nb::arg("rules"),
              nb::arg("lists").none() = nb::none(), nb::arg("turning").none() = nb::none(),
              array("surcharges").none() = nb::none(), nb::arg("closures").none() = nb::none(),
              nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 5>(),

@@ -29,7 +29,7 @@ vertex, edge : int32[N]
     The row that each visit books at its vertex, and along the edge driven out of it; -1 for the
     edge of last visits.)";
 
-constexpr auto closures_doc = R"(When the places of visits are closed.
+constexpr auto visit_closures_doc = R"(When the places of visits are closed.
 
 Parameters
 ----------
@@ -55,7 +55,7 @@ void bind_routes(nb::module_& module) {
     nb::class_<BoundVisitRows>(module, "VisitRows", rows_doc)
         .def(nb::init<BoundExcludedRows, Ints, Ints>(), nb::arg("lists"), array("vertex"),
              array("edge"));
-    nb::class_<BoundVisitClosures>(module, "VisitClosures", closures_doc)
+    nb::class_<BoundVisitClosures>(module, "VisitClosures", visit_closures_doc)
         .def(nb::init<Ints, Ticks, Ticks>(), array("first"), array("start"), array("end"));
 }
 

@@ -13,7 +13,7 @@
 namespace rightofway::bind {
 namespace {
 
-constexpr auto class_doc =
+constexpr auto simulator_doc =
     R"(Robots that repeat their laps under a rule that considers two of them, until a state recurs.
 
 Parameters
@@ -102,9 +102,9 @@ std::vector<Tick> leasts_of(const BoundRoutes& laps) {
     return leasts;
 }
 
-void init(CyclicSimulator* self, const BookingRules& rules, const BoundRoutes& laps,
-          const Ticks& first_least, const Horizon& horizon, std::int32_t rule,
-          const ArrayIn<std::int64_t>& loss, const BoundVisitRows* rows) {
+void init_simulator(CyclicSimulator* self, const BookingRules& rules, const BoundRoutes& laps,
+                    const Ticks& first_least, const Horizon& horizon, std::int32_t rule,
+                    const ArrayIn<std::int64_t>& loss, const BoundVisitRows* rows) {
     const std::vector<Tick> leasts = leasts_of(laps);
     const std::vector<Tick> approaches = laps.approaches(rules);
     const BookedRows booked = BoundVisitRows::rows(rows);
@@ -159,8 +159,8 @@ void bind_simulator(nb::module_& module) {
         .def(nb::init<RobotId, Tick, Tick, Tick, Tick, std::int32_t>(), nb::kw_only(),
              nb::arg("pacemaker"), nb::arg("lag"), nb::arg("most_lag"), nb::arg("patience"),
              nb::arg("reach"), nb::arg("memory"));
-    nb::class_<CyclicSimulator>(module, "CyclicSimulator", class_doc)
-        .def("__init__", &init, nb::arg("rules"), nb::arg("laps"), array("first_least"),
+    nb::class_<CyclicSimulator>(module, "CyclicSimulator", simulator_doc)
+        .def("__init__", &init_simulator, nb::arg("rules"), nb::arg("laps"), array("first_least"),
              nb::arg("horizon"), nb::arg("rule"), array("loss"),
              nb::arg("rows").none() = nb::none(), nb::keep_alive<1, 8>())
         .def("advance", &advance, nb::arg("time_limit") = nb::none(), advance_doc)

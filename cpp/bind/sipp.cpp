@@ -67,7 +67,8 @@ Parameters
 vertex : int
     The vertex, or row.)";
 
-constexpr auto search_doc = R"(Find the earliest track of one robot among the bookings of others.
+constexpr auto search_track_doc =
+    R"(Find the earliest track of one robot among the bookings of others.
 
 Parameters
 ----------
@@ -161,7 +162,7 @@ void bind_sipp(nb::module_& module) {
         .def("at", &at, nb::arg("vertex"), at_doc);
     module.def("earliest_track", &earliest_track, nb::arg("problem"), nb::arg("robot"),
                nb::arg("bookings"), nb::arg("stage_tables"), nb::arg("time_limit").none(),
-               search_doc);
+               search_track_doc);
 }
 
 }  // namespace rightofway::bind

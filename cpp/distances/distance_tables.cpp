@@ -15,10 +15,10 @@ namespace rightofway {
 namespace {
 
 constexpr std::int32_t unreached = -1;
-constexpr Tick largest = std::numeric_limits<std::int32_t>::max();
+constexpr Tick largest_distance = std::numeric_limits<std::int32_t>::max();
 
 std::int32_t narrow(Tick distance, VertexId vertex, VertexId target) {
-    if (distance > largest) {
+    if (distance > largest_distance) {
         throw std::overflow_error("distance from " + std::to_string(vertex) + " to " +
                                   std::to_string(target) + ": " + std::to_string(distance) +
                                   " ticks do not fit int32 (use a larger tick)");

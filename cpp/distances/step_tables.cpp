@@ -26,7 +26,7 @@ constexpr std::int32_t line_radius = 15;
 // The most vertices that are looked at to fill a line; bounds the time on dense graphs.
 constexpr std::size_t most_for_a_line = 2048;
 constexpr std::int32_t most_steps = std::numeric_limits<std::uint16_t>::max() - 1;
-constexpr std::size_t legs_between_questions = 64;
+constexpr std::size_t requests_between_questions = 64;
 constexpr std::size_t least_for_a_thread = 16;
 
 // Whether some edge has no opposite edge.
@@ -230,16 +230,16 @@ SearchEnd reach_all(const Problem& problem, StepTables& tables, const StopCondit
             place = problem.stage_vertex(s);
         }
     }
-    for (std::size_t first = 0; first < legs.size(); first += legs_between_questions) {
-        const auto some =
-            std::span(legs).subspan(first, std::min(legs_between_questions, legs.size() - first));
+    for (std::size_t first = 0; first < legs.size(); first += requests_between_questions) {
+        const auto some = std::span(legs).subspan(
+            first, std::min(requests_between_questions, legs.size() - first));
         tables.search_all(some);
         for (const StepTables::Request& leg : some) {
             if (tables.steps(leg.table, leg.from) == StepTables::unreachable) {
                 return SearchEnd::proven_none;
             }
         }
-        if (some.size() == legs_between_questions && is_over()) {
+        if (some.size() == requests_between_questions && is_over()) {
             return SearchEnd::stopped;
         }
     }

@@ -15,7 +15,7 @@
 namespace rightofway {
 namespace {
 
-constexpr Tick largest = std::numeric_limits<std::int32_t>::max();
+constexpr Tick largest_entry = std::numeric_limits<std::int32_t>::max();
 
 }  // namespace
 
@@ -57,7 +57,7 @@ TurningTable::TurningTable(const Problem& problem, RobotId robot)
             if (ticks > best[index(edge)]) {
                 continue;
             }
-            if (ticks > largest) {
+            if (ticks > largest_entry) {
                 throw std::overflow_error("trip of robot " + std::to_string(robot) + ": " +
                                           std::to_string(ticks) +
                                           " ticks do not fit int32 (use a larger tick)");
@@ -82,7 +82,7 @@ TurningTable::TurningTable(const Problem& problem, RobotId robot)
                 at_home = std::min(at_home, problem.drive(robot, e) + Tick{least[e]});
             }
         }
-        least[-1] = at_home > largest ? -1 : static_cast<std::int32_t>(at_home);
+        least[-1] = at_home > largest_entry ? -1 : static_cast<std::int32_t>(at_home);
     }
 }
 

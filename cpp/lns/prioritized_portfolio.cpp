@@ -9,7 +9,7 @@
 namespace rightofway {
 namespace {
 
-constexpr auto between_questions = std::chrono::milliseconds(5);
+constexpr auto between_waits = std::chrono::milliseconds(5);
 
 }  // namespace
 
@@ -40,7 +40,7 @@ class PrioritizedPortfolio::SecondThread {
     // Waits until the side has ended, or ends it. Rethrows an exception of the side.
     void finish(const StopCondition& is_over) {
         while (!has_ended_ && !is_over()) {
-            std::this_thread::sleep_for(between_questions);
+            std::this_thread::sleep_for(between_waits);
         }
         is_stopped_ = true;
         thread_.join();

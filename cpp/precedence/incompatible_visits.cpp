@@ -14,7 +14,7 @@ namespace rightofway {
 namespace {
 
 // 2^28 pairs take 2 GB.
-constexpr std::size_t most_pairs = std::size_t{1} << 28;
+constexpr std::size_t most_incompatible_pairs = std::size_t{1} << 28;
 
 struct BookedBy {
     VisitId visit;
@@ -84,8 +84,9 @@ IncompatibleVisits::IncompatibleVisits(std::span<const RobotId> robot, const Boo
             }
         }
         first_.push_back(others_.size());
-        if (others_.size() > most_pairs) {
-            throw std::overflow_error("robots: more than " + std::to_string(most_pairs) +
+        if (others_.size() > most_incompatible_pairs) {
+            throw std::overflow_error("robots: more than " +
+                                      std::to_string(most_incompatible_pairs) +
                                       " pairs of their visits are too near to each other (plan "
                                       "fewer laps or fewer robots at once)");
         }

@@ -11,9 +11,8 @@ namespace rightofway {
 namespace {
 
 constexpr Tick longest = Tick{1} << 50;
-constexpr Tick latest_tick = Tick{1} << 60;  // and the earliest, below 0: no sum of two overflows
-constexpr Tick most_periods = 1 << 16;       // between two given visits
-constexpr std::int32_t most_rows = 1 << 26;  // that many take 1.6 GB
+constexpr Tick most_periods = 1 << 16;                // between two given visits
+constexpr std::int32_t most_periodic_rows = 1 << 26;  // that many take 1.6 GB
 
 void require_visits(const Visits& visits, const PeriodicBookings& bookings, std::size_t least) {
     require_length("dwell", visits.dwell.size(), visits.vertex.size());
@@ -51,7 +50,7 @@ void sort_unique(std::vector<T>& values) {
 PeriodicBookings::PeriodicBookings(std::int32_t n_rows, std::optional<Tick> period, Tick headway,
                                    bool books_ahead, const ExcludedRows& rows)
     : period_(period.value_or(never)), headway_(headway), books_ahead_(books_ahead), lists_(rows) {
-    require_range("n_rows", n_rows, 0, most_rows);
+    require_range("n_rows", n_rows, 0, most_periodic_rows);
     if (period && (*period <= 0 || *period > longest)) {
         reject("period", *period, "is not above 0, or too long");
     }

@@ -36,6 +36,9 @@
 
 namespace rightofway {
 
+// The latest tick of a periodic search, and below 0 the earliest: no sum of two overflows.
+constexpr Tick latest_tick = Tick{1} << 60;
+
 // Consecutive visits of one robot. Borrowed.
 struct Visits {
     std::span<const VertexId> vertex;

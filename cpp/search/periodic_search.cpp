@@ -9,7 +9,6 @@ namespace rightofway {
 namespace {
 
 constexpr std::int64_t expansions_between_looks = 512;
-constexpr Tick latest_tick = Tick{1} << 60;
 
 }  // namespace
 
