@@ -5,7 +5,7 @@ const ASSETS = "src/rightofway/{viz/page,studio}/assets";
 
 /** What prettier and tsc do not see: names that nobody reads or that hide others, and loose habits. */
 export default [
-  { ignores: ["build/", "docs/_build/", "**/vendor/"] },
+  { ignores: ["**/vendor/"] }, // `just lint` names the files of the repository
   { ...js.configs.recommended, files: ["**/*.js"] },
   {
     files: ["**/*.js"],

@@ -13,7 +13,7 @@ lint: node-modules
     ruff format --check .
     git ls-files 'cpp/*.cpp' 'cpp/*.hpp' | xargs clang-format --dry-run --Werror
     npx --no prettier -- --log-level warn --check {{ scripts }}
-    npx --no eslint -- --max-warnings 0 .
+    git ls-files '*.js' | xargs npx --no eslint -- --no-warn-ignored --max-warnings 0
     npx --no knip -- --include files,exports,duplicates,unresolved --no-config-hints
     check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/*.yml
     check-jsonschema --builtin-schema vendor.dependabot .github/dependabot.yml

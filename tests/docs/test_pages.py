@@ -187,10 +187,13 @@ def test_a_decision_is_a_page_with_context_decision_and_consequences(page: Path)
     assert len(text.splitlines()) <= PAGE
 
 
-def test_the_quick_start_of_the_readme_is_two_commands() -> None:
-    """`.ci/run` takes its first and second line."""
-    starts = [block for block in blocks(ROOT / "README.md") if block.info == ("sh", "quick-start")]
-    assert [len(start.text.splitlines()) for start in starts] == [2]
+@pytest.mark.parametrize(
+    ("page", "name", "lines"), [("README.md", "quick-start", 2), ("CONTRIBUTING.md", "set-up", 3)]
+)
+def test_commands_that_ci_runs_are_one_block(page: str, name: str, lines: int) -> None:
+    """`.ci/run` takes them from the page, line by line."""
+    starts = [block for block in blocks(ROOT / page) if block.info == ("sh", name)]
+    assert [len(start.text.splitlines()) for start in starts] == [lines]
 
 
 def test_pictures_of_the_documentation_are_small() -> None:
