@@ -17,6 +17,7 @@ MAX_TEXT = 100_000
 __all__ = [
     "Phrase",
     "PhraseBook",
+    "PhraseOfPieces",
     "chain_items",
     "join_items",
     "join_parts",
@@ -56,7 +57,7 @@ class Phrase(str):
         phrase.values = {name: values[name] for name in list_names(template)}
         return phrase
 
-    def __getnewargs_ex__(self) -> tuple[tuple[str], dict[str, str]]:
+    def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, str]]:
         """Return what a copy is made of."""
         return (self.template,), self.values
 
@@ -117,6 +118,48 @@ def join_parts(data: Any) -> str:
     if size > MAX_TEXT:
         raise ValueError(f"the text has {size} characters (give {MAX_TEXT} at most)")
     return Phrase(template, **texts)
+
+
+SHOWN = 5
+"""Pieces that a sentence names."""
+
+
+class PhraseOfPieces(Phrase):
+    """A sentence on some pieces, with the names of the first of them.
+
+    Parameters
+    ----------
+    sentence
+        The sentence.
+    pieces
+        The names of all pieces, one at least.
+
+    Examples
+    --------
+    >>> PhraseOfPieces("a zone is left out", ["Aisle", "Dock"])
+    'a zone is left out: Aisle and Dock'
+    >>> print(PhraseOfPieces("7 zones are left out", "ABCDEFG"))
+    7 zones are left out: A, B, C, D, E and 2 more
+    """
+
+    __slots__ = ("pieces",)
+
+    pieces: tuple[str, ...]
+
+    def __new__(cls, sentence: str, pieces: Sequence[str]) -> Self:
+        """Return the text."""
+        shown, left = list(pieces[:SHOWN]), len(pieces) - SHOWN
+        if left > 0:
+            shown.append(Phrase("{number} more", number=str(left)))
+        names = join_items(shown)
+        phrase = Phrase("{sentence}: {names}", sentence=sentence, names=names)
+        own = super().__new__(cls, phrase.template, **phrase.values)
+        own.pieces = tuple(pieces)
+        return own
+
+    def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, str]]:
+        """Return what a copy is made of."""
+        return (self.values["sentence"], self.pieces), {}
 
 
 class PhraseBook:

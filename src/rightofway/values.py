@@ -164,6 +164,20 @@ def read_names(value: object) -> frozenset[str]:
     raise ValueError(f"{quote(value)} are no names (give a list of texts)")
 
 
+TypeSpeeds = tuple[tuple[str, Fraction], ...]
+"""Types of robots, each once, with a speed [length unit per time unit]; sorted by their names."""
+
+
+def read_type_speeds(value: object) -> TypeSpeeds:
+    """Return speeds by types of robots."""
+    if value == ():
+        return ()
+    speeds = dict(value) if isinstance(value, tuple) else value
+    if isinstance(speeds, Mapping) and all(isinstance(name, str) for name in speeds):
+        return tuple((name, read_at(name, read_number, speeds[name])) for name in sorted(speeds))
+    raise ValueError(f"{quote(value)} are no speeds of types (give a mapping of types to speeds)")
+
+
 def read_label(value: object) -> str:
     """Return a name."""
     if isinstance(value, str):

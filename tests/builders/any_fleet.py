@@ -32,7 +32,7 @@ FEATURES = (
     "headway",
     "laps",
     "layouts",  # a real site instead of a drawn one
-    "limits",  # speed limits of edges
+    "limits",  # speed limits of edges, and of types of robots there
     "no rotations",
     "one way",  # the trip ends at the last stop
     "one-way lanes",
@@ -270,6 +270,8 @@ def _on_lanes(
     if "limits" in has:
         for edge in draw(some):
             edges[edge]["max_speed"] = draw(st.sampled_from(["1/2", "1"]))
+        for edge in draw(some):
+            edges[edge]["max_speed_by_type"] = {"wide": draw(st.sampled_from(["1/3", "2"]))}
     if "barred" in has:
         for edge in draw(some):
             if edge >= open_lanes:
@@ -313,7 +315,7 @@ def _own(draw: st.DrawFn, has: set[str]) -> Document:
         robot["turn_rate"] = draw(st.sampled_from([45, 30, 90]))
     if "turns" in has:
         robot["turn"] = draw(st.sampled_from([0, "1/2", 2]))
-    if "barred" in has and draw(st.booleans()):
+    if has & {"barred", "limits"} and draw(st.booleans()):
         robot["type"] = "wide"
     if "weights" in has:
         robot["weight"] = draw(st.sampled_from([1, 3, "1/2"]))

@@ -77,7 +77,8 @@ def test_the_template_has_hints_and_lists_of_choices(tmp_path: Path) -> None:
 
 def test_limits_of_edges_and_all_digits_of_positions_are_kept(tmp_path: Path) -> None:
     """A third would be read as 1/3, and another number of 16 digits would lose the last one."""
-    edges = [{"from": "dock", "to": "bay", "max_speed": "1/2"}, ["bay", "shelf", "5/2"]]
+    limits = {"max_speed": "1/2", "max_speed_by_type": {"drone": 2, "fork lift": "1/3"}}
+    edges = [{"from": "dock", "to": "bay", **limits}, ["bay", "shelf", "5/2"]]
     vertices = {"dock": [0, 0], "bay": [0.333333333333333, 2], "shelf": [17.010032333333335, 2]}
     document = {
         "format": "rightofway-scenario/1",

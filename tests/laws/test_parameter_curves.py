@@ -182,12 +182,24 @@ def on_limited_lanes(draw: random.Random) -> Scenario:
     ]
     limits = ["1/2", "3/4", 1, "3/2"]
     edges = [
-        {"from": one, "to": other, **({"max_speed": draw.choice(limits)} if k % 3 else {})}
+        {
+            "from": one,
+            "to": other,
+            **({"max_speed": draw.choice(limits)} if k % 3 else {}),
+            **({"max_speed_by_type": {"wide": draw.choice(limits)}} if k % 4 else {}),
+        }
         for k, (one, other) in enumerate(lanes)
     ]
     homes, stops = sorted(at)[:3], draw.sample(sorted(at)[3:], 3)
     robots = [
-        {"name": f"R{k}", "home": home, "target": stop, "work": k, "speed": speed}
+        {
+            "name": f"R{k}",
+            "home": home,
+            "target": stop,
+            "work": k,
+            "speed": speed,
+            **({"type": "wide"} if k == 2 else {}),
+        }
         for k, (home, stop, speed) in enumerate(zip(homes, stops, [1, "1/2", 2], strict=True))
     ]
     return parse_scenario(

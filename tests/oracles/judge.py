@@ -80,7 +80,7 @@ class Site:
         barred += [self.roadmap.barred_vertices.get(vertex, ()) for vertex in edge]  # type: ignore[call-overload]
         if any(robot.type in types for types in barred):
             return None
-        limit = kind.max_speed
+        limit = dict(kind.max_speed_by_type).get(robot.type or "", kind.max_speed)
         speed = robot.speed if limit is None else min(robot.speed, limit)
         return ceil(kind.length / speed / self.tick)
 

@@ -87,7 +87,7 @@ def drive(scenario: Scenario, robot: int, tail: int, head: int) -> Fraction:
     edge = roadmap.find_edge(tail, head)
     assert edge is not None
     kind = roadmap.get_edge_class(edge)
-    limit = kind.max_speed
+    limit = dict(kind.max_speed_by_type).get(scenario.robots[robot].type or "", kind.max_speed)
     own, tick = scenario.robots[robot].speed, scenario.problem.clock.tick
     speed = own if limit is None else min(own, limit)
     return Fraction(-(-(kind.length / speed) // tick))

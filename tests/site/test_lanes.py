@@ -56,6 +56,58 @@ def test_every_planner_keeps_speed_limits(planner: str) -> None:
     assert plan.flowtime >= plan.lower_bound
 
 
+def limited_by_type() -> Scenario:
+    """Return three robots on a lane of 6: 1 for all, 1/2 for trucks, 3 for drones."""
+    fleet = FleetBuilder(ends="none").add_vertex("A", 0, 0).add_vertex("B", 6, 0)
+    for name in "CDE":
+        fleet.add_vertex(name, 0, 1 + ord(name) - ord("C")).add_edge(name, "A")
+    fleet.add_edge("A", "B", max_speed=1, max_speed_by_type={"truck": 0.5, "drone": 3})
+    for home, kind in [("C", None), ("D", "truck"), ("E", "drone")]:
+        fleet.add_robot(f"R{home}", home=home, target="A", speed=2, type=kind)
+    return fleet.build_scenario()
+
+
+def test_the_limit_of_a_type_holds_instead_of_the_one_for_all() -> None:
+    """6 long: 6 time units at 1, 12 at 1/2, 3 at the robot's own speed of 2."""
+    scenario = limited_by_type()
+    edge = scenario.roadmap.find_edge(*map(scenario.roadmap.get_vertex, "AB"))
+    assert edge is not None
+    tick, kind = scenario.problem.clock.tick, scenario.roadmap.class_of_edge[edge]
+    durations = [each.edge_ticks[kind] * tick for each in scenario.problem.itineraries]
+    assert durations == [6, 12, 3]
+
+
+def test_limits_of_types_are_written_and_read_and_kept_by_pieces_of_lanes() -> None:
+    document = dump_scenario(limited_by_type())
+    edges = document["map"]["roadmap"]["edges"]
+    limits = [edge["max_speed_by_type"] for edge in edges if "max_speed_by_type" in edge]
+    assert limits == [{"drone": 3, "truck": "1/2"}] * 2  # one for each direction
+    assert parse_scenario(document) == limited_by_type()
+    document["map"]["spacing"] = 2
+    roadmap = parse_scenario(document).roadmap
+    edge = roadmap.find_edge(*map(roadmap.get_vertex, ("A-B/1", "A-B/2")))
+    assert edge is not None
+    assert roadmap.get_edge_class(edge).get_speed_limit("drone") == 3
+
+
+@pytest.mark.parametrize(
+    ("limits", "message"),
+    [
+        ({"truck": 0}, r"max_speed_by_type.truck: 0 is not positive"),
+        ({"truck": "fast"}, r"max_speed_by_type.truck: 'fast' is not a number"),
+        (["truck"], r"max_speed_by_type: \['truck'\] is not a mapping"),
+    ],
+)
+def test_limits_of_types_that_do_not_fit_are_refused(limits: Any, message: str) -> None:
+    document = dump_scenario(limited_by_type())
+    document["map"]["roadmap"]["edges"][0]["max_speed_by_type"] = limits
+    with pytest.raises(InputError, match=message):
+        parse_scenario(document)
+    fleet = FleetBuilder().add_vertex("A", 0, 0).add_vertex("B", 1, 0)
+    with pytest.raises(InputError, match="max_speed_by_type"):
+        fleet.add_edge("A", "B", max_speed_by_type=limits)
+
+
 def test_limits_are_written_and_read() -> None:
     document = dump_scenario(limited())
     assert document["map"]["roadmap"]["edges"][2]["max_speed"] == "1/2"

@@ -161,8 +161,8 @@ class OrderMap:
         if start is None or end is None or edge is None:
             return None
         kind = roadmap.get_edge_class(edge)
-        speed = scenario.robots[self.robot].speed
-        speed = speed if kind.max_speed is None else min(speed, kind.max_speed)
+        robot = scenario.robots[self.robot]
+        speed = kind.limit_speed(robot.speed, robot.type)
         shape = self._shapes.get((start, end))
         points = tuple[tuple[float, float], ...]()
         if shape is not None:
@@ -213,7 +213,7 @@ def make_order_maps(scenario: Scenario, identities: Sequence[Identity]) -> list[
     shapes, looked_up = _list_shapes(scenario.roadmap), dict[Any, _LookedUp]()
     maps = []
     for robot, (own, identity) in enumerate(zip(scenario.robots, identities, strict=True)):
-        view = (identity.frame, identity.map_id, identity.deviation, own.speed)
+        view = (identity.frame, identity.map_id, identity.deviation, own.speed, own.type)
         known = looked_up.setdefault(view, _LookedUp(shapes))
         maps.append(OrderMap(scenario, robot, identity, known))
     return maps

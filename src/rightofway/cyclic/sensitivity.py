@@ -161,7 +161,7 @@ def grow_by_speed(scenario: Scenario, graph: TimedEventGraph, place: int) -> Gro
     drive = np.where(graph.robot[arcs.head] == place, graph.drives, 0)
     turns = _turns_by_speed(scenario, graph, place, robot)
     of, fixed = np.arange(len(arcs)), arcs.length - drive - turns
-    limits = [edge_class.max_speed for edge_class in scenario.roadmap.edge_classes]
+    limits = [kind.get_speed_limit(robot.type) for kind in scenario.roadmap.edge_classes]
     if not any(limits):
         return Growth(of=of, fixed=fixed, slope=drive + turns)
     # Of what a drive takes now: at the robot's own speed, and at the limit.

@@ -196,6 +196,7 @@ class FleetBuilder:
         *,
         both_ways: bool = True,
         max_speed: Number | None = None,
+        max_speed_by_type: Mapping[str, Number] | None = None,
         barred: Iterable[str] = (),
         surcharge: Number = 0,
     ) -> Self:
@@ -213,6 +214,8 @@ class FleetBuilder:
             Whether it is driven from head to tail, too.
         max_speed
             Its speed limit [length unit per time unit]; none by default.
+        max_speed_by_type
+            Types of robots that have another speed limit, with this limit.
         barred
             Types of robots that may not use it.
         surcharge
@@ -232,6 +235,7 @@ class FleetBuilder:
             length,
             both_ways=both_ways,
             max_speed=max_speed,
+            max_speed_by_type={} if max_speed_by_type is None else max_speed_by_type,
             barred=barred,
             surcharge=surcharge,
         )

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
 from rightofway.errors import InputError, find_nearest, locate_faults, quote
-from rightofway.fleet_builder.values import read_point, read_surcharge, read_types
+from rightofway.fleet_builder.values import (
+    read_point,
+    read_surcharge,
+    read_type_limits,
+    read_types,
+)
 from rightofway.site import (
     Edge,
     Point,
@@ -72,6 +77,7 @@ class DrawnLanes:
         *,
         both_ways: bool,
         max_speed: Number | None,
+        max_speed_by_type: Mapping[str, Number],
         barred: Iterable[str],
         surcharge: Number,
     ) -> None:
@@ -89,6 +95,7 @@ class DrawnLanes:
         limit = None if max_speed is None else exact_length(max_speed, (place, "max_speed"))
         more = {
             "max_speed": limit,
+            "max_speed_by_type": read_type_limits((place, "max_speed_by_type"), max_speed_by_type),
             "barred": read_types((place, "barred"), barred),
             "surcharge": read_surcharge((place, "surcharge"), surcharge),
         }
@@ -149,6 +156,7 @@ def read_graph(graph: Any) -> DrawnLanes:
             data.get("length", data.get("weight", None if is_drawn else 1)),
             both_ways=not graph.is_directed(),
             max_speed=data.get("max_speed"),
+            max_speed_by_type={},
             barred=(),
             surcharge=0,
         )

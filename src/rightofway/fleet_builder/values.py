@@ -13,7 +13,16 @@ from rightofway.model.resources import circumscribe
 from rightofway.quantities import Units
 from rightofway.site import Point
 from rightofway.site.places import is_cell
-from rightofway.values import Number, read_at, read_coordinate, read_length, read_names, read_number
+from rightofway.values import (
+    Number,
+    TypeSpeeds,
+    read_at,
+    read_coordinate,
+    read_length,
+    read_names,
+    read_number,
+    read_type_speeds,
+)
 
 
 def read_rules(given: dict[str, Any]) -> Rules:
@@ -51,6 +60,16 @@ def read_types(place: Where, given: Iterable[str]) -> frozenset[str]:
     except (TypeError, ValueError):
         message = f"{quote(given)} are no types of robots (give a list of texts)"
         raise InputError.at(place, message) from None
+
+
+def read_type_limits(place: Where, given: Mapping[str, Number]) -> TypeSpeeds:
+    """Return speed limits by types of robots, each above 0 [length unit per time unit]."""
+    limits = read_at(place, read_type_speeds, given)
+    for name, speed in limits:
+        if speed <= 0:
+            message = f"{quote(name)}: {speed} is not positive (give a speed above 0)"
+            raise InputError.at(place, message)
+    return limits
 
 
 def read_surcharge(place: Where, given: Number) -> Fraction:

@@ -288,7 +288,7 @@ def _ticks_key(robot: Robot) -> tuple[Any, ...]:
 def _drive_times(roadmap: Roadmap, robot: Robot) -> Iterator[Fraction]:
     for edge_class in limit_loop(roadmap.edge_classes, DERIVING):
         if not edge_class.is_barred(robot.type, robot.radius):
-            yield edge_class.compute_duration(robot.speed)
+            yield edge_class.compute_duration(robot.speed, robot.type)
 
 
 def _stop_times(roadmap: Roadmap, robot: Robot, rules: Rules) -> Iterator[Fraction]:
@@ -301,7 +301,7 @@ def _edge_ticks(roadmap: Roadmap, robot: Robot, clock: Clock) -> tuple[Tick, ...
     return tuple(
         Tick(-1)
         if edge_class.is_barred(robot.type, robot.radius)
-        else clock.count_ticks(edge_class.compute_duration(robot.speed))
+        else clock.count_ticks(edge_class.compute_duration(robot.speed, robot.type))
         for edge_class in limit_loop(roadmap.edge_classes, DERIVING)
     )
 

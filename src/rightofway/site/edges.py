@@ -10,18 +10,25 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import groupby
-from typing import overload
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
 from rightofway.deadline import READING, limit_loop
-from rightofway.errors import InputError
+from rightofway.errors import InputError, quote
 from rightofway.site.geometry import Frame, VertexId
 from rightofway.site.roadmap import EdgeClass, Lane, Roadmap
 from rightofway.site.zones import NamedZone, number_zones
-from rightofway.values import allow_none, coerce_fields, read_names, read_number
+from rightofway.values import (
+    TypeSpeeds,
+    allow_none,
+    coerce_fields,
+    read_names,
+    read_number,
+    read_type_speeds,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,6 +43,8 @@ class Edge:
         Its length [length unit], positive.
     max_speed
         Speed limit [length unit per time unit], positive; None for none.
+    max_speed_by_type
+        Types of robots that have another speed limit, with this limit.
     barred
         Types of robots that may not use it.
     surcharge
@@ -46,6 +55,7 @@ class Edge:
     head: str
     length: Fraction
     max_speed: Fraction | None = None
+    max_speed_by_type: Mapping[str, Fraction] | TypeSpeeds = ()
     barred: frozenset[str] = frozenset()
     surcharge: Fraction = Fraction(0)
 
@@ -56,6 +66,7 @@ class Edge:
             source,
             length=read_number,
             max_speed=allow_none(read_number),
+            max_speed_by_type=read_type_speeds,
             barred=read_names,
             surcharge=read_number,
         )
@@ -63,7 +74,8 @@ class Edge:
     def make_piece(self, tail: str, head: str, length: Fraction, surcharge: Fraction) -> Edge:
         """Return a piece of this edge; its values are exact already, and are not checked again."""
         piece = object.__new__(Edge)  # a lane may have 100 000
-        values = (tail, head, length, self.max_speed, self.barred, surcharge)
+        own = (self.max_speed, self.max_speed_by_type, self.barred)
+        values = (tail, head, length, *own, surcharge)
         for name, value in zip(Edge.__slots__, values, strict=True):
             object.__setattr__(piece, name, value)
         return piece
@@ -107,6 +119,7 @@ class EdgeTable(Sequence[Edge]):
             head=self.names[self.heads[index]],
             length=edge_class.length,
             max_speed=edge_class.max_speed,
+            max_speed_by_type=edge_class.max_speed_by_type,
             barred=edge_class.barred,
             surcharge=edge_class.surcharge,
         )
@@ -148,7 +161,8 @@ def tabulate_edges(positions: Mapping[str, object], edges: Sequence[Edge]) -> Ed
                 message = f"no vertex is named {end!r} (name one of the {len(ids)} vertices)"
                 raise InputError.at(("edges", index), message)
             ends.append(vertex)
-        numbers = (id(edge.length), id(edge.max_speed), id(edge.barred), id(edge.surcharge))
+        own = (edge.length, edge.max_speed, edge.max_speed_by_type, edge.barred, edge.surcharge)
+        numbers = tuple(map(id, own))
         kind = kinds.get(numbers)
         if kind is None:
             kind = kinds[numbers] = len(classes)
@@ -156,6 +170,7 @@ def tabulate_edges(positions: Mapping[str, object], edges: Sequence[Edge]) -> Ed
                 EdgeClass(
                     length=edge.length,
                     max_speed=edge.max_speed,
+                    max_speed_by_type=read_type_speeds(edge.max_speed_by_type),
                     barred=edge.barred,
                     surcharge=edge.surcharge,
                 )
@@ -318,12 +333,13 @@ def _sort_classes(table: EdgeTable) -> tuple[tuple[EdgeClass, ...], NDArray[np.i
     return tuple(classes), rank[kinds]
 
 
-def _sort_key(edge_class: EdgeClass) -> tuple[Fraction, Fraction | int, list[str], Fraction]:
+def _sort_key(edge_class: EdgeClass) -> tuple[Any, ...]:
     return (
         edge_class.length,
         edge_class.max_speed or 0,
         sorted(edge_class.barred),
         edge_class.surcharge,
+        edge_class.max_speed_by_type,
     )
 
 
@@ -360,6 +376,10 @@ def _class_fault(edge_class: EdgeClass) -> str:
         return f"length {edge_class.length} is not positive (give a length above 0)"
     if edge_class.max_speed is not None and edge_class.max_speed.numerator <= 0:
         return f"max_speed {edge_class.max_speed} is not positive (give a speed above 0)"
+    for name, speed in edge_class.max_speed_by_type:
+        if speed <= 0:
+            limit = f"max_speed_by_type: {quote(name)}: {speed}"
+            return f"{limit} is not positive (give a speed above 0)"
     if edge_class.surcharge.numerator < 0:
         return f"surcharge {edge_class.surcharge} is negative (give 0 or more)"
     return ""

@@ -5,7 +5,7 @@ Lengths are metres, speeds metres per second, and y grows upwards, whatever the 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import NamedTuple
@@ -15,7 +15,7 @@ import numpy as np
 from rightofway.arguments import checks_arguments
 from rightofway.deadline import READING, check_work
 from rightofway.errors import InputError, find_nearest, join_names, quote
-from rightofway.phrases import Phrase, say_count
+from rightofway.phrases import Phrase, PhraseOfPieces, say_count
 from rightofway.site.drawing import Drawing, Picture
 from rightofway.site.edges import EdgeTable, make_roadmap_of_table
 from rightofway.site.geometry import Point
@@ -216,9 +216,8 @@ def build_roadmap_of_level(
         selects = bool(known_types)
     lanes = level.lanes if selects else level.list_lanes(vehicle_type)
     check_work(READING)
-    table = _tabulate_slowest(lanes, known_types if selects else (), metre, second)
+    table, lost = _tabulate_slowest(lanes, known_types if selects else (), metre, second)
     check_work(READING)
-    n_parallel = len(lanes) - len(table)
     # Only other vehicle types come there.
     closed = {lanes.names[vertex] for vertex in _list_ends(level.lanes) - _list_ends(lanes)}
     positions: dict[str, Point] = {
@@ -244,17 +243,18 @@ def build_roadmap_of_level(
         curves=len(curves),
         chord_error=metre * max((curve.chord_error or Fraction(0) for curve in curves.values()),
                                 default=Fraction(0)),
-        notes=tuple(_lacks(level, n_parallel, closed)),
+        notes=tuple(_lacks(level, [lanes.get_ends(lane) for lane in lost], closed)),
         split=split,
     )  # fmt: skip
 
 
 def _tabulate_slowest(
     lanes: LaneTable, known_types: Collection[str], metre: Fraction, second: Fraction
-) -> EdgeTable:
-    """Return the lanes as edges; of parallel lanes one that asks for no more than each does.
+) -> tuple[EdgeTable, list[int]]:
+    """Return the lanes as edges, and which of several parallel lanes some type does without.
 
-    Lanes are barred for the types that are known and not theirs.
+    Lanes are barred for the types that are known and not theirs. Of parallel lanes, an edge asks of
+    each type for no more than each lane of this type does.
     """
     lengths, rank = np.unique(lanes.lengths, return_inverse=True)
     known, kinds = np.unique(rank * len(lanes.kinds) + lanes.kind_of_lane, return_inverse=True)
@@ -279,22 +279,27 @@ def _tabulate_slowest(
         kinds=kinds.astype(np.int32),
         classes=classes,
     )
-    is_repeated = table.find_repeated()
+    is_repeated, lost = table.find_repeated(), list[int]()
     if not is_repeated.any():
-        return table
+        return table, lost
     ends, column = lanes.ends, table.kinds.copy()
     first = {int(ends[lane]): lane for lane in np.flatnonzero(~is_repeated).tolist()}
     for lane in np.flatnonzero(is_repeated).tolist():
         earlier = first[int(ends[lane])]
-        if column[earlier] != column[lane]:
-            classes.append(_slower(classes[column[earlier]], classes[column[lane]]))
+        taken, further = classes[column[earlier]], classes[column[lane]]
+        has_own_types = known_types and taken.barred | further.barred == set(known_types)
+        if taken.length != further.length or not has_own_types:
+            lost.append(lane)
+        if taken != further:
+            classes.append(_slower(taken, further, known_types))
             column[earlier] = len(classes) - 1
-    return replace(
+    table = replace(
         table,
         tails=table.tails[~is_repeated],
         heads=table.heads[~is_repeated],
         kinds=column[~is_repeated],
     )
+    return table, lost
 
 
 def _leave_out(table: EdgeTable, names: tuple[str, ...]) -> EdgeTable:
@@ -350,32 +355,60 @@ def _drawing(
     )
 
 
-def _slower(first: EdgeClass, other: EdgeClass) -> EdgeClass:
-    """Return an edge that asks a robot for no more than either of two parallel lanes does."""
-    limits = [edge.max_speed for edge in (first, other) if edge.max_speed is not None]
+def _slower(first: EdgeClass, other: EdgeClass, known_types: Collection[str]) -> EdgeClass:
+    """Return an edge that asks each type for no more than either of two parallel lanes does.
+
+    Types that are not known count as the slowest one.
+    """
+    both = (first, other)
+    barred = first.barred & other.barred
+    limits = {
+        name: min(
+            (
+                limit
+                for edge in both
+                if name not in edge.barred and (limit := edge.get_speed_limit(name)) is not None
+            ),
+            default=None,
+        )
+        for name in sorted(set(known_types) - barred)
+    }
+    slowest = min((edge.max_speed for edge in both if edge.max_speed is not None), default=None)
+    if None in limits.values():
+        slowest = None
     return EdgeClass(
         length=max(first.length, other.length),
-        max_speed=min(limits, default=None),
-        barred=first.barred & other.barred,
+        max_speed=slowest,
+        max_speed_by_type=tuple(
+            (name, limit)
+            for name, limit in limits.items()
+            if limit is not None and limit != slowest
+        ),
+        barred=barred,
     )
 
 
-def _lacks(level: Level, n_parallel: int, closed: Collection[str]) -> Iterator[Phrase]:
+def _lacks(
+    level: Level, lost: Sequence[tuple[str, str]], closed: Collection[str]
+) -> Iterator[Phrase]:
     if closed:
-        yield Phrase(
+        sentence = Phrase(
             "{vertices} left out: only lanes of other vehicle types lead there",
             vertices=say_count(len(closed), "vertex", "vertices"),
         )
-    if n_parallel:
-        yield Phrase(
-            "{lanes} left out: the slowest of each counts",
-            lanes=say_count(n_parallel, "parallel lane", "parallel lanes"),
-        )
+        yield PhraseOfPieces(sentence, sorted(closed))
+    if lost:
+        lanes = say_count(len(lost), "parallel lane", "parallel lanes")
+        sentence = Phrase("{lanes} left out: the slowest of each counts", lanes=lanes)
+        yield PhraseOfPieces(sentence, name_lanes(lost))
     if level.links:
-        yield Phrase(
-            "{lanes} to other levels left out: plans stay on one level",
-            lanes=say_count(level.links, "lane", "lanes"),
-        )
+        lanes = say_count(level.links, "lane", "lanes")
+        yield Phrase("{lanes} to other levels left out: plans stay on one level", lanes=lanes)
+
+
+def name_lanes(ends: Iterable[tuple[str, str]]) -> list[str]:
+    """Return names of lanes for people, of the names of their tails and heads."""
+    return [Phrase("{tail} to {head}", tail=tail, head=head) for tail, head in ends]
 
 
 def _list_ends(lanes: LaneTable) -> set[int]:

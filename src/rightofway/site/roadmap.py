@@ -16,6 +16,7 @@ from rightofway.site.clustering import Obstacle
 from rightofway.site.drawing import Drawing
 from rightofway.site.geometry import Frame, Point, VertexId
 from rightofway.site.zones import Zone
+from rightofway.values import TypeSpeeds
 
 WHOLE = (int, np.int32, np.int64)
 """Types of numbers of vertices and edges."""
@@ -75,6 +76,8 @@ class EdgeClass:
         The length [length unit].
     max_speed
         The speed limit [length unit per time unit]; None for none.
+    max_speed_by_type
+        Types of robots that have another speed limit, with this limit.
     barred
         Types of robots that may not drive along the edges.
     surcharge
@@ -85,13 +88,25 @@ class EdgeClass:
 
     length: Fraction
     max_speed: Fraction | None = None
+    max_speed_by_type: TypeSpeeds = ()
     barred: frozenset[str] = frozenset()
     surcharge: Fraction = Fraction(0)
     max_radius: Fraction | None = None
 
-    def compute_duration(self, speed: Fraction) -> Fraction:
-        """Return how long a robot of a speed drives along an edge [time unit]."""
-        speed = speed if self.max_speed is None else min(speed, self.max_speed)
+    def get_speed_limit(self, robot_type: str | None) -> Fraction | None:
+        """Return the speed limit of robots of a type [length unit per time unit]."""
+        if not self.max_speed_by_type or robot_type is None:
+            return self.max_speed
+        return dict(self.max_speed_by_type).get(robot_type, self.max_speed)
+
+    def limit_speed(self, speed: Fraction, robot_type: str | None) -> Fraction:
+        """Return how fast a robot of a speed and a type drives along an edge."""
+        limit = self.get_speed_limit(robot_type)
+        return speed if limit is None else min(speed, limit)
+
+    def compute_duration(self, speed: Fraction, robot_type: str | None = None) -> Fraction:
+        """Return how long a robot of a speed and a type drives along an edge [time unit]."""
+        speed = self.limit_speed(speed, robot_type)
         return self.length if speed == 1 else self.length / speed
 
     def is_barred(self, robot_type: str | None, radius: Fraction) -> bool:
@@ -237,9 +252,10 @@ class Roadmap:
 
     @property
     def types(self) -> frozenset[str]:
-        """Types of robots that an edge or a vertex is barred for."""
-        on_edges = (edge_class.barred for edge_class in self.edge_classes)
-        return frozenset().union(*on_edges, *self.barred_vertices.values())
+        """Types of robots that an edge or a vertex is barred for, or that edges have limits for."""
+        barred = (edge_class.barred for edge_class in self.edge_classes)
+        limited = (dict(edge_class.max_speed_by_type) for edge_class in self.edge_classes)
+        return frozenset().union(*barred, *limited, *self.barred_vertices.values())
 
     @checks_arguments
     def find_ways_along(self, ends: tuple[VertexId, VertexId]) -> list[tuple[VertexId, ...]]:

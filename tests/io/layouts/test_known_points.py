@@ -10,6 +10,7 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.io import dump_plan, parse_plan, parse_scenario, read_layout
+from rightofway.io.scenario.reader import read_scenario
 from rightofway.model import Scenario
 from rightofway.site import Point, Roadmap
 from rightofway.site.layout import Layout, Level
@@ -73,6 +74,19 @@ def test_the_slower_of_two_parallel_lanes_counts_for_a_vehicle_type() -> None:
     assert edge is not None
     assert roadmap.get_edge_class(edge).max_speed == Fraction(1, 2)
     assert roadmap.labels == ("P1", "A", "B")  # only tuggers drive to C
+
+
+@pytest.mark.parametrize(
+    ("kind", "is_noted"), [("forklift", True), ("tugger", False), (None, False)]
+)
+def test_a_robot_on_lanes_of_another_type_than_its_own_is_noted(
+    kind: str | None, is_noted: bool
+) -> None:
+    robot = {"name": "R1", "home": "A", "target": "B", **({"type": kind} if kind else {})}
+    shape = {"layout": "hall.lif.json", "vehicle_type": "tugger"}
+    document = {"format": "rightofway-scenario/1", "map": shape, "robots": [robot]}
+    note = "robots of forklift drive on the lanes of vehicle type tugger, at its speed limits"
+    assert any(each.startswith(note) for each in read_scenario(document, HERE).notes) == is_noted
 
 
 def test_nav2_edges_are_directed_and_limits_in_metres_per_second() -> None:

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import json
 from fractions import Fraction
+from itertools import product
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from rightofway.io.layouts import read_layout
-from rightofway.site.layout import Layout
+from rightofway.site.layout import Layout, build_roadmap_of_level
 
 
 def properties(*series: str, **more: Any) -> dict[str, Any]:
@@ -24,6 +27,76 @@ def node(name: str, x: float, *own: dict[str, Any]) -> dict[str, Any]:
 def edge(tail: str, head: str, *own: dict[str, Any]) -> dict[str, Any]:
     ends = {"edgeId": tail + head, "startNodeId": tail, "endNodeId": head}
     return {**ends, "mobileRobotTypeEdgeProperties": list(own)}
+
+
+LIMITS = ("absent", None, 0.5, 1)
+
+
+def list_own(first: object, other: object) -> list[dict[str, Any]]:
+    """Return what an edge has for the types A and B: a speed limit, none, or no place for it."""
+    return [
+        properties(name, **({} if limit is None else {"maximumSpeed": limit}))
+        for name, limit in (("A", first), ("B", other))
+        if limit != "absent"
+    ]
+
+
+def test_each_type_of_a_mixed_fleet_drives_as_a_fleet_of_this_type_does(tmp_path: Path) -> None:
+    """Every pair of parallel edges with every limit of two types, each between own vertices."""
+    nodes, edges = list[dict[str, Any]](), list[dict[str, Any]]()
+    for k, limits in enumerate(product(LIMITS, repeat=4)):
+        nodes += [node(f"N{k}", 10 * k), node(f"M{k}", 10 * k + 6)]
+        for own in (limits[:2], limits[2:]):
+            if own != ("absent", "absent"):  # which is free for all
+                edges.append(edge(f"N{k}", f"M{k}", *list_own(*own)))
+    path = tmp_path / "hall.lif.json"
+    path.write_text(json.dumps({"layouts": [{"layoutId": "L", "nodes": nodes, "edges": edges}]}))
+    layout = read_layout(path)
+    assert isinstance(layout, Layout)
+    mixed = build_roadmap_of_level(layout.get_level(), robot_types={"A", "B"}).roadmap
+    for name in "AB":
+        alone = build_roadmap_of_level(layout.get_level(), vehicle_type=name).roadmap
+        ways = [
+            {
+                f"{roadmap.name(tail)} {roadmap.name(head)}": kind.compute_duration(
+                    Fraction(2), name
+                )
+                for tail in range(roadmap.n_vertices)
+                for edge in range(roadmap.indptr[tail], roadmap.indptr[tail + 1])
+                for head in [int(roadmap.heads[edge])]
+                for kind in [roadmap.get_edge_class(edge)]
+                if not kind.is_barred(name, Fraction(0))
+            }
+            for roadmap in (alone, mixed)
+        ]
+        assert ways[0] == ways[1]
+        assert len(ways[0]) == 16 * 15  # all pairs but those in which the type is absent twice
+
+
+@pytest.mark.parametrize(
+    ("own", "notes"),
+    [
+        ([[("A", 1), ("B", 0.5)]], ()),
+        (
+            [[("A", 1)], [("A", 0.5)]],
+            ("1 parallel lane left out: the slowest of each counts: N to M",),
+        ),
+    ],
+)
+def test_a_lane_is_left_out_only_where_a_type_has_two(
+    tmp_path: Path, own: list[list[tuple[str, float]]], notes: tuple[str, ...]
+) -> None:
+    edges = [
+        edge("N", "M", *(properties(name, maximumSpeed=speed) for name, speed in each))
+        for each in own
+    ]
+    path = tmp_path / "hall.lif.json"
+    level = {"layoutId": "L", "nodes": [node("N", 0), node("M", 6)], "edges": edges}
+    path.write_text(json.dumps({"layouts": [level]}))
+    layout = read_layout(path)
+    assert isinstance(layout, Layout)
+    types = {name for each in own for name, _ in each}
+    assert build_roadmap_of_level(layout.get_level(), robot_types=types).notes == notes
 
 
 def test_version_2_is_read(tmp_path: Path) -> None:

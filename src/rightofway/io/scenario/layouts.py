@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rightofway.errors import InputError, locate_faults
+from rightofway.errors import InputError, join_names, locate_faults
 from rightofway.io.layouts import read_layout
 from rightofway.io.scenario.loaded_map import (
     FleetTraits,
@@ -78,6 +79,7 @@ def make_map_of_layout(
         notes = (
             *layout.notes,
             *level_map.notes,
+            *_note_on_types(document.vehicle_type, fleet.types.intersection(level.vehicle_types)),
             *note_on_curves(level_map.curves, level_map.chord_error, units),
             *note_on_chosen_pieces(level_map.split, units),
         )
@@ -90,6 +92,18 @@ def make_map_of_layout(
         )
     _refuse(document, "a map in pixels", "level", "vehicle_type", "spacing")
     return _map_of_pixels(document, layout, units, metres, fleet.radius)
+
+
+def _note_on_types(vehicle_type: str | None, types: Collection[str | None]) -> Iterator[Phrase]:
+    """Yield a note where robots drive on the lanes of another type than their own."""
+    others = sorted(name for name in types if name not in {None, vehicle_type} and name)
+    if vehicle_type is not None and others:
+        yield Phrase(
+            "robots of {types} drive on the lanes of vehicle type {type}, at its speed limits"
+            " (leave vehicle_type out to keep each type to its own)",
+            types=join_names(others),
+            type=vehicle_type,
+        )
 
 
 def _map_of_pixels(

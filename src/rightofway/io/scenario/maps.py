@@ -258,6 +258,7 @@ def _map_of_roadmap(
                     head=head,
                     length=length,
                     max_speed=edge.max_speed,
+                    max_speed_by_type=edge.max_speed_by_type,
                     barred=frozenset(edge.barred),
                     surcharge=edge.surcharge or Fraction(0),
                 )

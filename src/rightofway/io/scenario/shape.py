@@ -86,6 +86,11 @@ class EdgeDocument(Document):
     max_speed: Positive = make_optional(
         "its speed limit [length unit per time unit]; none by default"
     )
+    max_speed_by_type: dict[Name, Positive] = Field(
+        default={},
+        description="types of robots with a speed limit of their own, like {tugger: 0.5}"
+        " [length unit per time unit]; max_speed is for all others",
+    )
     barred: list[Name] = Field(default=[], description=BARRED)
     surcharge: NotNegative = make_optional(
         "what makes it less liked, not slower [time unit]; 0 by default"

@@ -228,6 +228,10 @@ def _of_class(edge_class: EdgeClass) -> dict[str, Any]:
     data: dict[str, Any] = {"length": format_number(edge_class.length), "both_ways": False}
     if edge_class.max_speed is not None:
         data["max_speed"] = format_number(edge_class.max_speed)
+    if edge_class.max_speed_by_type:
+        data["max_speed_by_type"] = {
+            name: format_number(speed) for name, speed in edge_class.max_speed_by_type
+        }
     if edge_class.barred:
         data["barred"] = sorted(edge_class.barred)
     if edge_class.surcharge:

@@ -131,8 +131,9 @@ def _limits(roadmap: Roadmap) -> list[tuple[str, list[int]]]:
     """Return the speed limits, each with its edges."""
     edges = defaultdict[str, list[int]](list)
     for edge in range(roadmap.n_edges):
-        limit = roadmap.get_edge_class(edge).max_speed
-        if limit is not None:
+        edge_class = roadmap.get_edge_class(edge)
+        limits = (edge_class.max_speed, *dict(edge_class.max_speed_by_type).values())
+        for limit in sorted({limit for limit in limits if limit is not None}):
             edges[str(limit)].append(edge)
     return list(edges.items())
 
