@@ -55,16 +55,16 @@ class Component {
         for (std::size_t other = 0; other < node; ++other) {
             least = std::max(least, weight_[node][other] - number_[other]);
         }
-        // Beyond what it needs, a number helps only where it saves an edge to a later node.
-        std::vector<Tick> numbers{least};
+        // Beyond what it needs, a number helps only where it saves an edge to a later node. Weights
+        // are times and may be huge, so the numbers are counted, not listed.
+        Tick most = least;
         for (std::size_t other = node + 1; other < weight_.size(); ++other) {
-            for (Tick number = least + 1; number <= weight_[node][other]; ++number) {
-                numbers.push_back(number);
-            }
+            most = std::max(most, weight_[node][other]);
         }
-        std::sort(numbers.begin(), numbers.end());
-        numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-        for (const Tick number : numbers) {
+        for (Tick number = least; number <= most && sum + number < best_; ++number) {
+            if (best_ == packed || n_steps_ > most_steps) {
+                return;
+            }
             number_[node] = number;
             choose(node + 1, sum + number, packed);
         }

@@ -14,6 +14,7 @@ from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Tra
 from rightofway.site import Edge, VertexId, make_roadmap
 from rightofway.solve import solve
 from rightofway.viz.table import Row, TimeSpaceTable, as_csv, as_text, make_table
+from rightofway.viz.table.timespace import StepsTo
 from tests.builders.fleets import PAPER, grid_fleet, paper_scenario
 
 CASES = {case["name"]: case for case in PAPER}
@@ -306,3 +307,21 @@ def test_a_long_text_of_short_ticks_has_round_columns() -> None:
     assert text.splitlines()[-1] == "= waits"
     assert make_table(plan).limit_columns(3).step == 4
     assert make_table(plan).limit_columns(3, Fraction(1)).step == 2
+
+
+@pytest.mark.parametrize("last", range(7))
+@pytest.mark.parametrize("step", [1, 2, 3, 9])
+def test_columns_a_step_apart_end_with_the_last_tick(step: int, last: int) -> None:
+    columns = StepsTo(range(0, last + 1, step), last)
+    listed = sorted({*range(0, last + 1, step), last})
+    assert list(columns) == listed
+    assert [list(columns[k:]) for k in range(-3, 9)] == [listed[k:] for k in range(-3, 9)]
+
+
+def test_columns_of_a_long_plan_are_counted_without_a_list() -> None:
+    """A list of the columns would take terabytes: the longer steps do not end with the plan."""
+    fleet = grid_fleet(["..."], [("N0", "N1")], rules=Rules(ends="none"), work=[2**40 - 1])
+    table = make_table(solve(fleet)).limit_columns(1000)
+    assert table.step == 2 * 10**9
+    assert len(table.ticks) == 551
+    assert table.ticks[-2:] == [1098 * 10**9, 2**40]

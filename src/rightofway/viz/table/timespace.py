@@ -9,7 +9,7 @@ from difflib import get_close_matches
 from fractions import Fraction
 from itertools import count, pairwise
 from math import floor, log10
-from typing import Literal, NamedTuple, get_args
+from typing import Literal, NamedTuple, get_args, overload
 
 import numpy as np
 
@@ -120,6 +120,28 @@ class Row:
         return [run.cell.place for run in self.runs for _ in range(run.start, run.end)]
 
 
+@dataclass(frozen=True, slots=True)
+class StepsTo(Sequence[int]):
+    """Numbers a step apart, and a last one; they are not listed, as a plan may have 10**9 ticks."""
+
+    steps: range
+    last: int
+
+    def __len__(self) -> int:
+        return len(self.steps) + (self.steps[-1] != self.last)
+
+    @overload
+    def __getitem__(self, index: int) -> int: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[int]: ...
+    def __getitem__(self, index: int | slice) -> int | Sequence[int]:
+        """Return the number at an index, or those of a slice."""
+        at = range(len(self))[index]
+        if isinstance(at, range):
+            return [self[k] for k in at]
+        return self.steps[at] if at < len(self.steps) else self.last
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TimeSpaceTable:
     """Planned and final rows side by side.
@@ -150,8 +172,7 @@ class TimeSpaceTable:
         """The ticks of its columns; the last one is among them, whatever the step."""
         if self.changes:
             return self.changes
-        ticks = range(self.first_tick, self.last_tick + 1, self.step)
-        return ticks if ticks[-1] == self.last_tick else (*ticks, self.last_tick)
+        return StepsTo(range(self.first_tick, self.last_tick + 1, self.step), self.last_tick)
 
     def limit_columns(self, columns: int, longest: Fraction | None = None) -> TimeSpaceTable:
         """Return the table with at most that number of columns, each a round step long.
