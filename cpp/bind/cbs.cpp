@@ -81,9 +81,10 @@ time_limit : float or None
 
 Returns
 -------
-tuple of (int, int)
-    How it ended, as for `run`, and the proven bound of the sum of their costs, NEVER where no plan
-    exists in which none of them completes later than `latest`. [ticks])";
+tuple of (int, int, int32[K + 1], int32[N], int64[N])
+    How it ended, as for `run`; the proven bound of the sum of their costs, NEVER where no plan
+    exists in which none of them completes later than `latest` [ticks]; and the tracks of a plan of
+    that cost, as of `tracks`, of no robot where the search did not find one.)";
 
 constexpr auto actions_doc =
     R"(Take tracks of no higher cost with which robots wait and drive less often.
@@ -114,6 +115,18 @@ Returns
 -------
 tuple of (int32[R + 1], int32[N], int64[N])
     Which visits each robot has, and where and when they begin. [ticks])";
+
+Tracks join(const std::vector<const ConstrainedTrack*>& of_robots) {
+    Tracks tracks{{0}, {}, {}};
+    for (const ConstrainedTrack* track : of_robots) {
+        for (const Visit& visit : track->visits) {
+            tracks.vertex.push_back(visit.vertex);
+            tracks.enter.push_back(visit.enter);
+        }
+        tracks.first_visit.push_back(static_cast<VisitId>(tracks.vertex.size()));
+    }
+    return tracks;
+}
 
 class ConflictBasedSearch {
   public:
@@ -164,17 +177,7 @@ class ConflictBasedSearch {
     std::int64_t n_nodes() const { return tree_.n_nodes(); }
     std::int64_t n_searches() const { return tracks_.n_searches(); }
 
-    Tracks tracks() const {
-        Tracks tracks{{0}, {}, {}};
-        for (const ConstrainedTrack* track : tree_.tracks()) {
-            for (const Visit& visit : track->visits) {
-                tracks.vertex.push_back(visit.vertex);
-                tracks.enter.push_back(visit.enter);
-            }
-            tracks.first_visit.push_back(static_cast<VisitId>(tracks.vertex.size()));
-        }
-        return tracks;
-    }
+    Tracks tracks() const { return join(tree_.tracks()); }
 
   private:
     static std::vector<RobotId> all(const Problem& problem) {
@@ -208,8 +211,17 @@ std::tuple<int, Tick> run(ConflictBasedSearch& self, Tick upper, Tick enough,
     return {static_cast<int>(end), self.bound()};
 }
 
-std::tuple<int, Tick> together(ConflictBasedSearch& self, const ArrayIn<RobotId>& robots,
-                               std::int64_t most_states, std::optional<double> time_limit) {
+using TracksOut = std::tuple<ArrayOut<VisitId>, ArrayOut<VertexId>, ArrayOut<Tick>>;
+
+TracksOut to_arrays(Tracks&& tracks) {
+    return {to_numpy(std::move(tracks.first_visit)), to_numpy(std::move(tracks.vertex)),
+            to_numpy(std::move(tracks.enter))};
+}
+
+using Together = std::tuple<int, Tick, ArrayOut<VisitId>, ArrayOut<VertexId>, ArrayOut<Tick>>;
+
+Together together(ConflictBasedSearch& self, const ArrayIn<RobotId>& robots,
+                  std::int64_t most_states, std::optional<double> time_limit) {
     require_ids("robots", view(robots), self.problem().n_robots());
     std::vector<RobotId> group;
     for (const RobotId robot : view(robots)) {
@@ -220,9 +232,13 @@ std::tuple<int, Tick> together(ConflictBasedSearch& self, const ArrayIn<RobotId>
     }
     require_range("most_states", most_states, 0, never);
     const Deadline deadline(time_limit);
-    const nb::gil_scoped_release released;
-    const JointPlan plan = self.together(group, most_states, deadline);
-    return {static_cast<int>(plan.end), plan.bound};
+    JointPlan plan;
+    {
+        const nb::gil_scoped_release released;
+        plan = self.together(group, most_states, deadline);
+    }
+    return std::tuple_cat(std::tuple(static_cast<int>(plan.end), plan.bound),
+                          to_arrays(join(plan.tracks)));
 }
 
 using FewerActions = std::tuple<bool, ArrayOut<VisitId>, ArrayOut<VertexId>, ArrayOut<Tick>>;
@@ -255,8 +271,7 @@ FewerActions fewest_actions(const Problem& problem, const ArrayIn<std::int32_t>&
                                         [&] { return deadline(); });
         tracks = plan.tracks();
     }
-    return {is_fewest, to_numpy(std::move(tracks.first_visit)), to_numpy(std::move(tracks.vertex)),
-            to_numpy(std::move(tracks.enter))};
+    return std::tuple_cat(std::tuple(is_fewest), to_arrays(std::move(tracks)));
 }
 
 }  // namespace
@@ -292,12 +307,7 @@ void bind_cbs(nb::module_& module) {
         .def("search_together", &together, array("robots"), nb::arg("most_states"),
              nb::arg("time_limit").none(), together_doc)
         .def(
-            "tracks",
-            [](const ConflictBasedSearch& self) {
-                Tracks all = self.tracks();
-                return std::tuple(to_numpy(std::move(all.first_visit)),
-                                  to_numpy(std::move(all.vertex)), to_numpy(std::move(all.enter)));
-            },
+            "tracks", [](const ConflictBasedSearch& self) { return to_arrays(self.tracks()); },
             tracks_doc)
         .def_prop_ro("n_nodes", &ConflictBasedSearch::n_nodes, "The number of nodes expanded.")
         .def_prop_ro("n_searches", &ConflictBasedSearch::n_searches,

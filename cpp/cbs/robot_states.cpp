@@ -254,8 +254,11 @@ RobotStates::Facts RobotStates::look(const State& state) const {
 }
 
 // Calls `use` with each edge out of the vertex where a robot stays, for each number of stages that
-// it serves before: the ticks of the drive, how long it has stayed when it begins to drive (or,
-// where robots do not book ahead, when it has driven), and the first stage that is not served.
+// it serves before. That number is chosen when the stay ends, not when the robot comes: it may have
+// to wait before it works, or to step aside and come back, for others or for closures. A plan has
+// such a choice for each of its drives, so no plan is lost. The arguments of `use` are the edge,
+// the ticks of the drive, how long the robot has stayed when it begins to drive (or, where robots
+// do not book ahead, when it has driven), and the first stage that is not served.
 template <class Use>
 void RobotStates::for_each_way(const State& state, const Use& use) const {
     const Graph& roads = problem_.graph();

@@ -983,7 +983,7 @@ class ConflictBasedSearch:
             and the proven bound, NEVER where no plan exists. [ticks]
         """
 
-    def search_together(self, robots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], most_states: int, time_limit: float | None) -> tuple[int, int]:
+    def search_together(self, robots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], most_states: int, time_limit: float | None) -> tuple[int, int, Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
         """
         Search the joint states of some robots, alone on the roads.
 
@@ -998,9 +998,10 @@ class ConflictBasedSearch:
 
         Returns
         -------
-        tuple of (int, int)
-            How it ended, as for `run`, and the proven bound of the sum of their costs, NEVER where no plan
-            exists in which none of them completes later than `latest`. [ticks]
+        tuple of (int, int, int32[K + 1], int32[N], int64[N])
+            How it ended, as for `run`; the proven bound of the sum of their costs, NEVER where no plan
+            exists in which none of them completes later than `latest` [ticks]; and the tracks of a plan of
+            that cost, as of `tracks`, of no robot where the search did not find one.
         """
 
     def tracks(self) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:

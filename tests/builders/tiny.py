@@ -105,6 +105,11 @@ def trips(seed: int) -> Scenario:
     return Scenario(roadmap=make_grid_roadmap(lines), robots=fleet, rules=rules)
 
 
+def closed_trips(seed: int) -> Scenario:
+    """Return a fleet of `trips` with closures, which may close homes and stops."""
+    return with_closures(trips(seed), seed, most=2)
+
+
 def charged(seed: int) -> Scenario:
     """Return a fleet of `trips` in which some edges have surcharges."""
     draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
@@ -122,6 +127,7 @@ KINDS: dict[str, Callable[[int], Scenario]] = {
     "three": three,
     "zones": zoned,
     "closures": closed,
+    "closed trips": closed_trips,
     "turning": turning_fleet,
     "trips": trips,
     "surcharges": charged,

@@ -117,8 +117,15 @@ def test_a_search_over_joint_states_finds_the_optimum_or_proves_that_there_is_no
     scenario = KINDS[kind](seed)
     search = _search(scenario)
     least = least_cost(kind, scenario)
-    is_solved, together = search.search_together(range(len(scenario.robots)), states=10_000)
-    assert together == least if is_solved else least is None or (together or 0) <= least
+    plan = search.search_together(range(len(scenario.robots)), states=10_000)
+    if not plan.has_ended:
+        assert least is None or (plan.bound or 0) <= least
+        return
+    assert plan.bound == least
+    if least is not None:
+        assert plan.tracks is not None
+        assert check(Plan(scenario=scenario, tracks=plan.tracks, run=PlannerRun(name="joint"))).ok
+        assert compute_cost(scenario, plan.tracks) == least
 
 
 @law(kinds, seeds, st.integers(1, 30))
@@ -272,17 +279,18 @@ def test_joint_states_have_the_least_cost_of_plans_that_end_by_a_tick(
     assert alone is not None, "there is no time limit"
     latest = int(alone.max()) + later
     search = ConflictBasedSearch(scenario.problem, latest=latest)
-    ended, least = search.search_together(range(len(scenario.robots)), states=10_000)
-    if not ended:
+    plan = search.search_together(range(len(scenario.robots)), states=10_000)
+    if not plan.has_ended:
         leave("too many joint states")
-    assert least == joint_space.least_flowtime(scenario, latest)
+    assert plan.bound == joint_space.least_flowtime(scenario, latest)
 
 
 def test_a_joint_state_at_less_cost_may_come_too_late() -> None:
     problem = KINDS["three"](241440).problem
     for latest, cost in ((206, None), (210, 573), (222, 570)):
         search = ConflictBasedSearch(problem, latest=latest)
-        assert search.search_together((0, 1, 2), states=10_000) == (True, cost)
+        plan = search.search_together((0, 1, 2), states=10_000)
+        assert (plan.has_ended, plan.bound) == (True, cost)
 
 
 @law(any_fleet())

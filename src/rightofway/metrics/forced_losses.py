@@ -19,7 +19,13 @@ from rightofway.model import (
 )
 from rightofway.model.outcome import ForcedLoss, choose_objective
 from rightofway.model.stays import compute_costs
-from rightofway.search import Bookings, ConflictBasedSearch, Distances, find_earliest_track
+from rightofway.search import (
+    Bookings,
+    ConflictBasedSearch,
+    Distances,
+    JointPlan,
+    find_earliest_track,
+)
 from rightofway.site import VertexId
 
 MOST_PAIRS = 200
@@ -80,7 +86,7 @@ def find_forced_losses(
 
     def measure_loss(robots: Robots) -> Tick:
         """Return what robots lose at least, alone on the roads [ticks]; 0 where time is up."""
-        _, least = _search_together(search, robots, states, deadline)
+        least = _search_together(search, robots, states, deadline).bound
         # A search that did not end gives a lower bound, and tracks are never below the least.
         return Tick(0 if least is None else max(least - sum(alone[robot] for robot in robots), 0))
 
@@ -143,8 +149,8 @@ def find_forced_makespan(
 
     def is_forced(robots: Robots) -> bool:
         """Return whether it is proven that some robots, alone on the roads, need as long."""
-        has_ended, least = _search_together(search, robots, states, deadline)
-        return has_ended and least is None
+        plan = _search_together(search, robots, states, deadline)
+        return plan.has_ended and plan.bound is None
 
     completions = compute_completions(scenario, tracks)
     late = [robot for robot, completion in enumerate(completions) if completion >= makespan]
@@ -167,11 +173,11 @@ def find_forced_makespan(
 
 def _search_together(
     search: ConflictBasedSearch, robots: Robots, states: int, deadline: Deadline
-) -> tuple[bool, Tick | None]:
+) -> JointPlan:
     """Search the joint states of robots; where time is up, all that is known is a bound of 0."""
     left = deadline.measure_seconds_left()
     if left == 0:
-        return False, Tick(0)
+        return JointPlan(has_ended=False, bound=Tick(0))
     return search.search_together(robots, states=states, time_limit=left)
 
 

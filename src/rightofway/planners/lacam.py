@@ -31,9 +31,9 @@ from rightofway.planners.impossible import (
     refuse_stranded,
     refuse_the_impossible,
 )
+from rightofway.planners.joint_states import plan_by_joint_states
 from rightofway.planners.moves import plan_by_moves
 from rightofway.planners.task import Draft, Task, make_planning_problem
-from rightofway.planners.timed_moves import plan_by_timed_moves
 from rightofway.precedence import build_graph
 from rightofway.search import Distances, FleetSearch, plan_by_lacam
 from rightofway.site import VertexId
@@ -61,8 +61,8 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
         draft = plan_by_instants(task, spreads=spreads)
         if draft is not None:
             return draft
-    if problem.closures is not None and (moved := plan_by_timed_moves(task)) is not None:
-        return moved
+    elif (draft := plan_by_joint_states(task)) is not None:
+        return draft
     if not problem.resources.are_points:
         task.report(Phrase("no end by instants: planning the order of single moves"))
         search = FleetSearch(make_planning_problem(scenario), seed=task.seed, alone=task.alone)

@@ -1,6 +1,6 @@
 """An order of single moves: where planning one after another finds no way.
 
-For robots with a size. `timed_moves` gives the moves times.
+For robots with a size.
 
 A state is where all robots stand, and which stage each of them has to serve next. In a move, one
 robot drives along one edge while all others stand. A greedy search, nearest to the end first, looks

@@ -8,7 +8,7 @@ from rightofway.provision import import_later
 
 if TYPE_CHECKING:
     from rightofway.search.bounds import PriceAscent
-    from rightofway.search.cbs import ConflictBasedSearch, find_fewest_actions
+    from rightofway.search.cbs import ConflictBasedSearch, JointPlan, find_fewest_actions
     from rightofway.search.congestion import Congestion
     from rightofway.search.distances import Distances, Path
     from rightofway.search.fleet import FleetSearch, compute_least_completions
@@ -20,6 +20,7 @@ _MODULES = {
     "bounds": ("PriceAscent",),
     "cbs": (
         "ConflictBasedSearch",
+        "JointPlan",
         "find_fewest_actions",
     ),
     "congestion": ("Congestion",),
@@ -51,6 +52,7 @@ __all__ = [
     "Congestion",
     "Distances",
     "FleetSearch",
+    "JointPlan",
     "Path",
     "PeriodicBookings",
     "PriceAscent",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from typing import NamedTuple
 
 import numpy as np
 
@@ -24,6 +25,25 @@ UNLIMITED = 2**62
 
 MILLION, MOST_FACTOR = 10**6, 10**6
 """Factors are rounded down to millionths, so that no plan above the factor is enough."""
+
+
+class JointPlan(NamedTuple):
+    """A plan of least cost of some robots, alone on the roads, or what is proven of it.
+
+    Attributes
+    ----------
+    has_ended
+        Whether the search has found a plan, or has proven that none exists.
+    bound
+        No plan costs less, by the weights of the robots [ticks]; None where no plan exists in which
+        all of them complete within ``latest``.
+    tracks
+        A plan at that cost, in the order of the robots; None where the search found none.
+    """
+
+    has_ended: bool
+    bound: Tick | None
+    tracks: tuple[Track, ...] | None = None
 
 
 class ConflictBasedSearch:
@@ -134,7 +154,7 @@ class ConflictBasedSearch:
 
     def search_together(
         self, robots: Sequence[int], *, states: int, time_limit: float | None = None
-    ) -> tuple[bool, Tick | None]:
+    ) -> JointPlan:
         """Search the joint states of some robots, alone on the roads.
 
         Parameters
@@ -145,15 +165,15 @@ class ConflictBasedSearch:
             The number of states at most.
         time_limit
             When to stop [s].
-
-        Returns
-        -------
-        tuple of (bool, int or None)
-            Whether the search ended, and the least sum of their costs by weight [ticks], None where
-            they have no plan within `latest`; where the search did not end, a lower bound.
         """
-        end, least = self._core.search_together(np.array(robots, np.int32), states, time_limit)
-        return end in {FOUND, PROVEN}, None if least == NEVER else Tick(least)
+        end, least, first_visit, vertices, enter = self._core.search_together(
+            np.array(robots, np.int32), states, time_limit
+        )
+        return JointPlan(
+            has_ended=end in {FOUND, PROVEN},
+            bound=None if least == NEVER else Tick(least),
+            tracks=tuple(make_tracks(first_visit, vertices, enter)) if end == FOUND else None,
+        )
 
     @property
     def n_nodes(self) -> int:

@@ -1,0 +1,73 @@
+"""A plan of least cost of a few robots, or the proof that no plan exists, by their joint states.
+
+For robots among closures or barred edges that find no plan one after another. The search goes over
+what all robots do at each instant (``cpp/cbs/joint_search.hpp``), and it ends also where there is
+no plan.
+
+References
+----------
+Standley, *Finding optimal solutions to cooperative pathfinding problems*, AAAI 2010.
+
+Notes
+-----
+Complete where it ends: no robot has to work as soon as it comes to its stop. A state counts how
+long each robot has stayed at its vertex. The drive that ends the stay decides how many stages the
+stay has served: all for which it was long enough, or fewer. So a robot may wait at its stop before
+it works, or leave the stop and come back, as others or closures need it.
+
+The search ends undecided after `MOST_STATES` states. The number of states grows with the power of
+the number of robots.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from rightofway.errors import GaveUp, NoPlanExists
+from rightofway.model import Problem
+from rightofway.phrases import Phrase
+from rightofway.planners.impossible import explain_no_room, find_smallest_set
+from rightofway.planners.task import Draft, Task, make_planning_problem
+from rightofway.search import ConflictBasedSearch, JointPlan
+
+MOST_STATES, FEW_ROBOTS = 100_000, 4
+"""States of a search at most, and the largest fleet that is searched."""
+
+SHARE = 0.3
+"""The part of the time for it."""
+
+
+def plan_by_joint_states(task: Task) -> Draft | None:
+    """Plan a few robots by a search over their joint states; None where it ends undecided.
+
+    Raises
+    ------
+    NoPlanExists
+        With a small set of robots that have no plan.
+    """
+    scenario, deadline = task.scenario, task.deadline.shorten(SHARE)
+    everybody = range(len(scenario.robots))
+    if len(everybody) > FEW_ROBOTS:
+        return None
+
+    def search(problem: Problem, robots: Sequence[int]) -> JointPlan:
+        return ConflictBasedSearch(problem).search_together(
+            robots, states=MOST_STATES, time_limit=deadline.measure_seconds_left()
+        )
+
+    def is_blocked(robots: Sequence[int]) -> bool:
+        plan = search(scenario.problem, robots)
+        if not plan.has_ended:
+            raise GaveUp("too many joint states")
+        return plan.tracks is None
+
+    plan = search(scenario.problem, everybody)
+    if plan.has_ended and plan.tracks is None:
+        raise NoPlanExists([explain_no_room(scenario, find_smallest_set(everybody, is_blocked))])
+    # The proof is of the rules themselves; planners keep stricter ones where nobody may rotate.
+    if make_planning_problem(scenario) is not scenario.problem:
+        plan = search(make_planning_problem(scenario), everybody)
+    if plan.tracks is None:
+        return None
+    task.has_plan()
+    return Draft(tracks=plan.tracks, status=Phrase("joint states"))
