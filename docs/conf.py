@@ -28,7 +28,6 @@ default_role = "py:obj"
 add_module_names = False
 maximum_signature_line_length = 88
 autodoc_default_options = {"members": True}
-autodoc_preserve_defaults = True
 napoleon_google_docstring = False
 napoleon_attr_annotations = False  # signatures have them
 napoleon_custom_sections = [("Attributes", "params_style")]  # as it knows no "tail, head" else

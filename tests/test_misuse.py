@@ -15,7 +15,6 @@ import numpy as np
 import pytest
 
 import rightofway as rw
-from rightofway.arguments import EarlierName
 
 DOOR = rw.load(Path(__file__).parents[1] / "examples/door.yaml")
 
@@ -82,6 +81,7 @@ GOOD: dict[str, Callable[[], tuple[Callable[..., Any], dict[str, Any]]]] = {
     "FleetBuilder.add_zone": lambda: (lanes().add_zone, {"name": "z", "vertices": ["a"]}),
     "FleetBuilder.add_robot": lambda: (fleet().add_robot, {"name": "R", "home": (0, 0)}),
     "FleetBuilder.add_closure": lambda: (fleet().add_closure, {"at": (0, 1)}),
+    "CbsOptions": lambda: (rw.CbsOptions, {}),
     "LacamOptions": lambda: (rw.LacamOptions, {}),
     "LnsOptions": lambda: (rw.LnsOptions, {}),
     "LocalSearchOptions": lambda: (rw.LocalSearchOptions, {}),
@@ -183,9 +183,8 @@ def methods() -> set[str]:
         f"{name}.{method}"
         for name in rw.__all__
         if inspect.isclass(cls := getattr(rw, name))
-        for method, value in vars(cls).items()
+        for method in vars(cls)
         if not method.startswith("_") or method == "__getitem__"
-        if not isinstance(value, EarlierName)
         if inspect.isroutine(inspect.unwrap(call := getattr(cls, method)))
         if set(inspect.signature(call).parameters) - {"self"}
     }

@@ -1,15 +1,17 @@
 """The package as it is imported."""
 
+import ast
 import inspect
+import pickle
 import re
-from fractions import Fraction
+from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 import rightofway
-from rightofway import viz
-from rightofway.quantities import Units
+from rightofway.planners.registry import PLANNERS
 from tests.builders.fleets import PAPER, paper_scenario
 
 
@@ -41,36 +43,50 @@ def test_whatever_a_public_function_takes_or_returns_is_public(function: Any) ->
     assert names <= set(rightofway.__all__)
 
 
+def test_the_options_of_each_planner_can_be_imported_from_the_top() -> None:
+    of_planners = {spec.options_type.__name__ for spec in PLANNERS}
+    assert of_planners <= set(rightofway.__all__)
+    assert of_planners <= set(rightofway.planners.__all__)
+
+
+def test_type_checkers_see_no_function_that_takes_any_name() -> None:
+    """With a module's `__getattr__` in sight, `rightofway.sovle` would be an object to them."""
+    for path in Path(rightofway.__file__).parent.rglob("__init__.py"):
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        defined = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
+        assigned = {
+            target.id
+            for node in tree.body
+            if isinstance(node, ast.Assign)
+            for target in node.targets
+            if isinstance(target, ast.Name)
+        }
+        assert "__getattr__" not in defined | assigned, path
+
+
+def list_results() -> Iterator[Any]:
+    """Yield a result of each function that computes one, for the door of the paper."""
+    plan = rightofway.solve(paper_scenario(PAPER[3]))
+    yield from (plan, plan.scenario, rightofway.check(plan), rightofway.measure(plan))
+    yield from (rightofway.compute_lost_time(plan), rightofway.waits(plan))
+    laps = rightofway.run_laps(plan.scenario)
+    yield from (laps, rightofway.plan_of_laps(laps))
+    yield from (rightofway.simulate(plan, runs=2), rightofway.simulate(plan, runs=2).trace(1))
+
+
+def test_results_can_be_pickled() -> None:
+    """Programs send them to other processes."""
+    for result in list_results():
+        copy = pickle.loads(pickle.dumps(result))  # noqa: S301 (our own bytes)
+        assert type(copy) is type(result)
+        if isinstance(result, rightofway.SimulationResult):
+            assert copy.trace(1).tracks == result.trace(1).tracks
+
+
 def is_own(module: Any, name: str) -> bool:
     """Tell whether a name in a module is a class of this package."""
     found = getattr(module, name, None)
     return inspect.isclass(found) and found.__module__.startswith("rightofway.")
-
-
-def test_an_earlier_name_works_and_warns_of_the_new_one() -> None:
-    with pytest.warns(DeprecationWarning, match="save_plan is now write_plan") as warned:
-        assert rightofway.save_plan is rightofway.write_plan
-    assert warned[0].filename == __file__
-    assert "save_plan" not in dir(rightofway)
-
-
-@pytest.mark.parametrize("earlier", viz._EARLIER)
-def test_an_earlier_name_of_the_views_works_and_warns(earlier: str) -> None:
-    with pytest.warns(DeprecationWarning, match=f"{earlier} is now make_") as warned:
-        assert getattr(viz, earlier) is getattr(viz, viz._EARLIER[earlier])
-    assert warned[0].filename == __file__
-    assert earlier not in viz.__all__
-
-
-def test_an_earlier_name_of_a_method_works_and_says_the_new_one() -> None:
-    fleet = rightofway.FleetBuilder(grid=[".."])
-    message = r"FleetBuilder.roadmap is now build_roadmap \(use that name\)"
-    with pytest.warns(DeprecationWarning, match=message) as warned:
-        assert fleet.roadmap() is fleet.build_roadmap()
-    assert warned[0].filename == __file__
-    quantities = rightofway.Quantities(units=Units(), tick=Fraction(1))
-    with pytest.warns(DeprecationWarning, match="Quantities.duration is now format_duration"):
-        assert quantities.duration(3) == "3 time units"
 
 
 def test_what_is_not_there_is_said_as_usual() -> None:

@@ -105,65 +105,6 @@ def test_variables_say_what_they_hold(room: str) -> None:
     assert not bound
 
 
-FIRST_WORDS = """
-    accepts add advance allow answer apply are as ask attempt avoid begin bind book bring build
-    bundle cancel carry chain change check checkpoint checks choose circumscribe classify clear
-    close cluster coerce comes commit compare complain complete compute confine connect convert
-    count create cut deal decide declare defer delay delete derive descend describe do download draw
-    drive dump empty end enter enters escape evict exclude execute explain export extend extract
-    fade fail fill find finish finishes flip flush follow forget format free get give glance go goes
-    group handle hang happens has have hold holds import improve inline insert inspect is join judge
-    keep keeps kill lay limit link list listen load locate make map may measure mix name need nest
-    note number obey open operate order owns pack parse pass pause perturb place plan prepare
-    prioritize prove put quote rank reach reaches read receive recognizes refuse release relocate
-    remind remove rename reorder repair repeat replan replay report require reroute reset resolve
-    restore resume retime retry reverse rollback round run save say scale search select send serve
-    set sets settle share shorten show simulate skip solve sort speak splice split spread start stay
-    step stop stream stretch submit summarize survey switch tabulate take tell to trace translate
-    turn unroll upload validate wait waits warn widen withdraw work write zip
-"""
-VERBS = frozenset(FIRST_WORDS.split())
-"""First words of functions: verbs, claims (``is_empty``), ``as_``, ``to_``; add what is missing."""
-
-ESTABLISHED = {
-    *("auto", "cbs", "fixed_priority", "lacam", "lns", "local_search", "paper", "prioritized"),
-    *("priority_search", "random_priority", "two_level"),
-    *("connection_lost", "connection_made", "data_received", "shutdown", "startup"),
-    *("main",),
-}
-"""Published names of methods, names that asyncio and uvicorn call, and a program's entry point."""
-
-
-def called_names(module: ast.Module) -> Iterator[str]:
-    """Yield the public functions and methods that are called: no properties, no constructors."""
-    bodies = [module.body, *(node.body for node in module.body if isinstance(node, ast.ClassDef))]
-    for node in (node for body in bodies for node in body):
-        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.name[0] != "_":
-            calls = (getattr(each, "func", each) for each in node.decorator_list)
-            decorators = {ast.unparse(each).rpartition(".")[2] for each in calls}
-            if not decorators & NOT_CALLED:
-                yield node.name
-
-
-NOT_CALLED = {
-    *("property", "cached_property", "setter", "classmethod", "staticmethod"),
-    *("command", "group"),
-}
-"""Decorators of attributes, of constructors, and of commands, whose names users type."""
-
-
-@pytest.mark.parametrize("room", ROOMS)
-def test_functions_begin_with_a_verb(room: str) -> None:
-    nouns = [
-        f"{path.relative_to(SOURCES)}: {name}"
-        for path, module in parse_modules().items()
-        if room_of(path) == room
-        for name in called_names(module)
-        if name.partition("_")[0] not in VERBS and name not in ESTABLISHED
-    ]
-    assert not nouns
-
-
 IDIOM = {
     r"\bso many\b": "name the number",
     r"\b[Ww]hoever\b": "name the person or the program",

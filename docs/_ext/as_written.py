@@ -1,13 +1,14 @@
-"""The Python pages: signatures as they are written, and names that lead to their pages.
+"""Signatures of the API pages, with annotations as written and defaults as values.
 
-Left to itself autodoc spells out what annotations stand for, so that ``FaultKind`` becomes a list
-of a dozen words, and names every type after the module it is defined in, which has no page.
+Without this extension autodoc expands aliases, so that ``FaultKind`` becomes a list of a dozen
+words, and names every type after the module that defines it, which has no page.
 """  # noqa: INP001 (a Sphinx extension, found by its path)
 
 from __future__ import annotations
 
 import inspect
 from collections.abc import Iterable, Iterator
+from enum import Enum
 from inspect import Parameter
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +16,9 @@ if TYPE_CHECKING:
     from docutils import nodes
     from sphinx.application import Sphinx
     from sphinx.environment import BuildEnvironment
+
+LONGEST_DEFAULT = 60
+"""Letters of a default that is written out."""
 
 
 def signature_of(
@@ -43,8 +47,11 @@ def _parts(parameters: Iterable[Parameter]) -> Iterator[str]:
         if each.kind is Parameter.KEYWORD_ONLY and before is not Parameter.KEYWORD_ONLY:
             yield "*"
         before = each.kind
-        text = f"{each.name}: {_words(each.annotation)}"
+        text = f"{_STARS.get(each.kind, '')}{each.name}: {_words(each.annotation)}"
         yield text if each.default is each.empty else f"{text} = {_default(each.default)}"
+
+
+_STARS = {Parameter.VAR_POSITIONAL: "*", Parameter.VAR_KEYWORD: "**"}
 
 
 def _words(annotation: Any) -> str | None:
@@ -55,8 +62,11 @@ def _words(annotation: Any) -> str | None:
 
 
 def _default(value: Any) -> str:
-    """Return a default; a factory or a function has no text that means anything."""
-    return "..." if repr(value).startswith("<") else repr(value)
+    """Return a default as a value; a factory, a function and a large value have no text."""
+    if isinstance(value, Enum):
+        return f"{type(value).__name__}.{value.name}"
+    text = repr(value)
+    return "..." if text.startswith("<") or len(text) > LONGEST_DEFAULT else text
 
 
 def is_field(_app: Sphinx, _what: str, _name: str, value: Any, *_: Any) -> bool | None:

@@ -22,7 +22,6 @@ from typing import TYPE_CHECKING as _TYPE_CHECKING
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists, RightOfWayError
 from rightofway.figures import PackageFigures as _PackageFigures
 from rightofway.provision import provided as _provided
-from rightofway.provision import warn_of_rename as _warn_of_rename
 
 if _TYPE_CHECKING:
     from rightofway.check import (
@@ -79,6 +78,7 @@ if _TYPE_CHECKING:
     )
     from rightofway.planners import (
         AutoOptions,
+        CbsOptions,
         LacamOptions,
         LnsOptions,
         LocalSearchOptions,
@@ -113,7 +113,7 @@ if _TYPE_CHECKING:
         Theme,
     )
 
-__version__ = "1.0.0"
+__version__ = "0.9.0"
 
 _provided["figures"] = _PackageFigures()
 
@@ -172,6 +172,7 @@ _ROOMS = {
     ),
     "planners": (
         "AutoOptions",
+        "CbsOptions",
         "LacamOptions",
         "LnsOptions",
         "LocalSearchOptions",
@@ -203,6 +204,7 @@ _LATER = {name: room for room, names in _ROOMS.items() for name in names}
 __all__ = [
     "AutoOptions",
     "Background",
+    "CbsOptions",
     "CyclicResult",
     "Decision",
     "ExecutionTrace",
@@ -268,15 +270,6 @@ __all__ = [
 ]
 
 
-_EARLIER = {
-    "best_timetable": "find_best_timetable",
-    "layout_of_graph": "make_layout_of_graph",
-    "lost_time": "compute_lost_time",
-    "save_plan": "write_plan",
-}
-"""Earlier names, which work until the next major version and warn (docs/promises.md)."""
-
-
 class _Package(_ModuleType):
     """The package; its functions ``check`` and ``solve`` win over the modules of their names."""
 
@@ -289,17 +282,16 @@ class _Package(_ModuleType):
 _sys.modules[__name__].__class__ = _Package
 
 
-def __getattr__(name: str) -> object:
-    if name in _LATER:
-        value: object = getattr(_import_module(f"{__name__}.{_LATER[name]}"), name)
-        globals()[name] = value
-        return value
-    if name in _ROOMS:
-        return _import_module(f"{__name__}.{name}")
-    if name in _EARLIER:
-        _warn_of_rename(__name__, name, _EARLIER[name])
-        return getattr(_sys.modules[__name__], _EARLIER[name])
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+if not _TYPE_CHECKING:  # a checker would take any misspelt name for an object
+
+    def __getattr__(name: str) -> object:
+        if name in _LATER:
+            value: object = getattr(_import_module(f"{__name__}.{_LATER[name]}"), name)
+            globals()[name] = value
+            return value
+        if name in _ROOMS:
+            return _import_module(f"{__name__}.{name}")
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:

@@ -30,35 +30,17 @@ from typing import (
     get_origin,
     get_type_hints,
 )
-from warnings import warn
 
 import numpy as np
 
 from rightofway.errors import InputError, InputFault, Steps, quote
 
 __all__ = [
-    "EarlierName",
     "checks_arguments",
     "checks_its_arguments",
     "get_value",
     "require_one_for_each",
 ]
-
-
-class EarlierName:
-    """The earlier name of a method: it works until the next major version, and warns."""
-
-    def __init__(self, name: str) -> None:
-        self._name = name
-
-    def __set_name__(self, owner: type, name: str) -> None:
-        self._message = f"{owner.__name__}.{name} is now {self._name} (use that name)"
-
-    def __get__(self, instance: object, owner: type) -> Any:
-        if instance is None:
-            return self  # of the class itself: tools look at all that it has
-        warn(self._message, DeprecationWarning, stacklevel=2)
-        return getattr(instance, self._name)
 
 
 P = ParamSpec("P")

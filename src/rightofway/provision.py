@@ -1,4 +1,4 @@
-"""What the package provides to rooms below it, names that are imported later, and changed names.
+"""Objects that the package provides to rooms below it, and lazy imports.
 
 It lies at the bottom and imports no room, so that ``import rightofway`` and the command's
 ``--version`` import no room.
@@ -29,11 +29,3 @@ def import_later(package: str, modules: Mapping[str, Sequence[str]]) -> Callable
         return value
 
     return get_later
-
-
-def warn_of_rename(module: str, earlier: str, name: str) -> None:
-    """Warn the caller of a module's ``__getattr__`` that a name has become another one."""
-    from warnings import warn
-
-    message = f"{module}.{earlier} is now {name} (use that name)"
-    warn(message, DeprecationWarning, stacklevel=3)

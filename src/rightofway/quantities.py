@@ -11,7 +11,7 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import Literal, get_args
 
-from rightofway.arguments import EarlierName, checks_arguments
+from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, InputFault, quote
 from rightofway.phrases import Phrase, say_count
 
@@ -223,14 +223,6 @@ class Quantities:
         """Return how many ticks an hour has, or None where the time unit is not known."""
         seconds = self.units.seconds
         return None if seconds is None else 3600 / (self.tick * seconds)
-
-    cell = EarlierName("format_cell")
-    duration = EarlierName("format_duration")
-    heading = EarlierName("format_heading")
-    length = EarlierName("format_length")
-    moment = EarlierName("format_moment")
-    speed = EarlierName("format_speed")
-    ticks_per_hour = EarlierName("compute_ticks_per_hour")
 
     def _time(self, ticks: Value) -> Fraction:
         exact = Fraction(repr(ticks)) if isinstance(ticks, float) else Fraction(ticks)

@@ -1,7 +1,7 @@
 """Files of this version, for later ones to read: ``python -m tests.builders.older_files 1.1.0``.
 
 A release writes them once, into a folder of `tests/data/older`, from the scenarios of the folder
-1.0.0; `tests/io/test_older_files.py` reads them from then on.
+0.9.0; `tests/io/test_older_files.py` reads them from then on.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def write_files(folder: Path) -> None:
     """Write scenarios, their plans, a workbook, laps, and what a control keeps."""
     (folder / "control").mkdir(parents=True)
     for name in GIVEN:
-        shutil.copy(OLDER / "1.0.0" / name, folder / name)
+        shutil.copy(OLDER / "0.9.0" / name, folder / name)
     for command in COMMANDS:
         if run(command.format(folder=folder).split()):
             raise RuntimeError(command)

@@ -41,19 +41,11 @@ def test_a_wrong_ending_is_refused_before_any_work(cli: Cli, args: list[str], me
 
 
 @pytest.mark.parametrize("name", ["plan", "improve", "laps", "simulate", "show"])
-def test_page_writes_a_page_and_its_earlier_name_works_and_warns(
-    cli: Cli, door: Path, name: str
-) -> None:
+def test_page_writes_a_page(cli: Cli, door: Path, name: str) -> None:
     with_plan(cli, door)
     source = door if name in {"plan", "laps"} else "plan.json"
     cli(name, source, "--page", "a.html")
     assert Path("a.html").read_text(encoding="utf-8").startswith("<!doctype html>")
-    if name != "show":
-        ended = cli(name, source, "--show", "b.html")
-        assert ended.code == 0
-        assert "--show is now --page (use that name)" in ended.err
-        assert Path("b.html").exists()
-    assert "--show" not in cli(name, "--help").out
 
 
 def test_a_film_and_a_page_are_written_by_one_command(cli: Cli, door: Path) -> None:

@@ -61,6 +61,17 @@ def test_every_independent_fault_is_reported_at_once() -> None:
     ]
 
 
+@pytest.mark.parametrize("laps", [500_001, 2**31, 2**64])
+@pytest.mark.parametrize("of_fleet", [True, False])
+def test_stages_of_a_fleet_are_counted_before_they_are_listed(laps: int, of_fleet: bool) -> None:
+    """One stop and one way home in each lap."""
+    [robot] = grid_fleet(ROW, [("N0", "N4")]).robots
+    fleet = {"rules": Rules(laps=laps)} if of_fleet else {}
+    robots = (robot if of_fleet else replace(robot, laps=laps),)
+    with pytest.raises(InputError, match=rf"robots: {2 * laps} stops and ways home in all laps"):
+        replace(grid_fleet(ROW, [("N0", "N4")]), robots=robots, **fleet)
+
+
 def test_laps_need_a_way_back() -> None:
     with pytest.raises(InputError, match=r"robots\[0\].laps: 2 laps need a way back"):
         grid_fleet(ROW, [("N0", "N4")], rules=Rules(laps=2, ends="none"))

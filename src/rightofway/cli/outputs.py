@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rightofway.cli.options import require_writable
-from rightofway.cli.terminal import say, say_written
+from rightofway.cli.terminal import say_written
 from rightofway.files import write_whole
-from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
     from rightofway.model import Plan
@@ -61,27 +60,10 @@ def plan_output_option(content: str) -> Decorator:
     )  # fmt: skip
 
 
-class _PageOption(click.Option):
-    """The option --page; its earlier name --show works and warns, and no help names it."""
-
-    EARLIER = "--show"
-
-    def add_to_parser(self, parser: Any, ctx: click.Context) -> None:
-        super().add_to_parser(parser, ctx)
-        parser.add_option(self, [self.EARLIER], self.EARLIER, nargs=1)
-
-    def handle_parse_result(self, ctx: click.Context, opts: Any, args: list[str]) -> Any:
-        if self.EARLIER in opts:
-            new = self.opts[0]
-            say(Phrase("{old} is now {new} (use that name)", old=self.EARLIER, new=new))
-            opts = {self.name: opts[self.EARLIER], **opts}
-        return super().handle_parse_result(ctx, opts, args)
-
-
 def make_page_option(content: str) -> Decorator:
     """Return the option --page of a command; ``what`` is what the page plays."""
     return click.option(
-        "--page", cls=_PageOption, metavar="FILE",
+        "--page", metavar="FILE",
         callback=require_writable(*PAGE_SUFFIXES, stdout=False),
         help=f"Write a page that plays {content} (.html).",
     )  # fmt: skip

@@ -12,7 +12,6 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.arguments import EarlierName
 from rightofway.cyclic.bottleneck import Bottleneck, find_bottleneck
 from rightofway.cyclic.pattern import History, Pattern
 from rightofway.cyclic.route import GroupContext
@@ -178,15 +177,6 @@ class GroupResult:
         graph = self.build_graph()
         return None if graph is None else find_bottleneck(graph)
 
-    laps_made = EarlierName("count_laps")
-    mean_laps = EarlierName("compute_mean_laps")
-    rate = EarlierName("compute_rate")
-    measured = EarlierName("measure_laps")
-    waiting_shares = EarlierName("compute_waiting_shares")
-    first_waits = EarlierName("list_first_waits")
-    graph = EarlierName("build_graph")
-    bottleneck = EarlierName("find_bottleneck")
-
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class CyclicResult:
@@ -211,8 +201,6 @@ class CyclicResult:
         """Return the laps of all robots per time unit of the scenario."""
         ticks = 1 / self.scenario.problem.clock.tick
         return sum((group.compute_rate() * ticks for group in self.groups), Fraction(0))
-
-    throughput = EarlierName("compute_throughput")
 
 
 def waits_in_first_laps(context: GroupContext, history: History) -> tuple[LapWait, ...]:

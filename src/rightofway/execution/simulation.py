@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from functools import cached_property
 from numbers import Integral
 from typing import NamedTuple
 
@@ -117,9 +118,6 @@ def simulate(
         if not (keep_runs and parts):
             raise
 
-    def trace(run: int) -> ExecutionTrace:
-        return traces.get(run) or ExecutionMonitor(adg, policy, seed, run, Deadline()).trace()
-
     every = join_batches([part.batch for part in parts])
     unchanged = [part.unchanged for part in parts if part.unchanged is not None]
     cut_off = sum(part.cut_off for part in parts)
@@ -142,7 +140,7 @@ def simulate(
         gain=PolicyGain.of(np.concatenate(unchanged), every.completion) if unchanged else None,
         lateness=Lateness.of(adg, every),
         completion=np.where(unfinished, -1, every.completion),
-        _trace=trace,
+        _trace=_RunReader(plan, causes, policy, seed, traces),
     )
 
 
@@ -180,8 +178,12 @@ def _delayed(
 ) -> tuple[tuple[Delay, ...], ActionDependencyGraph]:
     """Return the causes of delay, and the plan as it is executed with them."""
     causes = read_delays(delays, plan.scenario)
+    return causes, _make_graph(plan, causes)
+
+
+def _make_graph(plan: Plan, causes: tuple[Delay, ...]) -> ActionDependencyGraph:
     model = delay_model_of(causes, plan.scenario)
-    return causes, ActionDependencyGraph(plan.scenario, plan.tracks, model)
+    return ActionDependencyGraph(plan.scenario, plan.tracks, model)
 
 
 def _execute(
@@ -208,6 +210,36 @@ def _execute(
             yield _Runs(batch)
         if deadline.measure_seconds_left() == 0:
             return
+
+
+class _RunReader:
+    """Tracks of single runs: those that were kept, and others executed again.
+
+    It can be pickled, as the result that holds it: the graph, an object of the native core, is
+    built when it is first needed.
+    """
+
+    def __init__(
+        self,
+        plan: Plan,
+        causes: tuple[Delay, ...],
+        policy: ExecutionPolicy,
+        seed: int,
+        traces: dict[int, ExecutionTrace],
+    ) -> None:
+        self._given = (plan, causes, policy, seed, traces)
+
+    def __reduce__(self) -> tuple[type[_RunReader], tuple[object, ...]]:
+        return _RunReader, self._given
+
+    def __call__(self, run: int) -> ExecutionTrace:
+        _, _, policy, seed, traces = self._given
+        return traces.get(run) or ExecutionMonitor(self._adg, policy, seed, run, Deadline()).trace()
+
+    @cached_property
+    def _adg(self) -> ActionDependencyGraph:
+        plan, causes, *_ = self._given
+        return _make_graph(plan, causes)
 
 
 class _Runs(NamedTuple):

@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.arguments import EarlierName
 from rightofway.errors import InputError, quote
 from rightofway.model import NEVER, ExecutionTrace, Plan
 from rightofway.precedence import ActionDependencyGraph, RunBatch
@@ -320,10 +319,6 @@ class SimulationResult:
         never = (self.completion < 0).sum(axis=1)
         flowtime = np.where(self.completion < 0, 0, self.completion).sum(axis=1)
         return np.lexsort((flowtime, never))
-
-    typical = EarlierName("find_typical_run")
-    worst = EarlierName("find_worst_run")
-    ranked = EarlierName("rank_runs")
 
     def as_dict(self) -> dict[str, Any]:
         """Return all results except single runs, as plain data for JSON; times in ticks."""

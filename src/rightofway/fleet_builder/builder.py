@@ -9,7 +9,6 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Literal, Self
 
-from rightofway.arguments import EarlierName
 from rightofway.assign import HOMELESS, deal_homes
 from rightofway.errors import InputError, Where, locate_faults, name_file, quote
 from rightofway.files import as_path
@@ -456,9 +455,6 @@ class FleetBuilder:
                 raise InputError.at("", f"the fleet has no map ({remedy})")
             self._roadmap = self._drawn.build_roadmap(spacing=self._spacing, y_up=self._y_up)
         return self._roadmap
-
-    scenario = EarlierName("build_scenario")
-    roadmap = EarlierName("build_roadmap")
 
     def _vertex(self, key: Where, place: Any) -> VertexId:
         """Return the vertex of a place as users write it."""

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from rightofway.io.formats import make_schema
     from rightofway.io.layouts import (
         LAYOUT_WRITERS,
+        LayoutFormat,
         format_layout,
         is_layout,
         make_layout_of_graph,
@@ -37,6 +38,7 @@ _MODULES = {
     "formats": ("make_schema",),
     "layouts": (
         "LAYOUT_WRITERS",
+        "LayoutFormat",
         "is_layout",
         "make_layout_of_graph",
         "format_layout",
@@ -58,6 +60,7 @@ __all__ = [
     "FOREIGN_FORMATS",
     "LAYOUT_WRITERS",
     "SITE_PLAN_FORMATS",
+    "LayoutFormat",
     "Loaded",
     "dump_plan",
     "dump_scenario",
@@ -87,4 +90,5 @@ __all__ = [
     "write_scenario",
 ]
 
-__getattr__ = import_later(__name__, _MODULES)
+if not TYPE_CHECKING:  # a checker would take any misspelt name for an object
+    __getattr__ = import_later(__name__, _MODULES)

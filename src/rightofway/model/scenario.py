@@ -17,6 +17,9 @@ from rightofway.quantities import Quantities, Units, format_decimal
 from rightofway.site import Roadmap, VertexId
 from rightofway.site.walls import clear_of_walls, reaches_walls
 
+MAX_STAGES = 1_000_000
+"""Stops and ways home of a whole fleet, laps unrolled, at most."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scenario:
@@ -199,6 +202,11 @@ def _fleet_faults(scenario: Scenario) -> Iterator[InputFault]:
     if all(0 <= home < scenario.roadmap.n_vertices for home in homes):
         remedy = "a vertex holds one robot; move one of them"
         yield from _twice("home", [name(home) for home in homes], names, remedy)
+    laps = scenario.rules.laps
+    stages = sum((len(robot.stops) + 1) * (robot.laps or laps) for robot in scenario.robots)
+    if stages > MAX_STAGES:
+        message = f"{stages} stops and ways home in all laps, more than {MAX_STAGES}"
+        yield InputFault("robots", f"{message} (give fewer laps)")
 
 
 def _twice(key: str, values: list[str], owners: list[str], remedy: str) -> Iterator[InputFault]:

@@ -4,6 +4,7 @@ from rightofway.deadline import Deadline
 from rightofway.planners.features import ANY_FLEET, Feature
 from rightofway.planners.options import (
     AutoOptions,
+    CbsOptions,
     LacamOptions,
     Least,
     LnsOptions,
@@ -30,6 +31,7 @@ __all__ = [
     "DEFAULT_PLANNER",
     "IMPROVER",
     "AutoOptions",
+    "CbsOptions",
     "Deadline",
     "Draft",
     "Feature",

@@ -117,4 +117,5 @@ __all__ = [
     "unroll_schedule",
 ]
 
-__getattr__ = import_later(__name__, _MODULES)
+if not TYPE_CHECKING:  # a checker would take any misspelt name for an object
+    __getattr__ = import_later(__name__, _MODULES)

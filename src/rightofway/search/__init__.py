@@ -64,4 +64,5 @@ __all__ = [
     "plan_by_lacam",
 ]
 
-__getattr__ = import_later(__name__, _MODULES)
+if not TYPE_CHECKING:  # a checker would take any misspelt name for an object
+    __getattr__ = import_later(__name__, _MODULES)

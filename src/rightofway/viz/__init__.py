@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from rightofway.provision import import_later, warn_of_rename
+from rightofway.provision import import_later
 
 if TYPE_CHECKING:
     from rightofway.viz.notebook import make_scenario_html
@@ -53,23 +53,5 @@ __all__ = [
     "write_png",
 ]
 
-_EARLIER = {
-    "frame_of": "make_frame",
-    "inspection_page": "make_inspection_page",
-    "page_of": "make_page",
-    "payload_of": "make_payload",
-    "png_of": "make_png",
-    "preview_of": "make_preview",
-    "scenario_html": "make_scenario_html",
-    "site_data": "make_site_data",
-}
-"""Earlier names, which work and warn (docs/promises.md)."""
-
-_get_later = import_later(__name__, _MODULES)
-
-
-def __getattr__(name: str) -> object:
-    if name in _EARLIER:
-        warn_of_rename(__name__, name, _EARLIER[name])
-        name = _EARLIER[name]
-    return _get_later(name)
+if not TYPE_CHECKING:  # a checker would take any misspelt name for an object
+    __getattr__ = import_later(__name__, _MODULES)

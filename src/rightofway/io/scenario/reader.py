@@ -40,9 +40,6 @@ from rightofway.phrases import Phrase, say_count
 from rightofway.quantities import Units
 from rightofway.site import Roadmap
 
-MAX_STAGES = 1_000_000
-"""Stops and ways home of a whole fleet, laps unrolled, at most."""
-
 MAX_TICKS = 2**40
 """Longest duration of a scenario [ticks]; routes of any length then stay within 64 bits."""
 
@@ -246,12 +243,7 @@ def _assemble(
 ) -> Scenario | None:
     """Return the scenario, or None after noting the faults that the model finds."""
     robots = tuple(placed_robot.robot for placed_robot in placed)
-    laps = others["rules"].laps
-    stages = sum((len(robot.stops) + 1) * (robot.laps or laps) for robot in robots)
     try:
-        if stages > MAX_STAGES:
-            message = f"{stages} stops and ways home in all laps, more than {MAX_STAGES}"
-            raise InputError.at("robots", f"{message} (give fewer laps)")
         scenario = Scenario(roadmap=roadmap, robots=robots, **others)
         _check_ticks(scenario)
     except InputError as error:
