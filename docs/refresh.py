@@ -310,6 +310,18 @@ def _opening(header: Path) -> str:
     return " ".join(line[3:] for line in takewhile(lambda line: line.startswith("// "), lines))
 
 
+def test_counts() -> Iterable[str]:
+    """Return how many laws and other tests there are, rounded down, as a sentence."""
+    laws = others = 0
+    for path in (ROOT / "tests").rglob("test_*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.FunctionDef) and node.name.startswith("test_"):
+                is_law = any("law" in ast.unparse(each) for each in node.decorator_list)
+                laws, others = laws + is_law, others + (not is_law)
+    counts = f"more than {laws // 10 * 10} laws and {others // 100 * 100} other functions"
+    return [f"The tests are {counts}, many of which run for each of a list of cases."]
+
+
 MAKERS: dict[str, Callable[..., Iterable[str]]] = {
     "command-help": command_help,
     "planner-list": planner_list,
@@ -322,6 +334,7 @@ MAKERS: dict[str, Callable[..., Iterable[str]]] = {
     "decisions": decisions,
     "public-names": public_names,
     "native-headers": native_headers,
+    "test-counts": test_counts,
 }
 
 if __name__ == "__main__":
