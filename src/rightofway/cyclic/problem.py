@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.cyclic.route import GroupContext
+from rightofway.cyclic.startup import find_start
 from rightofway.model import Lap, Tick
 from rightofway.planners import Deadline
 from rightofway.precedence import CyclicSchedule, TimedEventGraph
@@ -111,8 +112,11 @@ class CyclicProblem:
         return self.compute_fairness(counts, period) >= self.least_fairness
 
     def accepts(self, candidate: Candidate) -> bool:
-        """Tell whether a candidate is fair."""
-        return self.is_fair(candidate.timetable.counts, candidate.cycle_time)
+        """Tell whether a candidate is fair, and robots that wait at home can begin with it."""
+        return (
+            self.is_fair(candidate.timetable.counts, candidate.cycle_time)
+            and find_start(self.context.scenario, candidate.timetable) is not None
+        )
 
     def empty_bookings(self, period: int | None) -> PeriodicBookings:
         """Return empty bookings; without repetition if the period is None."""

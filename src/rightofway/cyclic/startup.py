@@ -1,16 +1,20 @@
-"""Start-up of a timetable: each robot waits at home until the start of its first lap.
+"""Start-up of a timetable: each robot waits at home until it begins one of its laps there.
 
-The start-up begins at the tick of the period with the fewest visits of other robots to homes with
-a waiting robot.
+A robot waits at home from tick 0, so no other robot may pass its home before it sets out. Each
+robot begins with the first lap at which it is home from a tick on. If another robot would pass it
+while it waits, that robot begins with a later lap, after it would have passed. This is repeated
+until no robot is passed while it waits. Times only rise, so they are the least from that tick on:
+if they rise without end, no start exists in which robots only wait at home.
 """
 
 from __future__ import annotations
 
 from array import array
+from bisect import bisect_left
 from collections import defaultdict
+from collections.abc import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rightofway.cyclic.pattern import Pattern
 from rightofway.cyclic.result import BaselineComparison, GroupResult
@@ -20,6 +24,15 @@ from rightofway.model.lap import compute_dwell_between_laps
 from rightofway.native import list_excluded
 from rightofway.precedence import CyclicSchedule
 
+MOST_BEGINS = 200
+"""Ticks that are compared for the beginning."""
+
+MOST_PASSES = 20_000
+"""Ticks times pairs of robots of which one passes the home of the other, in the comparison."""
+
+RAISES_PER_ROBOT = 50
+"""First laps that are replaced by later ones before a start counts as not found, per robot."""
+
 
 def start(
     scenario: Scenario,
@@ -27,35 +40,22 @@ def start(
     comparison: BaselineComparison,
     *,
     periods: int = 3,
-    most_begins: int = 200,
     most_visits: int = 1_000_000,
-) -> GroupResult:
+) -> GroupResult | None:
     """Return the result of a group that follows a timetable from its first lap on.
 
-    Compares up to ``most_begins`` ticks for the beginning. The history holds ``periods`` periods,
-    or one period if it has more than ``most_visits`` visits.
+    None if no start is found in which robots only wait at home. The history holds ``periods``
+    periods, or one period if it has more than ``most_visits`` visits.
     """
-    period, robots = int(timetable.period), range(len(timetable.laps))
-    homes = [
-        enter[:: len(lap)] % period
-        for lap, enter in zip(timetable.laps, timetable.enter, strict=True)
-    ]
-    ticks: list[int] = np.unique(np.concatenate(homes)).tolist()
-    passes = _passes(scenario, timetable)
-
-    def visits_while_waiting(begins: int) -> int:
-        """Return the number of visits to homes of robots that wait there."""
-        taken = 0
-        for robot, enter in passes.items():
-            waits = _first_home(timetable, robot, begins)[1]
-            taken += int(np.count_nonzero((enter - begins) % period < waits))
-        return taken
-
-    considered = ticks[:: -(-len(ticks) // most_begins)]
-    begins = min(considered, key=lambda tick: (visits_while_waiting(tick), tick))
+    begins = find_start(scenario, timetable)
+    if begins is None:
+        return None
     n_visits = sum(map(len, timetable.enter))
     n_periods = 1 if n_visits > most_visits else periods
-    history = tuple(_history(timetable, robot, begins, n_periods) for robot in robots)
+    history = tuple(
+        _history(timetable, robot, begin, begin - min(begins), n_periods)
+        for robot, begin in enumerate(begins)
+    )
     pattern = Pattern(
         transient=Tick(max(past[1] for past in history)),
         period=timetable.period,
@@ -78,39 +78,112 @@ def start(
     )
 
 
-def _first_home(timetable: CyclicSchedule, robot: int, begins: int) -> tuple[int, int]:
-    """Return a robot's first visit home at or after a tick, and the time until then [ticks]."""
-    length = len(timetable.laps[robot])
-    later = (timetable.enter[robot][::length] - begins) % int(timetable.period)
-    lap = int(np.argmin(later))
-    return lap * length, int(later[lap])
+def find_start(scenario: Scenario, timetable: CyclicSchedule) -> list[int] | None:
+    """Return when each robot is home for its first lap, in ticks of the timetable's first periods.
+
+    The start with the shortest transient, of those that begin at or after some ticks of a period;
+    None if none is found.
+    """
+    period = int(timetable.period)
+    homes = [
+        sorted((enter[:: len(lap)] % period).tolist())
+        for lap, enter in zip(timetable.laps, timetable.enter, strict=True)
+    ]
+    passes = _passes(scenario, timetable)
+    ticks = sorted(set().union(*homes))
+    most = min(MOST_BEGINS, MOST_PASSES // (1 + sum(map(len, passes.values()))) + 1)
+    starts = []
+    for tick in ticks[:: -(-len(ticks) // most)]:
+        begins = _begin_from(tick, homes, passes, period)
+        if begins is None:
+            return None  # where there is a start from one tick on, there is one from each
+        starts.append((max(begins) - min(begins), min(begins), begins))
+    return min(starts)[2]
 
 
-def _passes(scenario: Scenario, timetable: CyclicSchedule) -> dict[int, NDArray[np.int64]]:
-    """Return for each robot the enters of others' visits that exclude it from its home, if any."""
-    resources = scenario.problem.resources
+Passes = Mapping[int, Mapping[int, Sequence[int]]]
+"""For a robot the sorted ticks of a period at which each other robot begins to exclude it from its
+home."""
+
+
+def _begin_from(
+    tick: int, homes: Sequence[Sequence[int]], passes: Passes, period: int
+) -> list[int] | None:
+    """Return the least begins from a tick on; None if they rise too often."""
+    begins = [_next(own, tick, period) for own in homes]
+    waiting, raises = list(passes), 0
+    while waiting:
+        robot = waiting.pop()
+        for other, times in passes[robot].items():
+            passed = _last_before(times, begins[robot], period)
+            if passed >= begins[other]:  # while the robot waits at home
+                begins[other] = _next(homes[other], passed + 1, period)
+                raises += 1
+                if raises > RAISES_PER_ROBOT * len(homes):
+                    return None
+                if other in passes:
+                    waiting.append(other)
+    return begins
+
+
+def _next(times: Sequence[int], tick: int, period: int) -> int:
+    """Return the first tick from another one on that is in the times of some period."""
+    periods, rest = divmod(tick, period)
+    index = bisect_left(times, rest)
+    return periods * period + (times[index] if index < len(times) else period + times[0])
+
+
+def _last_before(times: Sequence[int], tick: int, period: int) -> int:
+    """Return the last tick before another one that is in the times of some period."""
+    periods, rest = divmod(tick, period)
+    return periods * period + (
+        times[index - 1] if (index := bisect_left(times, rest)) else times[-1] - period
+    )
+
+
+def _passes(scenario: Scenario, timetable: CyclicSchedule) -> Passes:
+    """Return when robots exclude others from their homes: they enter a vertex, or drive off."""
+    resources, period = scenario.problem.resources, int(timetable.period)
+    rows = [
+        resources.list_rows_of_lap(scenario.roadmap, robot, lap.vertices)
+        for robot, lap in zip(timetable.robots, timetable.laps, strict=True)
+    ]
     owners = defaultdict[int, list[int]](list)  # of homes, by the rows that exclude them
-    booked = list[list[tuple[int, ...]]]()  # of each visit of each lap
-    for index, (robot, lap) in enumerate(zip(timetable.robots, timetable.laps, strict=True)):
-        rows = resources.list_rows_of_lap(scenario.roadmap, robot, lap.vertices)
-        for row in list_excluded(resources, int(rows[0][0])):
-            owners[row].append(index)
-        booked.append(list(zip(rows[0].tolist(), rows[1].tolist(), strict=True)))
-    passes = defaultdict[int, list[NDArray[np.int64]]](list)
-    for index, (visits, enter) in enumerate(zip(booked, timetable.enter, strict=True)):
-        for visit, own in enumerate(visits):
-            met = {number for row in own for number in owners.get(row, ()) if number != index}
-            for number in sorted(met):
-                passes[number].append(enter[visit :: len(visits)])
-    return {robot: np.concatenate(ticks) for robot, ticks in passes.items()}
+    for robot, booked in enumerate(rows):
+        for row in list_excluded(resources, int(booked[0][0])):
+            owners[row].append(robot)
+    excluding, passes = list(owners), defaultdict[int, dict[int, set[int]]](dict)
+    for other, (booked, lap, enter) in enumerate(
+        zip(rows, timetable.laps, timetable.enter, strict=True)
+    ):
+        length = len(lap)
+        drives = np.append(enter[1:], enter[0] + period) - np.resize(
+            np.roll(lap.drive, -1), len(enter)
+        )
+        for own, times in zip(booked[:2], (enter, drives), strict=True):
+            for visit in np.flatnonzero(np.isin(own, excluding)).tolist():
+                for robot in owners[int(own[visit])]:
+                    if robot != other:
+                        ticks = times[visit::length] % period
+                        passes[robot].setdefault(other, set()).update(ticks.tolist())
+    return {
+        robot: {other: sorted(ticks) for other, ticks in by_other.items()}
+        for robot, by_other in sorted(passes.items())
+    }
 
 
-def _history(timetable: CyclicSchedule, robot: int, begins: int, periods: int) -> array[int]:
+def _history(
+    timetable: CyclicSchedule, robot: int, begin: int, later: int, periods: int
+) -> array[int]:
     """Return the enters of a robot's visits, counted from the beginning of the start-up."""
-    period, enter = int(timetable.period), timetable.enter[robot]
-    visit, later = _first_home(timetable, robot, begins)
+    period, enter, length = (
+        int(timetable.period),
+        timetable.enter[robot],
+        len(timetable.laps[robot]),
+    )
+    lap = int(np.argmin((enter[::length] - begin) % period))
     turn = np.arange(periods + 1)[:, None] * period
-    times = (enter + turn).ravel()[visit : visit + periods * len(enter) + 1]
+    times = (enter + turn).ravel()[lap * length : lap * length + periods * len(enter) + 1]
     times += later - times[0]
     times[0] = 0
     return array("q", times.tobytes())

@@ -280,17 +280,20 @@ def _choose(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) ->
     baseline = _simulated(problem, "first-come", params.baseline_share)
     ends, worth = _baseline(problem, baseline)
     pattern = _fair_pattern(problem, baseline)
-    starts = [
+    candidates = [
         *_by_other_rules(problem, params),
         *_cut_out(problem, baseline, params),
         *_built(problem, rounds, params),
     ]
     if pattern is not None:
-        starts.append(problem.make_candidate(pattern.timetable))
+        candidates.append(problem.make_candidate(pattern.timetable))
+    starts = list(filter(problem.accepts, candidates))
+    if not starts and pattern is not None:
+        return _compared(problem, baseline, pattern, ends, worth)
     if not starts and (together := repeat_plan(problem)):
         problem = problem.add_ways(together.timetable.laps)
-        starts = [together]
-    if not starts or not problem.accepts(starts[0]):
+        starts = list(filter(problem.accepts, [together]))
+    if not starts:
         robots = f"{len(problem)} robots that have to do with each other"
         if problem.least_fairness:
             why = f"for {robots} that is fair enough (ask for less, or give time)"
@@ -299,7 +302,7 @@ def _choose(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) ->
         raise GaveUp(f"no timetable was found {why}")
     whole = _whole(problem, _improved(problem, starts, rounds, params), params)
     if pattern is not None and worth > problem.compute_value(whole):
-        whole = pattern
+        return _compared(problem, baseline, pattern, ends, worth)
     return _started(problem, whole, ends, worth)
 
 
@@ -309,22 +312,19 @@ def _closed_run(problem: CyclicProblem) -> GroupResult | None:
         return None
     baseline = SimulatedRun(problem, problem.context, "first-come")
     extracted = extract_cycle(problem, choose_runs(problem, baseline))
-    fair = [
-        candidate
-        for candidate in (extracted, _fair_pattern(problem, baseline.result))
-        if candidate is not None
-    ]
-    if not fair:
-        return None
-    return _started(
-        problem, max(fair, key=problem.compute_value), *_baseline(problem, baseline.result)
-    )
+    pattern, compared = _fair_pattern(problem, baseline.result), _baseline(problem, baseline.result)
+    if pattern is not None and (
+        extracted is None or problem.compute_value(pattern) >= problem.compute_value(extracted)
+    ):
+        return _compared(problem, baseline.result, pattern, *compared)
+    return None if extracted is None else _started(problem, extracted, *compared)
 
 
 def _fair_pattern(problem: CyclicProblem, run: GroupResult) -> Candidate | None:
     """Return the pattern of a simulation; None without a pattern, or if it is unfair."""
-    pattern = None if run.timetable is None else Candidate.as_it_is(run.timetable)
-    return None if pattern is None or not problem.accepts(pattern) else pattern
+    if run.timetable is None or not problem.is_fair(run.timetable.counts, run.timetable.period):
+        return None
+    return Candidate.as_it_is(run.timetable)
 
 
 def _simulated(problem: CyclicProblem, rule: str, share: float) -> GroupResult:
@@ -415,10 +415,30 @@ def _whole(problem: CyclicProblem, candidate: Candidate, params: ChoiceParams) -
 def _started(
     problem: CyclicProblem, chosen: Candidate, ends: BaselineEnds, baseline: Fraction
 ) -> GroupResult:
-    comparison = BaselineComparison(
+    """Return the result of a timetable with which robots that wait at home can begin."""
+    comparison = _compare(problem, chosen, ends, baseline)
+    result = start(problem.context.scenario, chosen.timetable, comparison)
+    assert result is not None, "candidates without a start are not accepted"
+    return result
+
+
+def _compared(
+    problem: CyclicProblem,
+    run: GroupResult,
+    pattern: Candidate,
+    ends: BaselineEnds,
+    baseline: Fraction,
+) -> GroupResult:
+    """Return the result of a simulation as the chosen one, with the start that it had."""
+    return replace(run, comparison=_compare(problem, pattern, ends, baseline))
+
+
+def _compare(
+    problem: CyclicProblem, chosen: Candidate, ends: BaselineEnds, baseline: Fraction
+) -> BaselineComparison:
+    return BaselineComparison(
         throughput=problem.compute_value(chosen),
         fairness=problem.compute_fairness(chosen.timetable.counts, chosen.cycle_time),
         baseline_ends=ends,
         baseline=baseline,
     )
-    return start(problem.context.scenario, chosen.timetable, comparison)
