@@ -225,3 +225,24 @@ def test_a_timetable_that_is_proven_impossible_ends_as_a_plan_does(
     assert (planned.code, laps.code) == (1, 1)
     assert "no plan exists" in planned.err
     assert "no plan exists" in laps.err
+
+
+TWICE = """
+format: rightofway-scenario/1
+map: {grid: ["..@", "@..", "@@."]}
+robots:
+  - {name: R1, home: N4, target: N1}
+  - {name: R3, home: N5, target: N0, speed: 1/2}
+"""
+"""On one line, with R3 on the wrong side of R1: laps without end exist, and no way into them."""
+
+
+def test_a_timetable_that_robots_at_home_cannot_begin_is_not_offered(
+    cli: Cli, tmp_path: Path
+) -> None:
+    given = tmp_path / "line.yaml"
+    given.write_text(TWICE, encoding="utf-8")
+    ended = cli("laps", given, "--rule", "timetable", "--time-limit", "2", "--page", "l.html")
+    assert ended.code == 1
+    assert "R1 and R3 block each other" in ended.err
+    assert not Path("l.html").exists()

@@ -1,12 +1,15 @@
 """Pages of laps and of runs on the floor, from the command line."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
+from rightofway import cyclic
 from tests.builders.payloads import payload_in
-from tests.cli.conftest import EXAMPLES, Cli
+from tests.cli.conftest import EXAMPLES, SWAP, Cli
 
 
 def told(page: str) -> Any:
@@ -65,3 +68,33 @@ def test_a_plan_made_anew_is_on_the_page(cli: Cli) -> None:
     one, two = told("new.html")["floor"]["robots"]
     assert one["completion"] is None
     assert two["completion"] is not None
+
+
+@pytest.mark.parametrize("page", ["page.html", "-"])
+def test_a_page_that_shows_faults_is_not_written_without_a_word(cli: Cli, page: str) -> None:
+    Path("swap.yaml").write_text(SWAP, encoding="utf-8")
+    ended = cli(
+        "plan", "swap.yaml", "--planner", "paper", "-o", "plan.json", "--page", "paper.html"
+    )
+    fault = "1 fault: 1 swap conflict; time 7: swap conflict: R1 and R2 exchange"
+    assert f"paper.html shows {fault}" in ended.err
+    assert told("paper.html")["faults"]["count"] == 1
+    assert f"{page} shows {fault}" in cli("show", "plan.json", "-o", page).err
+
+
+def test_a_page_of_laps_that_shows_faults_is_not_written_without_a_word(
+    cli: Cli, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """R2 is made four ticks late, so that both are in N17 at 10."""
+    make = cyclic.make_excerpt
+
+    def make_faulty(run: cyclic.CyclicResult) -> Any:
+        plan, steady = make(run)
+        first, second = plan.tracks
+        late = np.concatenate((second.enter[:1], second.enter[1:] + 4))
+        return replace(plan, tracks=(first, replace(second, enter=late))), steady
+
+    monkeypatch.setattr(cyclic, "make_excerpt", make_faulty)
+    ended = cli("laps", EXAMPLES / "crossroad.yaml", "--page", "laps.html")
+    assert "laps.html shows " in ended.err
+    assert told("laps.html")["faults"]["count"] > 0

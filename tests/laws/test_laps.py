@@ -11,13 +11,21 @@ from hypothesis import strategies as st
 
 import rightofway
 from rightofway.check import check
-from rightofway.cyclic import RULES, CyclicResult, find_best_timetable, plan_of_laps, run_laps
+from rightofway.cyclic import (
+    RULES,
+    CyclicResult,
+    find_best_timetable,
+    make_excerpt,
+    plan_of_laps,
+    run_laps,
+)
 from rightofway.cyclic.sensitivity import compute_parameter_effects
 from rightofway.cyclic.to_plan import unroll_laps
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Closure, Plan, Scenario
 from rightofway.planners import make_planning_problem
 from rightofway.site import VertexId
+from rightofway.viz.verdict import give_verdict
 from tests.builders.any_fleet import LAPS_REFUSE, any_fleet
 from tests.builders.fleets import grid_fleet
 from tests.builders.laws import law, leave
@@ -72,6 +80,8 @@ def check_plan(plan: Plan) -> None:
 def test_laps_by_every_rule_have_no_fault(scenario: Scenario, rule: str) -> None:
     run = run_of(scenario, rule)
     check_periods(run)
+    if all(group.ends != "open" for group in run.groups):
+        assert give_verdict(make_excerpt(run)[0]).ok
     if stands_still(run):
         with pytest.raises(GaveUp):
             unroll_laps(run)
@@ -151,6 +161,7 @@ def test_a_chosen_timetable_has_no_fault_and_is_not_below_first_come_first_serve
         leave(without_values(refused))
     check_periods(run)
     check_plan(unroll_laps(run, 5))
+    assert give_verdict(make_excerpt(run)[0]).ok
     for group in run.groups:
         if group.comparison is not None and group.comparison.baseline_ends == "repeats":
             assert group.comparison.throughput >= group.comparison.baseline

@@ -138,3 +138,20 @@ def test_an_excerpt_of_laps_has_no_faults_and_a_plan_of_whole_laps_has() -> None
     payload = make_payload(whole, steady=steady)
     [(kind, count)] = payload["faults"]["kinds"]
     assert (template_in(payload, kind), count) == ("stop missed", 1)
+
+
+@pytest.mark.parametrize("robot", [0, 1])
+def test_a_page_of_laps_lists_the_faults_of_its_laps(robot: int) -> None:
+    """A robot that never waits drives through the other one, in some lap."""
+    trips = [("N0", "N6"), ("N2", "N8")]
+    scenario = grid_fleet(["...", "@.@", "..."], trips, speeds=[Fraction(1, 2), Fraction(1, 3)])
+    plan, steady = make_excerpt(run_laps(scenario, "first-come"))
+    assert make_payload(plan, steady=steady)["faults"]["count"] == 0
+    tracks = list(plan.tracks)
+    route = run_laps(scenario, "first-come").groups[0].context.routes[robot]
+    enter = route.compute_undelayed(range(len(tracks[robot])))
+    tracks[robot] = replace(tracks[robot], enter=enter)
+    broken = make_payload(replace(plan, tracks=tuple(tracks)), steady=steady)["faults"]
+    ends = min(int(track.enter[-1]) for track in tracks)
+    assert broken["count"] == len(broken["listed"]) > 0
+    assert max(fault["tick"] for fault in broken["listed"]) < ends

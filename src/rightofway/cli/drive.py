@@ -29,7 +29,7 @@ from rightofway.cli.options import (
     seed_option,
     ticks_option,
 )
-from rightofway.cli.outputs import make_page_option
+from rightofway.cli.outputs import make_page_option, put_page
 from rightofway.cli.terminal import get_language, make_title, put_json, put_report, say, say_written
 from rightofway.cli.watch import WatchPage, add_page_options
 from rightofway.phrases import Phrase
@@ -210,10 +210,7 @@ def drive(
         )
         _report_demo(opened, outcome, quantities, seed, as_json=as_json)
         if page:
-            from rightofway.viz import write_page
-
-            write_page(opened, page, actual=outcome.trace, title=make_title(plan))
-            say_written(page)
+            put_page(opened, page, actual=outcome.trace, title=make_title(plan))
         if live:
             shown.wait_for_interrupt()
     return 0

@@ -18,14 +18,19 @@ from rightofway.cli.options import (
     ticks_option,
     time_limit_option,
 )
-from rightofway.cli.outputs import make_page_option, plan_output_option, refuse_outputs, write
+from rightofway.cli.outputs import (
+    make_page_option,
+    plan_output_option,
+    put_page,
+    refuse_outputs,
+    write,
+)
 from rightofway.cli.terminal import (
     choose_deadline,
     get_language,
     make_title,
     put_json,
     put_report,
-    say_written,
     show_progress,
 )
 
@@ -145,11 +150,8 @@ def laps(
         quantities = choose_quantities(problem, in_ticks=in_ticks)
         put_report(report_laps(run, quantities, get_language()))
     if page:
-        from rightofway.viz import write_page
-
         plan, steady = make_excerpt(run)
-        write_page(plan, page, steady=steady, title=make_title(scenario))
-        say_written(page)
+        put_page(plan, page, steady=steady, title=make_title(scenario))
     if output:
         plan, steady = plan_of_laps(run), make_excerpt(run)[1]
         write(replace(plan, steady=keep_within(steady, list(map(len, plan.tracks)))), output)

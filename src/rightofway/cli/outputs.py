@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rightofway.cli.options import require_writable
-from rightofway.cli.terminal import say_written
+from rightofway.cli.terminal import complain, say, say_written
 from rightofway.files import write_whole
+from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
     from rightofway.model import Plan
@@ -67,6 +68,28 @@ def make_page_option(content: str) -> Decorator:
         callback=require_writable(*PAGE_SUFFIXES, stdout=False),
         help=f"Write a page that plays {content} (.html).",
     )  # fmt: skip
+
+
+def put_page(plan: Plan, path: str, *, said: Phrase | None = None, **extras: Any) -> None:
+    """Write a page that plays a plan, and name the faults that it shows.
+
+    ``said`` is the message that the page is written; ``extras`` are those of `write_page`.
+    """
+    from rightofway.viz import write_page
+
+    write_page(plan, path, **extras)
+    say(said or Phrase("wrote {file}", file=path))
+    complain_of_faults(plan, path)
+
+
+def complain_of_faults(plan: Plan, path: str) -> None:
+    """Name the faults of a plan that a page shows, if it has any."""
+    from rightofway.viz.verdict import give_verdict
+
+    verdict = give_verdict(plan)
+    if not verdict.ok:
+        values = {"faults": verdict.summary, "first": verdict.faults[0].sentence}
+        complain(Phrase("{file} shows {faults}; {first}", file=path, **values))
 
 
 def refuse_outputs(source: str, output: str | None, *, as_json: bool) -> None:

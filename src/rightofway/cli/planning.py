@@ -26,7 +26,13 @@ from rightofway.cli.options import (
     ticks_option,
     time_limit_option,
 )
-from rightofway.cli.outputs import make_page_option, plan_output_option, refuse_outputs, write
+from rightofway.cli.outputs import (
+    make_page_option,
+    plan_output_option,
+    put_page,
+    refuse_outputs,
+    write,
+)
 from rightofway.cli.terminal import (
     choose_deadline,
     complain,
@@ -269,10 +275,8 @@ def _run(
         )
     write(plan, output)
     if page:
-        from rightofway.viz import write_page
-
-        write_page(plan, page, title=make_title(source))
-        say(Phrase("wrote {file} (open it in a browser)", file=page))
+        said = Phrase("wrote {file} (open it in a browser)", file=page)
+        put_page(plan, page, said=said, title=make_title(source))
     if output != "-":
         quantities = choose_quantities(plan.scenario, in_ticks=in_ticks)
         in_time = _has_time_for_lost_time(plan, deadline)

@@ -18,14 +18,13 @@ from rightofway.cli.options import (
     seed_option,
     ticks_option,
 )
-from rightofway.cli.outputs import make_page_option, put_text
+from rightofway.cli.outputs import make_page_option, put_page, put_text
 from rightofway.cli.terminal import (
     format_json,
     get_language,
     make_title,
     put_json,
     put_report,
-    say,
     show_progress,
 )
 from rightofway.phrases import Phrase
@@ -105,17 +104,13 @@ def simulate(
     if output not in {None, "-"}:
         put_text(format_json(data) + "\n", str(output))
     if page:
-        from rightofway.viz import write_page
-
         played = outcome.find_typical_run() if run is None else run
         trace = outcome.trace(played)
-        write_page(outcome.plan, page, actual=trace, title=make_title(plan))
-        say(
-            Phrase(
-                "wrote {file}: run {number} of {runs}",
-                file=page,
-                number=str(played),
-                runs=str(outcome.runs),
-            )
+        said = Phrase(
+            "wrote {file}: run {number} of {runs}",
+            file=page,
+            number=str(played),
+            runs=str(outcome.runs),
         )
+        put_page(outcome.plan, page, said=said, actual=trace, title=make_title(plan))
     return 1 if outcome.collisions or outcome.deadlocks else 0

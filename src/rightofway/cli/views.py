@@ -25,7 +25,7 @@ from rightofway.cli.options import (
     require_writable,
     ticks_option,
 )
-from rightofway.cli.outputs import PAGE_SUFFIXES
+from rightofway.cli.outputs import PAGE_SUFFIXES, complain_of_faults, put_page
 from rightofway.cli.terminal import (
     complain,
     make_title,
@@ -201,6 +201,7 @@ def show(
         from rightofway.viz import make_page
 
         click.echo(make_page(opened, **extras), nl=False)
+        complain_of_faults(opened, output)
     elif is_picture:
         from rightofway.viz import write_png
 
@@ -268,12 +269,12 @@ def _background(path: str | None, scale: float | None, plan: Plan) -> Background
 
 def _write(plan: Plan, path: str, extras: dict[str, Any]) -> None:
     """Write a film or a page."""
-    from rightofway.viz import write_gif, write_page
+    from rightofway.viz import write_gif
 
     if path.lower().endswith(".gif"):
         film = write_gif(plan, path)
         apart = plan.scenario.quantities.format_duration(film.ticks_per_frame)
         say(Phrase("{number} frames, {time} apart", number=str(film.frames), time=apart))
+        say_written(path)
     else:
-        write_page(plan, path, **extras)
-    say_written(path)
+        put_page(plan, path, **extras)

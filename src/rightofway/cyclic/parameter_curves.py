@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
-from rightofway.cyclic.sensitivity import find_stages_at, grow_by_speed
+from rightofway.cyclic.sensitivity import compute_growth_by_speed, find_stages_at
 from rightofway.model import Scenario, Tick
 from rightofway.precedence import Growth, TimedEventGraph, compute_period_curve
 
@@ -148,7 +148,7 @@ def _of_robot(
     robot, arcs = scenario.robots[number], graph.arcs
     itinerary = scenario.problem.itineraries[number]
     at = find_stages_at(scenario.roadmap, itinerary, graph.timetable.laps[place])
-    growth, tick = grow_by_speed(scenario, graph, place), scenario.problem.clock.tick
+    growth, tick = compute_growth_by_speed(scenario, graph, place), scenario.problem.clock.tick
     ends = Fraction(1, RANGE), Fraction(RANGE)
     yield ParameterCurve(
         kind="speed",

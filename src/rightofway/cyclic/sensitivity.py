@@ -131,7 +131,7 @@ def _growths(
     robot_of = graph.robot[arcs.head]
     for place in np.unique(robot_of[circuit]).tolist():
         robot, dwelling = graph.timetable.robots[place], (arcs.first < 0) & (robot_of == place)
-        yield ("speed", robot, None), grow_by_speed(scenario, graph, place)
+        yield ("speed", robot, None), compute_growth_by_speed(scenario, graph, place)
         lap, itinerary = graph.timetable.laps[place], scenario.problem.itineraries[robot]
         at = find_stages_at(scenario.roadmap, itinerary, lap)
         turn = np.array([sum(stage.turn for _, stage in stages) for stages in at], np.int64)
@@ -149,7 +149,7 @@ def _growths(
     yield ("headway", None, None), grow(graph.headways)
 
 
-def grow_by_speed(scenario: Scenario, graph: TimedEventGraph, place: int) -> Growth:
+def compute_growth_by_speed(scenario: Scenario, graph: TimedEventGraph, place: int) -> Growth:
     """Return the arcs as functions of ``speed now / speed`` of a robot.
 
     Notes

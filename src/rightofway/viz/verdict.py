@@ -2,24 +2,39 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from functools import partial
 from typing import Any
 
 from rightofway.check import Report, check
 from rightofway.metrics.comparison import Comparison
-from rightofway.model import Plan
+from rightofway.model import NEVER, Plan
 
 LISTED_FAULTS = 1000
 """The most faults that a page lists; all are counted."""
 
+UNDONE = ("stop missed", "wrong end")
+"""What the judge finds in the track of a robot that stands still for ever in an excerpt of laps."""
+
 
 def give_verdict(plan: Plan) -> Report:
-    """Return the faults of a plan; none of an excerpt of laps, which no floor is to carry out.
+    """Return the faults of a plan; of an excerpt of laps, those that are faults of the laps.
 
-    In an excerpt, robots may stand still for ever, and others stay at home in their way at its end.
+    In an excerpt, robots stay at home after their last lap, in the way of others, and a robot that
+    stands still for ever leaves stops undone. Neither is a fault of laps without end.
     """
-    if plan.run.name == "laps" and plan.run.status == plan.run.options.get("rule"):
-        return Report(faults=(), counts={})
-    return plan.compute_once("verdict", lambda: check(plan, limit=LISTED_FAULTS))
+    is_excerpt = plan.run.name == "laps" and plan.run.status == plan.run.options.get("rule")
+    judge = _judge_excerpt if is_excerpt else partial(check, limit=LISTED_FAULTS)
+    return plan.compute_once("verdict", lambda: judge(plan))
+
+
+def _judge_excerpt(plan: Plan) -> Report:
+    listed = check(plan, limit=LISTED_FAULTS).faults
+    still = {robot for fault in listed if fault.kind in UNDONE for robot in fault.robots}
+    ends = [int(track.enter[-1]) for robot, track in enumerate(plan.tracks) if robot not in still]
+    until = min(ends, default=NEVER)
+    faults = tuple(fault for fault in listed if fault.kind not in UNDONE and fault.tick < until)
+    return Report(faults=faults, counts=dict(Counter(fault.kind for fault in faults)))
 
 
 def make_comparison_data(comparison: Comparison) -> dict[str, Any]:
