@@ -4,17 +4,34 @@ from __future__ import annotations
 
 import os
 import re
+import time
 from collections.abc import Callable
 from contextlib import suppress
+from glob import escape
 from io import BytesIO
 from pathlib import Path
+from stat import S_ISREG
 
 from rightofway.errors import InputError, quote
 
-__all__ = ["as_path", "make_archive", "write_whole"]
+try:
+    import fcntl
+except ImportError:  # pragma: no cover (not on Windows)
+    fcntl = None  # type: ignore[assignment]
+
+__all__ = ["as_path", "make_archive", "remove_abandoned", "take_lock", "write_whole"]
 
 NO_DATE = (1980, 1, 1, 0, 0, 0)
 """The first date that a zip archive can hold."""
+
+PART = re.compile(r"\.(?P<name>.+)\.[0-9]+\.part", re.DOTALL)
+"""Names of files that are being written, each with the name of its target."""
+
+LONGEST_IN_PART = 230
+"""Bytes of the target's name in such a name: systems allow 255 in all."""
+
+MAY_BE_LOCKED_SOON = 1.0
+"""The time within which a program locks a file that it has just made, with much to spare [s]."""
 
 SAVED = re.compile(rb"(<dcterms:(?:created|modified)[^>]*>)[^<]*")
 """When a workbook was written, by its own account."""
@@ -86,10 +103,51 @@ def write_whole(path: str | os.PathLike[str], content: bytes | str) -> None:
         raise InputError.at("", _why_unwritable(error, target), str(target)) from None
 
 
+def take_lock(descriptor: int) -> bool:
+    """Lock an open file until it is closed, also by the end of the process.
+
+    Returns
+    -------
+    bool
+        False where another program has it locked, or its file system has no locks. True on
+        Windows, where a file that is open cannot be removed.
+    """
+    try:
+        if fcntl is not None:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    return True
+
+
+def remove_abandoned(part: Path) -> None:
+    """Remove a file that a program was writing when it was killed.
+
+    Parameters
+    ----------
+    part
+        Any path. A file with another name than those of `write_whole`, or that a running program
+        still writes, is not changed.
+    """
+    with suppress(OSError):  # it cannot be read or removed, or is gone
+        status = part.lstat()
+        is_new = not status.st_size and time.time() - status.st_mtime < MAY_BE_LOCKED_SOON
+        if not PART.fullmatch(part.name) or not S_ISREG(status.st_mode) or is_new:
+            return
+        with part.open("rb") as file:
+            is_abandoned = take_lock(file.fileno())
+        if is_abandoned:
+            part.unlink()
+
+
 def _replace(target: Path, content: bytes) -> None:
-    beside = target.with_name(f".{target.name}.{os.getpid()}.part")
+    name = os.fsdecode(os.fsencode(target.name)[:LONGEST_IN_PART])
+    beside = target.with_name(f".{name}.{os.getpid()}.part")
+    for part in target.parent.glob(f".{escape(name)}.*.part"):
+        remove_abandoned(part)
     try:
         with beside.open("wb") as file:
+            take_lock(file.fileno())  # so that no other program takes it for abandoned
             file.write(content)
             file.flush()
             os.fsync(file.fileno())  # or a machine that goes down could leave an empty file

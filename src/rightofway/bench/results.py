@@ -12,12 +12,7 @@ from typing import Any, Literal, Self
 
 from rightofway.errors import InputError, Location, Where
 from rightofway.extras import load_library, need
-from rightofway.files import write_whole
-
-try:
-    import fcntl
-except ImportError:  # pragma: no cover (not on Windows)
-    fcntl = None  # type: ignore[assignment]
+from rightofway.files import take_lock, write_whole
 
 Row = dict[str, Any]
 """A value for each column; None where there is none."""
@@ -136,12 +131,9 @@ class Results:
 
     def _mended_rows(self) -> Iterator[Row]:
         """Lock the journal; begin it, or cut off a line that was being written; yield its rows."""
-        try:
-            if fcntl is not None:
-                fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
+        if not take_lock(self._file):
             message = "another run is writing to it (wait for its end, or give another file)"
-            raise self._fault(message) from None
+            raise self._fault(message)
         content, header = self.journal.read_bytes(), _line(HEADER)
         if not content.startswith(header) and not header.startswith(content):
             raise self._fault(NOT_RESULTS, Location(line=1))

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import asyncio
 import json
-import re
 import secrets
 import sys
 import time
@@ -26,6 +25,7 @@ from urllib.parse import parse_qs, unquote_to_bytes, urlencode
 from starlette.exceptions import HTTPException
 
 from rightofway.studio.errors import Refused, StudioError
+from rightofway.studio.workspace import CLIMBS
 
 MAX_BODY = 20_000_000
 """The longest body of a request [bytes]."""
@@ -59,9 +59,6 @@ CUT_OFF = {400, 413}
 
 READS = {"GET", "HEAD"}
 CHANGES = {"POST", "PUT", "PATCH", "DELETE"}
-
-CLIMBS = re.compile(rb"(^|[/\\])\.\.?($|[/\\])|[\x00-\x1f\\]")
-"""What no path of ours has, once it is decoded."""
 
 POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "

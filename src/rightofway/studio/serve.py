@@ -26,11 +26,6 @@ from rightofway.studio.watching import Watched
 PORT = 7477
 """The port that is taken where it is free, so that an address can be kept."""
 
-NOT_KEPT = (
-    "drafts and runs are kept in memory only: the folder cannot be written, or another studio has"
-    " it open (--no-history says that this is wanted)"
-)
-
 
 class _Server(uvicorn.Server):
     """Hangs up on listeners before it waits for them."""
@@ -79,8 +74,9 @@ def serve(
 
     def ready() -> None:
         say(f"studio: {address} (end it with Ctrl-C)")
-        if studio.is_to_keep and not studio.store.is_kept:
-            say(NOT_KEPT)
+        if studio.store.trouble:
+            trouble = studio.store.trouble
+            say(f"drafts and runs are kept in memory only, until the studio ends: {trouble}")
         if opens_browser:
             threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
 

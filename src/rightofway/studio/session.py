@@ -53,7 +53,6 @@ class Studio:
     ) -> None:
         self.workspace = Workspace(folder)
         self.file = file
-        self.is_to_keep = keeps
         self.store = Store(self.workspace.folder if keeps else None)
         self._scratch = tempfile.TemporaryDirectory(prefix="rightofway-studio-")
         place = self.workspace.folder, self._scratch.name
@@ -67,6 +66,7 @@ class Studio:
 
     async def start(self) -> None:
         """Start workers, and take up what was left."""
+        await asyncio.to_thread(self.workspace.remove_abandoned)
         await self.desk.start()
         await self.planners.start()
         await self.runs.start()

@@ -28,34 +28,48 @@ CREATE TABLE IF NOT EXISTS blobs (
 """
 
 
+UNWRITABLE = {
+    sqlite3.SQLITE_CANTOPEN,
+    sqlite3.SQLITE_FULL,
+    sqlite3.SQLITE_IOERR,
+    sqlite3.SQLITE_PERM,
+    sqlite3.SQLITE_READONLY,
+}
+"""Primary error codes of a file that cannot be written."""
+
+
 class Store:
     """The drafts and the runs of a folder.
 
     Parameters
     ----------
     folder
-        Where the file is; None, a folder that cannot be written, or one that another studio has
-        open, for memory.
+        Where the file is; None for memory. A file that cannot be used is left as it is, and memory
+        is used instead.
 
     Attributes
     ----------
+    trouble
+        Why the file cannot be used, and what to do about it; empty where it can, or for memory.
     is_kept
         Whether what is written outlives the process.
     """
 
     def __init__(self, folder: Path | None) -> None:
         self._lock = threading.Lock()
+        self.trouble = ""
         try:
             self._database = self._opened(str(folder / FILE) if folder else ":memory:")
-            self.is_kept = folder is not None
-        except sqlite3.Error:
-            self._database, self.is_kept = self._opened(":memory:"), False
+        except (sqlite3.Error, ValueError) as error:
+            self._database, self.trouble = self._opened(":memory:"), _explain(error)
+        self.is_kept = folder is not None and not self.trouble
 
     @staticmethod
     def _opened(path: str) -> sqlite3.Connection:
         database = sqlite3.connect(path, timeout=0.5, check_same_thread=False)
         try:
             database.execute("PRAGMA locking_mode = EXCLUSIVE")
+            _read_through(database)  # before anything is written: a damaged file stays as it is
             database.execute("PRAGMA journal_mode = WAL")
             database.execute("PRAGMA synchronous = FULL")
             database.execute("PRAGMA foreign_keys = ON")
@@ -63,7 +77,7 @@ class Store:
             database.execute("INSERT OR REPLACE INTO drafts VALUES ('', 0, 'null')")  # takes a lock
             database.execute("DELETE FROM drafts WHERE name = ''")
             database.commit()
-        except sqlite3.Error:
+        except (sqlite3.Error, ValueError):
             database.close()
             raise
         return database
@@ -73,9 +87,13 @@ class Store:
         try:
             with self._lock, self._database:
                 yield self._database
-        except sqlite3.OperationalError as error:
-            message = f"drafts and runs cannot be kept: {error} (free some space, delete some runs)"
-            raise Refused(message, 507) from None
+        except sqlite3.ProgrammingError:  # the store was closed
+            raise
+        except sqlite3.DatabaseError as error:
+            remedy = "free some space, delete some runs"
+            if _is_damage(error):
+                remedy = f"end the studio, then move {FILE} away or put back a copy"
+            raise Refused(f"drafts and runs cannot be kept: {error} ({remedy})", 507) from None
 
     def close(self) -> None:
         """Close the file."""
@@ -172,9 +190,42 @@ class Store:
         with self._work() as database:
             query = "SELECT content FROM blobs WHERE run = ? AND kind = ?"
             row = database.execute(query, (number, kind)).fetchone()
-        return row and zlib.decompress(row[0])
+        try:
+            return row and zlib.decompress(row[0])
+        except zlib.error:
+            message = f"the {kind} of run {number} is damaged in {FILE} (make the run again)"
+            raise Refused(message, 500) from None
 
     def delete_run(self, number: int) -> None:
         """Delete a run and its blobs."""
         with self._work() as database:
             database.execute("DELETE FROM runs WHERE id = ?", (number,))
+
+
+def _read_through(database: sqlite3.Connection) -> None:
+    """Raise an error where a page or a row of the file cannot be read."""
+    [found] = database.execute("PRAGMA quick_check(1)").fetchone()
+    if found != "ok":
+        raise ValueError(found)
+    tables = {name for (name,) in database.execute("SELECT name FROM sqlite_master")}
+    for table, column in (("drafts", "document"), ("runs", "data")):
+        if table not in tables:
+            continue  # the file is new
+        for number, text in database.execute(f"SELECT rowid, {column} FROM {table}"):  # noqa: S608 (both are above)
+            if not isinstance(json.loads(text), dict):
+                raise sqlite3.DataError(f"row {number} of the table {table} is no mapping")
+
+
+def _is_damage(error: Exception) -> bool:
+    """Return whether an error is of the content of the file, not of its place."""
+    code = getattr(error, "sqlite_errorcode", sqlite3.SQLITE_CORRUPT) & 0xFF
+    return code not in UNWRITABLE | {sqlite3.SQLITE_BUSY}
+
+
+def _explain(error: Exception) -> str:
+    """Return why the file cannot be used, and what to do about it."""
+    if _is_damage(error):
+        return f"{FILE} is damaged: {error} (move it away, or put back a copy; then start again)"
+    if getattr(error, "sqlite_errorcode", 0) & 0xFF == sqlite3.SQLITE_BUSY:
+        return "another studio has the folder open (end that one)"
+    return f"the folder cannot be written: {error} (check its permissions and the disk)"

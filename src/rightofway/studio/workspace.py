@@ -7,11 +7,14 @@ import os
 import re
 import threading
 from collections import deque
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path, PurePosixPath
 
 from rightofway.errors import InputError
-from rightofway.files import write_whole
+from rightofway.files import remove_abandoned, write_whole
+from rightofway.io.text import refuse_special
 from rightofway.studio.errors import Refused
 
 MAX_FILES = 2000
@@ -22,6 +25,9 @@ MAX_FOLDERS = 1000
 
 MAX_FILE = 20_000_000
 """The largest file that is opened or uploaded [bytes]."""
+
+CLIMBS = re.compile(rb"(^|[/\\])\.\.?($|[/\\])|[\x00-\x1f\\]")
+"""What no path in an address has, once it is decoded; files with such names are not listed."""
 
 LONGEST_NAME = 200
 """Characters of a file's or a folder's name."""
@@ -37,7 +43,8 @@ KINDS = {
 """Which files a list holds, by their endings; what is in them is seen when they are opened."""
 
 UNSAFE = re.compile(r"[\x00-\x1f\x7f\\:*?\"<>|]")
-"""Characters that some system reads as something else than a part of a name."""
+"""Characters that some system reads as something else than a part of a name: no file gets such a
+name here, but one that has it is opened and saved as others."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,23 +83,25 @@ class Workspace:
         self._writing = threading.Lock()
 
     def find_path(self, name: str) -> Path:
-        """Return where a file is.
+        """Return where a file is, or would be.
 
         Raises
         ------
         Refused
-            For a path that is absolute, climbs, is hidden, or leads through a symbolic link.
+            For a path that is absolute, climbs, is hidden, or leads through a symbolic link; for
+            that of a new file also if some system cannot have such a name.
         """
         given = PurePosixPath(name)
         parts = given.parts
-        is_plain = bool(parts) and name == "/".join(parts) and not given.is_absolute()
-        if not is_plain or UNSAFE.search(name) or not name.isprintable():
-            raise Refused(f"{name!r} is no path in the folder (give names with / between)")
-        if any(part.startswith(".") or part.endswith((".", " ")) for part in parts):
-            raise Refused(f"{name!r} has a hidden part (give names that begin with no dot)")
-        if any(len(os.fsencode(part)) > LONGEST_NAME for part in parts):
-            raise Refused(f"a name in the path is longer than {LONGEST_NAME} bytes (shorten it)")
         path = self.folder.joinpath(*parts)
+        is_plain = bool(parts) and name == "/".join(parts) and path.is_relative_to(self.folder)
+        if not is_plain or not _fits_address(name):
+            raise Refused(f"{name!r} is no path in the folder (give names with / between)")
+        if any(part.startswith(".") for part in parts):
+            raise Refused(f"{name!r} has a hidden part (give names that begin with no dot)")
+        for count, part in enumerate(parts, 1):
+            if not os.path.lexists(self.folder.joinpath(*parts[:count])):
+                _refuse_unportable(part)
         if _resolved(path) != path:
             raise Refused(f"{name!r} leads through a symbolic link (give the file itself)")
         return path
@@ -125,9 +134,10 @@ class Workspace:
         Refused
             As `find_path`; or if the file holds something else by now.
         InputError
-            If it cannot be written.
+            If it cannot be written, or is a device or a pipe.
         """
         path = self.find_path(name)
+        refuse_special(path)  # a pipe without a reader would block this and all later writes
         with self._writing:
             if revision is not None and revision != (self.compute_revision(name) or ""):
                 was = "was changed by another program" if revision else "is there already"
@@ -148,33 +158,69 @@ class Workspace:
 
         Folders near the top come first; a list that is not whole lacks files far inside.
         """
-        entries, folders, seen = list[Entry](), deque([self.folder]), 0
-        while folders and len(entries) < MAX_FILES and seen < MAX_FOLDERS:
-            files, inside = self._listed(folders.popleft())
-            entries += files
-            folders += inside
-            seen += 1
+        entries, is_whole = list[Entry](), True
+        for seen, inside in enumerate(self._visit_folders()):
+            if seen == MAX_FOLDERS or len(entries) >= MAX_FILES:
+                is_whole = False
+                break
+            entries += self._list_opened(inside)
         entries.sort(key=lambda entry: entry.path)
-        return entries[:MAX_FILES], not folders and len(entries) <= MAX_FILES
+        return entries[:MAX_FILES], is_whole and len(entries) <= MAX_FILES
 
-    def _listed(self, folder: Path) -> tuple[list[Entry], list[Path]]:
-        """Return the files of one folder that may be opened, and the folders in it."""
-        files, folders = list[Entry](), list[Path]()
-        try:
-            inside = sorted(os.scandir(folder), key=lambda entry: entry.name)
-        except OSError:
-            return [], []  # a folder that may not be read has nothing to open
+    def remove_abandoned(self) -> None:
+        """Remove files that programs were writing into the folder when they were killed."""
+        for inside in islice(self._visit_folders(), MAX_FOLDERS):
+            for entry in inside:
+                remove_abandoned(Path(entry.path))
+
+    def _visit_folders(self) -> Iterator[list[os.DirEntry[str]]]:
+        """Yield what is in each folder, except symbolic links; folders near the top come first."""
+        folders = deque([self.folder])
+        while folders:
+            try:
+                found = sorted(os.scandir(folders.popleft()), key=lambda entry: entry.name)
+            except OSError:
+                continue  # a folder that may not be read has nothing to open
+            inside = [entry for entry in found if not entry.is_symlink()]
+            folders += [
+                Path(entry.path)
+                for entry in inside
+                if not entry.name.startswith(".") and entry.is_dir(follow_symlinks=False)
+            ]
+            yield inside
+
+    def _list_opened(self, inside: Iterable[os.DirEntry[str]]) -> Iterator[Entry]:
+        """Yield the files of one folder that may be opened."""
         for entry in inside:
-            if entry.name.startswith(".") or entry.is_symlink():
-                continue
             kind = KINDS.get(Path(entry.name).suffix.lower())
-            if entry.is_dir(follow_symlinks=False):
-                folders.append(Path(entry.path))
-            elif kind and entry.is_file(follow_symlinks=False):
+            name = Path(entry.path).relative_to(self.folder).as_posix()
+            if not kind or entry.name.startswith(".") or not _fits_address(name):
+                continue
+            if entry.is_file(follow_symlinks=False):
                 stat = entry.stat(follow_symlinks=False)
-                name = Path(entry.path).relative_to(self.folder).as_posix()
-                files.append(Entry(name, kind, stat.st_size, stat.st_mtime))
-        return files, folders
+                yield Entry(name, kind, stat.st_size, stat.st_mtime)
+
+
+def _fits_address(name: str) -> bool:
+    """Return whether an address may have the name; it must be whole Unicode text for that, too."""
+    try:
+        return not CLIMBS.search(name.encode())
+    except UnicodeEncodeError:
+        return False
+
+
+def make_portable(name: str) -> str:
+    """Return the name of a file or a path in the folder as every system can have it."""
+    return "".join("-" if UNSAFE.match(each) or not each.isprintable() else each for each in name)
+
+
+def _refuse_unportable(part: str) -> None:
+    """Refuse the name of a new file or folder that some system cannot have."""
+    if part != make_portable(part) or part.endswith((".", " ")):
+        remedy = 'leave out \\ : * ? " < > | and what cannot be printed; end in no dot or space'
+        raise Refused(f"{part!r} is no name of a file on every system ({remedy})")
+    if len(os.fsencode(part)) > LONGEST_NAME:
+        raise Refused(f"a name in the path is longer than {LONGEST_NAME} bytes (shorten it)")
 
 
 def _resolved(path: Path) -> Path | None:

@@ -73,7 +73,7 @@ export class Shelf {
       return;
     }
     const isNew = found.kind === "layout";
-    const stem = path.replace(/(\.[a-z]+)+$/i, "");
+    const stem = (found.save_as ?? path).replace(/(\.[a-z]+)+$/i, "");
     const name = isNew ? await this.#freeName(`${stem}.scenario`) : path;
     const document = present(found.document);
     /** @type {Partial<Found>} */

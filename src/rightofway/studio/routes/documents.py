@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import os
 from dataclasses import asdict
 from itertools import chain
 from itertools import count as count_from
@@ -26,10 +27,13 @@ from rightofway.studio.routes.models import (
 )
 from rightofway.studio.runs import Run, Runs
 from rightofway.studio.session import Studio, check_json
-from rightofway.studio.workspace import KINDS, compute_revision
+from rightofway.studio.workspace import KINDS, LONGEST_NAME, compute_revision, make_portable
 
 MAX_DRAFTS = 200
 """Drafts that are kept."""
+
+LONGEST_STEM = LONGEST_NAME - 20
+"""Bytes of a name that is suggested, without a number and an ending."""
 
 router = APIRouter()
 SAVED = {".yaml", ".yml", ".json", ".xlsx"}
@@ -43,9 +47,11 @@ MEDIA = {
 
 def free_name(studio: Studio, path: str) -> str:
     """Return the name of a scenario beside a file: one that no other file has."""
-    stem = path.removesuffix(PurePosixPath(path).suffix)
+    given = PurePosixPath(path)
+    stem = make_portable(os.fsencode(given.stem)[:LONGEST_STEM].decode("utf-8", "ignore"))
     names = (f"{stem}{number}.yaml" for number in chain([""], count_from(2)))
-    return next(name for name in names if studio.workspace.compute_revision(name) is None)
+    paths = (given.with_name(name).as_posix() for name in names)
+    return next(path for path in paths if not os.path.lexists(studio.workspace.folder / path))
 
 
 def find_folder(path: str) -> str:

@@ -105,8 +105,9 @@ class Pen:
         self.image.paste(laid.convert("RGB"), (0, 0), cover)
 
     def fill_disc(self, middle: Point, radius: float, colour: str) -> None:
-        """Fill a circle."""
-        self.draw.ellipse(self._around(middle, radius), colour)
+        """Fill a circle; one that an outline around it leaves no radius is not drawn."""
+        if radius > 0:
+            self.draw.ellipse(self._around(middle, radius), colour)
 
     def draw_ring(
         self, middle: Point, radius: float, turns: tuple[float, float], colour: str, width: float
