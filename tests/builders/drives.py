@@ -5,11 +5,12 @@ from __future__ import annotations
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
+from fractions import Fraction
 from pathlib import Path
 
 from rightofway.control.demo import drive_demo
 from rightofway.control.journal import SqliteJournal
-from rightofway.model import Plan, Tick
+from rightofway.model import Plan
 from rightofway.studio.serve import serve_watch
 from rightofway.studio.watching import Watched
 
@@ -43,9 +44,9 @@ class Drive:
         )
         self._thread.start()
 
-    def _wait(self, tick: Tick) -> None:
+    def _wait(self, moment: Fraction) -> None:
         with self._gate:
-            self._gate.wait_for(lambda: tick <= self._let)
+            self._gate.wait_for(lambda: moment <= self._let)
 
     def let(self, tick: int) -> None:
         """Let time go on, up to a tick."""

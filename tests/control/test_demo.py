@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 import json
+import threading
+import time
 from collections.abc import Iterator
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
 
 import pytest
 
 import rightofway
-from rightofway.control.demo import DemoResult, drive_demo
+from rightofway.control.commands import Commands
+from rightofway.control.demo import DemoResult, drive_demo, make_pause
 from rightofway.control.endpoints import Letter
 from rightofway.control.identities import VERSIONS
+from rightofway.control.journal import SqliteJournal
 from rightofway.control.report import report
 from rightofway.control.story import Happening, Story
 from rightofway.control.vda5050 import InstantActions, OrderMessage, StateMessage, read
@@ -187,7 +194,7 @@ def test_rights_of_way_are_switched_where_robots_are_late() -> None:
 
 
 def test_an_interrupt_ends_laps_that_go_on_for_ever_and_reports_them() -> None:
-    def interrupt(tick: Tick) -> None:
+    def interrupt(tick: Fraction) -> None:
         if tick > 1000:
             raise KeyboardInterrupt
 
@@ -201,6 +208,74 @@ def test_delays_make_laps_longer_each_time_in_another_way() -> None:
     timely, late = drive_demo(door(), laps=20), drive_demo(door(), "exponential:0.5", 1, laps=20)
     assert late.now > timely.now
     assert late.now != drive_demo(door(), "exponential:0.5", 2, laps=20).now
+
+
+STILL: dict[str, Any] = {
+    "format": "rightofway-scenario/1",
+    "map": {
+        "roadmap": {
+            "vertices": {
+                "HC": [-60, 20], "C1": [-20, 20], "Y": [0, 20], "KC": [10, 20],
+                "HE": [0, 80], "E1": [0, 40], "KE": [0, 10],
+            },
+            "edges": [
+                ["HC", "C1"], ["C1", "Y"], ["Y", "KC"], ["HE", "E1"], ["E1", "Y"], ["Y", "KE"],
+            ],
+        },
+        "spacing": "whole",
+    },
+    "units": {"length": "m", "time": "s"},
+    "rules": {"rotations": False},
+    "robots": [
+        {"name": "C", "home": "HC", "target": "KC", "work": 10, "speed": 2},
+        {"name": "E", "home": "HE", "target": "KE", "work": 10, "speed": 1},
+    ],
+}  # fmt: skip
+"""C comes to Y before E; all times are multiples of five seconds."""
+
+
+def test_others_go_round_a_robot_on_hold_as_at_a_broker(tmp_path: Path) -> None:
+    """E waits for C, which is held at its home, and is at its own before C is let go."""
+    path, lines = tmp_path / "demo.journal", list[str]()
+    people = Commands(path)
+    people.ask({"kind": "hold", "name": "C"})
+
+    def note(tick: Tick, sentence: str) -> None:
+        lines.append(sentence)
+        assert tick < 10_000, lines
+        if sentence.startswith("E is at the end"):
+            people.ask({"kind": "go", "name": "C"})
+
+    plan = rightofway.solve(parse_scenario(STILL), "prioritized")
+    result = drive_demo(plan, journal=path, report=note)
+    assert result.jobs == (1, 1)
+    assert lines.index("E is at the end of its way, HE") < lines.index("C: go")
+    people.close()
+
+
+def test_a_command_is_answered_at_once_however_long_a_tick_is(tmp_path: Path) -> None:
+    """A tick is five seconds, and so are the pauses between two things that robots do."""
+    path, ends = tmp_path / "demo.journal", threading.Event()
+    plan = rightofway.solve(parse_scenario(STILL), "prioritized")
+    assert plan.scenario.problem.clock.tick == 5
+    pause = make_pause(plan, 1)
+
+    def wait_until(moment: Fraction) -> None:
+        if not ends.is_set():
+            pause(moment)
+
+    SqliteJournal(path).close()
+    options = {"journal": path, "pace": 1, "wait_until": wait_until}
+    demo = threading.Thread(target=drive_demo, args=(plan,), kwargs=options, daemon=True)
+    demo.start()
+    people = Commands(path)
+    began = time.monotonic()
+    for kind in ("hold", "go"):
+        assert people.wait_for(people.ask({"kind": kind, "name": "C"}), 4) is not None
+    assert time.monotonic() - began < 4
+    ends.set()
+    demo.join(20)
+    people.close()
 
 
 def test_a_plan_with_faults_is_refused() -> None:

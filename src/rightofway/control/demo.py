@@ -13,6 +13,7 @@ from collections import Counter, deque
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
+from fractions import Fraction
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -20,22 +21,20 @@ from typing import Any
 import numpy as np
 
 from rightofway.check import check
-from rightofway.control.commands import say_answer
 from rightofway.control.demo_record import DemoRecord, NothingKept, SimulatedClock
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd, format_timestamp
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.identities import Identity, make_simulated_identities
 from rightofway.control.laps import LapsToDrive
-from rightofway.control.notices import Notices, make_notice
-from rightofway.control.operator import Operator
+from rightofway.control.notices import Notices
 from rightofway.control.order_map import make_order_maps
 from rightofway.control.simulated_robot import SimulatedRobot
 from rightofway.control.story import Story
+from rightofway.control.supervisor import Supervisor
 from rightofway.control.timed_robot import Durations, TimedRobot
 from rightofway.errors import InputError
 from rightofway.model import ExecutionTrace, Plan, Tick, Track
-from rightofway.phrases import to_parts
 
 __all__ = ["DemoResult", "drive_demo", "make_pause"]
 
@@ -102,7 +101,7 @@ def drive_demo(
     laps: int | None = None,
     switch: bool = False,
     report: Report = lambda *_: None,
-    wait_until: Callable[[Tick], None] = lambda _: None,
+    wait_until: Callable[[Fraction], None] = lambda _: None,
     watch: Callable[[Letter], None] = lambda _: None,
     journal: Path | None = None,
     pace: float | None = None,
@@ -132,7 +131,8 @@ def drive_demo(
     report
         Receives each sentence of the story, with its time.
     wait_until
-        Is called before robots do something at a time.
+        Is called with each moment at which robots do something, and before that, where people may
+        ask for more, with moments between [ticks].
     watch
         Receives each message as it is sent.
     journal
@@ -173,8 +173,8 @@ def drive_demo(
             record.close()
 
 
-def make_pause(plan: Plan, time_scale: float) -> Callable[[Tick], None]:
-    """Return what waits until a tick of a plan has come, for `drive_demo`.
+def make_pause(plan: Plan, time_scale: float) -> Callable[[Fraction], None]:
+    """Return what waits until a moment of a plan has come [ticks], for `drive_demo`.
 
     Parameters
     ----------
@@ -184,12 +184,12 @@ def make_pause(plan: Plan, time_scale: float) -> Callable[[Tick], None]:
         Seconds of the plan in each second, or its time units where it has no unit; inf for no
         pause.
     """
-    clock, seconds = plan.scenario.problem.clock, plan.scenario.units.seconds
+    tick = float(plan.scenario.problem.clock.tick * (plan.scenario.units.seconds or 1))
     began = time.monotonic()
 
-    def wait_until(tick: Tick) -> None:
+    def wait_until(moment: Fraction) -> None:
         if time_scale < math.inf:
-            planned = float(clock.convert_to_time(tick) * (seconds or 1)) / time_scale
+            planned = float(moment) * tick / time_scale
             time.sleep(max(began + planned - time.monotonic(), 0))
 
     return wait_until
@@ -235,8 +235,10 @@ class _Demo:
         }
         self._story = Story(control.ledger, names)
         self._sent = Counter[str]()
-        self._dispatcher, self._operator = dispatcher, Operator(dispatcher)
-        self.switches = False
+        self._dispatcher, self.switches = dispatcher, False
+        self._supervisor = Supervisor(dispatcher, notices, record.commands if record else None)
+        self._moment = Fraction(0)  # the time, perhaps between two ticks
+        self._second, self._looks_at = clock.to_ticks(1), Fraction(0)  # after robots
         self._may_begin = set(range(len(self._robots)))  # robots that may have something to do
         self._stamp = (-1, "")  # the last time, and how messages have it
 
@@ -255,7 +257,7 @@ class _Demo:
             self._stamp = (self._now, format_timestamp(moment))
         return self._stamp[1]
 
-    def run(self, wait_until: Callable[[Tick], None], laps: int | None) -> DemoResult:
+    def run(self, wait_until: Callable[[Fraction], None], laps: int | None) -> DemoResult:
         """Go from step to step until no robot has anything to do."""
         try:
             self._take_steps(wait_until)
@@ -264,7 +266,7 @@ class _Demo:
                 raise
         return self._result(is_endless=laps is not None)
 
-    def _take_steps(self, wait_until: Callable[[Tick], None]) -> None:
+    def _take_steps(self, wait_until: Callable[[Fraction], None]) -> None:
         """Have robots do one thing after another, as long as there is something."""
         agenda: list[tuple[int, int]] = []  # when the next step of a robot ends
         self._exchange(self._end.make_letters(self._control.start()))
@@ -278,11 +280,11 @@ class _Demo:
                 self._end_instant()
             if not agenda and not self._waits_for_people:
                 return
-            moment = agenda[0][0] if agenda else self._now + self._step
+            moment = Fraction(agenda[0][0]) if agenda else self._moment + self._step
             if not self._come_to(moment, wait_until) or not agenda:
                 continue
-            moment, number = heapq.heappop(agenda)
-            self._robots[number].end_step(moment)
+            _, number = heapq.heappop(agenda)
+            self._robots[number].end_step(self._now)
             self._may_begin.add(number)
             self._exchange([self._robots[number].end.report_state()])
 
@@ -295,8 +297,8 @@ class _Demo:
         return True
 
     @property
-    def _step(self) -> int:
-        return self._record.step if self._record else 0
+    def _step(self) -> Fraction:
+        return self._record.step if self._record else Fraction(0)
 
     def _end_instant(self) -> None:
         """Tell what is new; keep it."""
@@ -305,37 +307,34 @@ class _Demo:
         if self._record:
             self._record.journal.flush()
 
-    def _come_to(self, moment: int, wait_until: Callable[[Tick], None]) -> bool:
-        """Let time pass until a moment; return false where people have asked for more before."""
-        if moment == self._now:
+    def _come_to(self, moment: Fraction, wait_until: Callable[[Fraction], None]) -> bool:
+        """Let time pass until a moment; return false where something comes before."""
+        if moment == self._moment:
             return True
         if self.switches:
             self._exchange(self._end.make_letters(self._dispatcher.switch()))
-        while self._record and moment > self._now + self._step:
-            if self._obey():
+        while self._moment < moment:
+            self._moment = min(self._moment + self._step, moment) if self._record else moment
+            wait_until(self._moment)
+            self._clock.now = math.floor(self._moment)
+            if self._supervise():
                 return False
-            wait_until(Tick(self._now + self._step))
-            self._clock.now += self._step
-        wait_until(Tick(moment))
-        self._clock.now = moment
-        return not self._obey()
+        return True
 
-    def _obey(self) -> bool:
-        """Carry out what people have asked for; return whether there was anything."""
+    def _supervise(self) -> bool:
+        """Carry out commands, and look after robots; return whether anything has changed."""
         if self._record is None:
             return False
-        messages, answers = self._operator.obey(self._record.commands)
-        if not answers:
-            return False
-        for _, answer in answers:
-            if text := say_answer(answer):
-                self._tell(text)
-                self._record.write(make_notice(to_parts(text)))
-        self._exchange(self._end.make_letters(messages))
-        self._end_instant()
-        for number, answer in answers:
-            self._record.commands.answer(number, answer)
-        return True
+        messages = self._supervisor.obey()
+        while self._looks_at <= self._moment:
+            self._looks_at += self._second
+            messages = [*messages, *self._supervisor.pass_stuck_robots()]
+        is_asked = self._supervisor.has_answers
+        if messages or is_asked:
+            self._exchange(self._end.make_letters(messages))
+            self._end_instant()
+            self._supervisor.answer()
+        return bool(messages) or is_asked
 
     def _exchange(self, letters: list[Letter]) -> None:
         """Deliver letters, and all that is answered, in their order."""

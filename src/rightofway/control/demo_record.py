@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterable
+from fractions import Fraction
 from pathlib import Path
 
 from rightofway.control.commands import Commands
@@ -22,16 +23,16 @@ class SimulatedClock:
 
     def __init__(self, plan: Plan) -> None:
         clock, seconds = plan.scenario.problem.clock, plan.scenario.units.seconds
-        self._tick = float(clock.tick * (seconds or 1))  # [s]
+        self._tick = Fraction(clock.tick * (seconds or 1))  # [s]
         self.now = 0
 
     def read_seconds(self) -> float:
         """Return the time [s]."""
-        return self.now * self._tick
+        return float(self.now * self._tick)
 
-    def to_ticks(self, seconds: float) -> int:
-        """Return a time in ticks, one at least."""
-        return max(round(seconds / self._tick), 1)
+    def to_ticks(self, seconds: float) -> Fraction:
+        """Return a time [ticks]."""
+        return Fraction(seconds) / self._tick
 
 
 class DemoRecord:
@@ -46,7 +47,7 @@ class DemoRecord:
             message = "has a run already, and a demo begins anew (name another file)"
             raise InputError.at(str(path), message)
         self.journal, self.commands = BatchedJournal(self._file), Commands(path)
-        self.step = clock.to_ticks(PAUSE * (pace or 1))  # between two looks at what people ask for
+        self.step = clock.to_ticks(PAUSE * pace if pace else 1)  # between two looks at commands
         self._pace, self.stays = pace, stays
         self.journal.commit([{"kind": "pace", "seconds": pace}])
 

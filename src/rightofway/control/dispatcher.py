@@ -7,8 +7,7 @@ is not in the journal.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
 from itertools import pairwise
@@ -19,17 +18,23 @@ from rightofway.control.journal import Entry
 from rightofway.control.laps import LapsToDrive, build_graph_behind_released
 from rightofway.control.ledger import Ledger
 from rightofway.control.messages import Message
+from rightofway.control.releases import list_strayed_to
 from rightofway.control.rest import RestPlanner
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive, make_routes_to_drive
 from rightofway.errors import GaveUp, InputError
 from rightofway.model import Plan
+from rightofway.phrases import Phrase
 from rightofway.precedence import Part, ReleaseGraph
 
 __all__ = ["Dispatcher"]
 
 PATIENCE = 10
-"""Seconds for which a robot does not go on before others are replanned round it."""
+"""Seconds for which a robot does not go on before others are replanned round it, and after which a
+replanning that has failed is tried again."""
+
+Report = Callable[[str, bool], None]
+"""Receives a sentence on replanning that fails, or with True on its end; it may be empty then."""
 
 
 class Dispatcher:
@@ -46,7 +51,16 @@ class Dispatcher:
     planner, time_limit
         The planner of the rest where jobs change, and its time for one plan [s].
     patience
-        Calls of `pass_stuck` for which a robot does not go on before others are replanned round it.
+        Calls of `pass_stuck` for which a robot does not go on before others are replanned round it,
+        and after which a replanning that has failed is tried again.
+
+    Attributes
+    ----------
+    control, plan
+        As given.
+    report
+        Receives a sentence when no plan of the rest is found, and when one is found again; a
+        supervisor sets it. A command that is refused for this reason has the answer instead.
     """
 
     def __init__(
@@ -60,10 +74,15 @@ class Dispatcher:
         patience: int = PATIENCE,
     ) -> None:
         self._patience = patience
+        self.report: Report = lambda *_: None
         self.control, self.plan, self._laps = control, plan, laps
         self._rest = RestPlanner(plan.scenario, planner, time_limit)
         self._stuck_for: dict[int, int] = {}  # calls of `pass_stuck` in a row, by robot
         self._passed = frozenset[int]()  # robots that the rest is planned round
+        self._held: list[tuple[str, ...]] = []  # what robots held when that was planned
+        self._has_failed = False  # no plan of the rest was found, and that was reported
+        self._tries_in = self._patience  # calls of `pass_stuck` until the next try
+        self._is_new = True  # `pass_stuck` was not called since the start
         control.dispatch, control.may_drive = self._dispatch, cache(self._may_drive)
 
     @property
@@ -111,17 +130,18 @@ class Dispatcher:
             return []
         routes, missed = more
         if missed:
-            with suppress(GaveUp):  # they set out without the work with which their lap begins
-                return self._plan_laps(routes, missed)
+            planned_laps = self._try(lambda: self._plan_laps(routes, missed))
+            if planned_laps is not None:
+                return planned_laps
+            # They set out without the work with which their lap begins.
         planned = [own.route.end - 1 for own in robots]
         messages = self.control.splice(routes, self._build_graph(routes))
         closed = self.ledger.closed_edges
         if closed and any(not closed.isdisjoint(pairwise(route.places)) for route in routes):
             try:
                 messages += self._plan_behind(planned)
-            except GaveUp:
-                with suppress(GaveUp):  # robots stop before what is closed
-                    messages += self._plan_rest(self.list_stops())
+            except GaveUp:  # else robots stop before what is closed
+                messages += self._try(lambda: self._plan_rest(self.list_stops())) or []
         return messages
 
     def _plan_laps(
@@ -248,24 +268,68 @@ class Dispatcher:
         """Replan round robots that do not go on, if others wait for them; call it every second.
 
         A robot is passed when it has not been fit, or on hold, for a while. Once it is fit again,
-        the rest is replanned with it. Where no plan is found the old one stands, and it is tried
-        again later.
+        the rest is replanned with it. Where no plan is found the old one stands, this is reported,
+        and it is tried again later.
         """
-        ledger, control = self.ledger, self.control
-        self._stuck_for = {k: self._stuck_for.get(k, 0) + 1 for k in control.list_stuck()}
+        if self._is_new:
+            self._is_new = False
+            self.report("", True)  # what had failed before a start is not known
+            if self._leads_over_closed():
+                return self.replan_if_possible() or []
+        self._stuck_for = {k: self._stuck_for.get(k, 0) + 1 for k in self.control.list_stuck()}
         long = frozenset(k for k, times in self._stuck_for.items() if times >= self._patience)
-        awaited = {
-            arrival.robot
-            for robot, own in enumerate(ledger.robots)
-            if robot not in self._stuck_for
-            for arrival in ledger.graph.list_missing(Part(robot, own.released + 1), ledger.arrived)
-        }
-        if long == self._passed or (long > self._passed and not long & awaited):
+        robots = self.ledger.robots
+        has_moved = any(robots[k].held != self._held[k] for k in long & self._passed)
+        if self._has_failed:
+            self._tries_in -= 1
+            is_due = self._tries_in <= 0
+        else:
+            is_due = has_moved or not long >= self._passed
+            is_due |= long > self._passed and not long.isdisjoint(self._list_awaited())
+        if not is_due:
             return []
         before, self._passed = self._passed, long
-        try:
-            return self.replan()
-        except GaveUp:
+        self._held = [own.held for own in robots]
+        messages = self.replan_if_possible()
+        if messages is None:
             self._passed = before & long
-            self._stuck_for = dict.fromkeys(self._stuck_for, 0)
-            return []
+        return messages or []
+
+    def replan_if_possible(self) -> list[Message] | None:
+        """Plan the rest as things are now; where that is not possible, report it, return None."""
+        return self._try(self.replan)
+
+    def _leads_over_closed(self) -> bool:
+        """Return whether a robot has a way before it over what is closed."""
+        closed = self.ledger.closed_edges
+        return bool(closed) and any(
+            not closed.isdisjoint(pairwise(own.route.stretch(own.released, own.route.end)))
+            for own in self.ledger.robots
+        )
+
+    def _list_awaited(self) -> set[int]:
+        """Return the robots that must leave a place before others that are not stuck go on."""
+        ledger, awaited = self.ledger, set[int]()
+        for robot, own in enumerate(ledger.robots):
+            part = own.released + 1
+            if robot in self._stuck_for or part >= own.route.end:
+                continue
+            missing = ledger.graph.list_missing(Part(robot, part), ledger.arrived)
+            awaited |= {arrival.robot for arrival in missing}
+            awaited.update(list_strayed_to(ledger, own.route.get_place(part)))
+        return awaited
+
+    def _try(self, make_plan: Callable[[], list[Message]]) -> list[Message] | None:
+        """Return the messages of a new plan; None where none is found: that is reported once."""
+        try:
+            messages = make_plan()
+        except GaveUp as error:
+            self._tries_in = self._patience
+            if not self._has_failed:
+                self._has_failed = True
+                self.report(Phrase("the old plan stands: {reason}", reason=str(error)), False)
+            return None
+        if self._has_failed:
+            self._has_failed = False
+            self.report(Phrase("the rest is replanned"), True)
+        return messages

@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from rightofway.control.broker import Broker, check_cancellation
-from rightofway.control.commands import Answer, Commands, say_answer
+from rightofway.control.commands import Commands
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.endpoints import ControlEnd, Letter, make_timestamp
 from rightofway.control.fleet_control import FleetControl
@@ -23,14 +23,14 @@ from rightofway.control.identities import Identity
 from rightofway.control.journal import BatchedJournal, Entry, Journal, JournalFailed
 from rightofway.control.laps import LapsToDrive
 from rightofway.control.messages import Message
-from rightofway.control.notices import Notices, make_notice
-from rightofway.control.operator import Operator
+from rightofway.control.notices import Notices
 from rightofway.control.order_map import OrderMap, make_order_maps
 from rightofway.control.story import Story
+from rightofway.control.supervisor import Supervisor
 from rightofway.errors import InputError
 from rightofway.io import format_plan
 from rightofway.model import Plan
-from rightofway.phrases import Phrase, to_parts
+from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
     import aiomqtt
@@ -97,13 +97,13 @@ class Driver:
         names = [robot.name for robot in plan.scenario.robots]
         maps = make_order_maps(plan.scenario, identities)
         self._journal, self._report = BatchedJournal(journal), report
-        notices = Notices(names, report, keep=self._keep)
+        self._notices = notices = Notices(names, report, keep=self._keep)
         self._metrics = metrics
         self.control = FleetControl(self._journal, report=notices.report_on)
         repeated = None if laps is None else LapsToDrive(plan, laps)
         self._dispatcher = dispatcher = Dispatcher(self.control, plan, repeated)
-        self.operator = Operator(dispatcher)
-        self._commands, self._switches = commands, switch
+        self._supervisor = Supervisor(dispatcher, notices, commands)
+        self.operator, self._switches = self._supervisor.operator, switch
         ledger, digest = self.control.ledger, _digest(plan, maps)
         if not ledger.run:
             dispatcher.begin(f"{digest}-{secrets.token_hex(4)}")
@@ -117,17 +117,11 @@ class Driver:
         self._inbox: list[tuple[float, Letter]] = []
         self._outbox: list[Letter] = []
         self._news = asyncio.Event()
-        self._answers: list[tuple[int, Answer]] = []  # to commands, once all is on the disk
         self._fails = False
 
     def _keep(self, entry: Entry) -> None:
         """Write into the journal what people were told."""
         self._journal.commit([entry])
-
-    def _tell(self, text: str, kind: str = "", *, is_over: bool = False) -> None:
-        """Report a sentence, and write it into the journal."""
-        self._report(text)
-        self._keep(make_notice(to_parts(text), kind=kind, is_over=is_over))
 
     async def run(self, broker: Broker, *, stays: bool = False) -> None:
         """Drive over any number of connections, until robots are at the ends of their ways.
@@ -145,7 +139,7 @@ class Driver:
         while stays or not self.is_done:
             try:
                 async with broker.open_client("rightofway") as client:
-                    self._tell(
+                    self._notices.report(
                         Phrase("connected to {broker}", broker=broker.address),
                         BROKER,
                         is_over=True,
@@ -160,7 +154,7 @@ class Driver:
                         broker=broker.address,
                         reason=reason,
                     )
-                    self._tell(sentence, BROKER)
+                    self._notices.report(sentence, BROKER)
                     self._flush()
                 is_lost = True
                 await asyncio.sleep(wait)
@@ -215,25 +209,10 @@ class Driver:
 
     def _obey(self) -> list[Letter]:
         """Pass robots that are stuck, switch rights of way, and carry out commands."""
-        changes = [*self._dispatcher.pass_stuck()]
+        changes = self._supervisor.pass_stuck_robots()
         if self._switches:
-            changes += self._dispatcher.switch()
-        switched = self.end.make_letters(changes)
-        if self._commands is None:
-            return switched
-        messages, answers = self.operator.obey(self._commands)
-        self._answers += answers
-        for _, answer in answers:
-            if text := say_answer(answer):
-                self._tell(text)
-        return [*switched, *self.end.make_letters(messages)]
-
-    def _answer(self) -> None:
-        """Answer the commands whose outcome is on the disk."""
-        for number, answer in self._answers:
-            assert self._commands is not None
-            self._commands.answer(number, answer)
-        self._answers = []
+            changes = [*changes, *self._dispatcher.switch()]
+        return self.end.make_letters([*changes, *self._supervisor.obey()])
 
     def _remind(self) -> list[Letter]:
         """Return what is to be sent again; robots that are silent are lost."""
@@ -260,7 +239,7 @@ class Driver:
             self._outbox += self.end.receive(letter)
         if not self._flush():
             return
-        self._answer()
+        self._supervisor.answer()
         sent, self._outbox = self._outbox, []
         # All go to the client at once and in their order; then their sending is awaited together.
         await asyncio.gather(
@@ -282,11 +261,11 @@ class Driver:
                     "the journal cannot be written: {error}; nothing is sent until it can",
                     error=str(error),
                 )
-                self._tell(sentence, JOURNAL)
+                self._notices.report(sentence, JOURNAL)
             self._fails = True
             return False
         if self._fails:
-            self._tell(Phrase("the journal can be written again"), JOURNAL, is_over=True)
+            self._notices.report(Phrase("the journal can be written again"), JOURNAL, is_over=True)
         self._fails = False
         return True
 

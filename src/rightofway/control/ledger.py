@@ -98,6 +98,7 @@ class Ledger:
             self._apply_snapshot(entry)
         elif kind == "closed":
             self.closed[tuple(entry["names"])] = tuple(map(tuple, entry["edges"]))
+            self.changed.update(range(len(self.robots)))  # robots may wait for it to be open
         elif kind == "opened":
             self.closed.pop(tuple(entry["names"]), None)
         elif kind == "command":
@@ -106,7 +107,8 @@ class Ledger:
             pass
         else:
             APPLY_TO_ROBOT[kind](self.robots[entry["robot"]], entry)
-            self.changed.add(entry["robot"])
+            others = range(len(self.robots)) if kind == "fault" else ()  # it may be in their way
+            self.changed.update((entry["robot"], *others))
 
     def make_snapshot(self) -> Entry:
         """Return an entry that says all that the entries before it say together."""

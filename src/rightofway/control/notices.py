@@ -47,6 +47,22 @@ class Notices:
         self._present: list[dict[str, str]] = [{} for _ in names]
         self._conditions = [Condition()] * len(names)
 
+    def report(self, text: str, kind: str = "", *, is_over: bool = False) -> None:
+        """Report a sentence that is about no robot.
+
+        Parameters
+        ----------
+        text
+            The sentence; empty where trouble ends without a word.
+        kind
+            The kind of trouble that begins or ends; empty for news.
+        is_over
+            Whether it ends.
+        """
+        if text:
+            self._report(text)
+        self._keep(make_notice(to_parts(text), kind=kind, is_over=is_over))
+
     def report_on(
         self, robot: int, sentence: str, kind: str = "", *, is_over: bool = False
     ) -> None:

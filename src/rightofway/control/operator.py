@@ -413,10 +413,7 @@ class Operator:
         """Commit a change of the floor, then replan the rest if that is possible."""
         text = f"{name_place(entry['names'])} is {state}"
         messages = self._note(entry, text=text)
-        try:
-            return [*messages, *self._dispatcher.replan()]
-        except GaveUp:
-            return messages
+        return [*messages, *(self._dispatcher.replan_if_possible() or [])]
 
     # --- what all of them do ---------------------------------------------------------------------
 

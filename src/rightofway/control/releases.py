@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from rightofway.control.ledger import Ledger
+from rightofway.control.ledger import Ledger, Names
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.precedence import Part
 
-__all__ = ["find_last_part", "is_in_base"]
+__all__ = ["find_closed", "find_last_part", "is_in_base", "list_strayed_to"]
 
 
 def find_last_part(
@@ -43,8 +43,8 @@ def find_last_part(
         and own.finished.issuperset(route.get_jobs(end))
         and not is_in_base(own, end + 1)
         and ledger.graph.may_go(Part(robot, end + 1), arrived := arrived or ledger.arrived)
-        and not _is_closed(ledger, route.get_place(end), route.get_place(end + 1))
-        and not _is_strayed_to(ledger, route.get_place(end + 1))
+        and find_closed(ledger, route.get_place(end), route.get_place(end + 1)) is None
+        and not list_strayed_to(ledger, route.get_place(end + 1))
     ):
         end += 1
     return end
@@ -59,11 +59,11 @@ def is_in_base(own: RobotLedger, part: int) -> bool:
     return own.route.get_place(part) in own.route.stretch(own.arrived, part)
 
 
-def _is_closed(ledger: Ledger, tail: str, head: str) -> bool:
-    """Return whether nobody may enter an edge."""
-    return any((tail, head) in edges for edges in ledger.closed.values())
+def find_closed(ledger: Ledger, tail: str, head: str) -> Names | None:
+    """Return what is closed so that nobody may enter an edge; None where it is open."""
+    return next((names for names, edges in ledger.closed.items() if (tail, head) in edges), None)
 
 
-def _is_strayed_to(ledger: Ledger, place: str) -> bool:
-    """Return whether a faulty robot says that it is at a place."""
-    return any(other.strays_at == place for other in ledger.robots)
+def list_strayed_to(ledger: Ledger, place: str) -> list[int]:
+    """Return the faulty robots whose states name a place."""
+    return [robot for robot, other in enumerate(ledger.robots) if other.strays_at == place]

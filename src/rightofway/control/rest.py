@@ -8,6 +8,7 @@ the rest has the order of a plan: the new order has no cycle. Bookings are those
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 from itertools import accumulate
@@ -22,6 +23,7 @@ from rightofway.control.commitments import (
 from rightofway.control.laps import build_graph_behind_released
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive
+from rightofway.control.waiting_places import ReachableStops, choose_waiting_places
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.execution.replan import list_held
 from rightofway.model import Plan, PlannerRun, Robot, Scenario, Stop, Tick, Track, make_route
@@ -40,7 +42,8 @@ SHARE = 50
 """Rights of way are switched where that saves a fiftieth of the flowtime of the rest, or more."""
 
 MOST_ASIDE = 3
-"""Neighbours that are tried where a robot has to leave a place and come back to work there."""
+"""Neighbours that are tried where a robot has to leave a place and come back to work there, and
+ways to choose waiting places; in one more attempt some robots stand."""
 
 
 class RestPlanner:
@@ -103,12 +106,12 @@ class RestPlanner:
         standing = [robot for robot in stuck if not robots[robot].is_off]
         passable = self._find_passable(commitments, closed, standing)
         reasons = ""
-        for aside in range(MOST_ASIDE):
+        for attempt in range(MOST_ASIDE + 1):
             try:
-                ways = {k: self._way(robots[k], commitments[k], stops[k], aside) for k in moving}
-                planned_routes = self._routes(commitments, ways, passable, standing)
+                ways = {k: self._way(robots[k], commitments[k], stops[k], attempt) for k in moving}
+                planned_routes = self._routes(commitments, ways, passable, standing, attempt)
             except (NoPlanExists, GaveUp, InputError) as error:
-                reasons = str(error)
+                reasons = reasons or str(error)
                 continue
             routes = [own.route.cut_before(own.arrived) for own in robots]
             for robot, route in zip(moving, planned_routes, strict=True):
@@ -117,7 +120,7 @@ class RestPlanner:
             graph = build_graph_behind_released(self._scenario, routes, released, absent)
             if not graph.find_rotation():
                 return routes, graph
-            reasons = "robots would move round a circle at one instant"
+            reasons = reasons or "robots would move round a circle at one instant"
         raise GaveUp(f"no plan of the rest was found: {reasons}")
 
     def find_better_order(
@@ -216,11 +219,12 @@ class RestPlanner:
     def _routes(
         self,
         commitments: Sequence[RobotCommitment],
-        ways: Mapping[int, Sequence[StopToMake]],
+        ways: dict[int, list[StopToMake]],
         passable: Roadmap,
         stuck: Collection[int],
+        attempt: int,
     ) -> list[RouteToDrive]:
-        """Return the whole route of each robot on the floor."""
+        """Return the whole route of each robot on the floor; add waiting places to its stops."""
         moving = list(ways)
         ends = {robot: commitments[robot].vertices[-1] for robot in moving}
         busy = {robot: commitments[robot].busy for robot in moving}
@@ -230,8 +234,17 @@ class RestPlanner:
             else self._count_reachable(robot, passable, ends[robot], stops)
             for robot, stops in ways.items()
         }
+        trips = self._list_reachable_stops(ends, ways, begun)
+        waiting = self._find_waiting_places(passable, trips, ways, stuck, attempt)
+        for robot, place in waiting.items():
+            ways[robot].insert(begun[robot], StopToMake(place))
+            begun[robot] += 1
         first = {robot: ways[robot][: begun[robot]] for robot in moving}
-        visited, arrivals = self._plan_stops(passable, ends, busy, first)
+        if attempt < MOST_ASIDE:
+            visited, arrivals = self._plan_stops(passable, ends, busy, first)
+        else:
+            visited, arrivals = self._plan_some_stops(passable, ends, busy, first)
+            begun = {robot: len(first[robot]) for robot in moving}
         if any(begun[robot] < len(ways[robot]) for robot in moving):
             then = {robot: ways[robot][begun[robot] :] for robot in moving}
             ends_then = {robot: visited[robot][-1] for robot in moving}
@@ -269,20 +282,90 @@ class RestPlanner:
             for index, (robot, track) in enumerate(zip(moving, tracks, strict=True))
         ]
 
+    def _list_reachable_stops(
+        self,
+        ends: Mapping[int, int],
+        ways: Mapping[int, Sequence[StopToMake]],
+        begun: Mapping[int, int],
+    ) -> dict[int, ReachableStops]:
+        """Return the stops that each robot can make for now, and the next one that it cannot."""
+        trips = {}
+        for robot, stops in ways.items():
+            vertices = [self._scenario.roadmap.get_vertex(stop.place) for stop in stops]
+            trips[robot] = ReachableStops(
+                start=VertexId(ends[robot]),
+                stops=tuple(vertices[: begun[robot]]),
+                then=vertices[begun[robot]] if begun[robot] < len(stops) else None,
+            )
+        return trips
+
+    def _find_waiting_places(
+        self,
+        passable: Roadmap,
+        trips: Mapping[int, ReachableStops],
+        ways: Mapping[int, Sequence[StopToMake]],
+        stuck: Collection[int],
+        attempt: int,
+    ) -> dict[int, str]:
+        """Return where robots wait behind the stops that they can make, where that is not there.
+
+        They wait as near as they block nobody; in the second attempt at the ends of their routes,
+        which never exclude each other; in the third one where they are.
+        """
+        get_vertex, name = self._scenario.roadmap.get_vertex, self._scenario.roadmap.name
+        cut_off = [k for k, trip in trips.items() if trip.then is not None and k not in stuck]
+        if attempt in {0, MOST_ASIDE} and cut_off:
+            places = choose_waiting_places(self._scenario, passable, trips, stuck)
+        elif attempt == 1:
+            places = {
+                k: get_vertex(ways[k][-1].place)
+                for k in cut_off
+                if self._count_reachable(k, passable, trips[k].end, ways[k][-1:])
+            }
+        else:
+            places = {}
+        return {k: name(place) for k, place in places.items() if place != trips[k].end}
+
     def _plan_stops(
         self,
         roadmap: Roadmap,
         homes: Mapping[int, int],
         busy: Mapping[int, int],
         stops: Mapping[int, Sequence[StopToMake]],
+        share: int = 1,
     ) -> tuple[dict[int, list[VertexId]], dict[int, list[int]]]:
-        """Return the visits of robots that make stops on a roadmap, and when each begins."""
+        """Return the visits of robots that make stops on a roadmap, and when each begins.
+
+        It may take the time for one plan, or that part of it of which there are ``share``.
+        """
         robots = [self._robot(k, home, home, busy[k], stops[k]) for k, home in homes.items()]
         rest = replace(self._scenario, roadmap=roadmap, robots=tuple(robots))
-        plan = solve(rest, self._planner, time_limit=self._time_limit)
+        limit = None if self._time_limit is None else self._time_limit / share
+        plan = solve(rest, self._planner, time_limit=limit)
         tracks = dict(zip(homes, plan.tracks, strict=True))
         visited = {k: list(map(VertexId, track.vertices.tolist())) for k, track in tracks.items()}
         return visited, {k: track.enter.tolist() for k, track in tracks.items()}
+
+    def _plan_some_stops(
+        self,
+        roadmap: Roadmap,
+        homes: Mapping[int, int],
+        busy: Mapping[int, int],
+        stops: dict[int, list[StopToMake]],
+    ) -> tuple[dict[int, list[VertexId]], dict[int, list[int]]]:
+        """Return the same for robots that do not block each other; clear the stops of others.
+
+        Robots are taken in one after another, those that are left out stand meanwhile.
+        """
+        wanted = {robot: own for robot, own in stops.items() if own}
+        stops.update({robot: [] for robot in wanted})
+        planned = self._plan_stops(roadmap, homes, busy, stops, share=len(wanted) + 1)
+        for robot, own in wanted.items():
+            with suppress(NoPlanExists, GaveUp):
+                more = {**stops, robot: own}
+                planned = self._plan_stops(roadmap, homes, busy, more, share=len(wanted) + 1)
+                stops[robot] = own
+        return planned
 
     def _count_reachable(
         self, robot: int, passable: Roadmap, home: int, stops: Sequence[StopToMake]

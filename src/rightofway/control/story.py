@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 from rightofway.control.ledger import Ledger
+from rightofway.control.releases import find_closed, list_strayed_to
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.phrases import Phrase
 from rightofway.precedence import Part
@@ -14,6 +15,9 @@ from rightofway.report.driving import (
     describe_end_of_way,
     finishes_work,
     goes_on,
+    has_arrived,
+    has_left,
+    is_open,
     sets_out,
     waits_until,
 )
@@ -48,6 +52,7 @@ class _Chapter:
 
     finished: int = 0
     waits_for: int | None = None  # the part
+    conditions: frozenset[str] = frozenset()  # of going on, when this was written
     has_set_out: bool = False
     has_ended: bool = False
 
@@ -109,18 +114,31 @@ class Story:
         is_at_end = own.arrived == own.released and own.finished.issuperset(
             own.route.get_jobs(own.arrived)
         )
-        if not is_at_end or chapter.waits_for is not None:
+        if not is_at_end:
             return
-        missing = self._ledger.graph.list_missing(Part(robot, next_part), self._ledger.arrived)
-        if missing:
-            chapter.waits_for = next_part
-            self.waits[robot] += 1
-            others = [
-                (self._names[arrival.robot], self._place(arrival.robot, arrival.visit))
-                for arrival in missing
-            ]
-            awaited = tuple(arrival.robot for arrival in missing)
-            yield Happening(robot, "wait", waits_until(name, place, others), awaited)
+        conditions, awaited = self._list_conditions(robot, own, next_part)
+        is_new = chapter.waits_for is None
+        if conditions and (is_new or not chapter.conditions.issuperset(conditions)):
+            chapter.waits_for, chapter.conditions = next_part, frozenset(conditions)
+            self.waits[robot] += is_new
+            yield Happening(robot, "wait", waits_until(name, place, conditions), awaited)
+
+    def _list_conditions(
+        self, robot: int, own: RobotLedger, part: int
+    ) -> tuple[list[Phrase], tuple[int, ...]]:
+        """Return the conditions under which a part may be released, and the robots in them."""
+        ledger, names = self._ledger, self._names
+        tail, head = own.route.get_place(part - 1), own.route.get_place(part)
+        missing = ledger.graph.list_missing(Part(robot, part), ledger.arrived)
+        conditions = [
+            has_arrived(names[arrival.robot], self._place(arrival.robot, arrival.visit))
+            for arrival in missing
+        ]
+        closed, strayed = find_closed(ledger, tail, head), list_strayed_to(ledger, head)
+        if closed is not None:
+            conditions.append(is_open(closed))
+        conditions += [has_left(names[other], head) for other in strayed if other != robot]
+        return conditions, (*(arrival.robot for arrival in missing), *strayed)
 
     def _place(self, robot: int, visit: int) -> str:
         return self._ledger.robots[robot].route.get_place(visit)

@@ -14,6 +14,9 @@ __all__ = [
     "describe_robot",
     "finishes_work",
     "goes_on",
+    "has_arrived",
+    "has_left",
+    "is_open",
     "say_start",
     "sets_out",
     "waits_until",
@@ -52,15 +55,31 @@ def goes_on(robot: str, place: str, target: str) -> Phrase:
     )
 
 
-def waits_until(robot: str, place: str, others: Sequence[tuple[str, str]]) -> Phrase:
-    """Return where a robot waits, and where each of the others has to arrive before it goes on."""
-    arrivals = [Phrase("{robot} is at {place}", robot=name, place=at) for name, at in others]
+def waits_until(robot: str, place: str, conditions: Sequence[str]) -> Phrase:
+    """Return where a robot waits, and what has to be the case before it goes on."""
     return Phrase(
         "{robot} waits at {place} until {arrivals}",
         robot=robot,
         place=place,
-        arrivals=join_items(arrivals),
+        arrivals=join_items(conditions),
     )
+
+
+def has_arrived(robot: str, place: str) -> Phrase:
+    """Return the condition that a robot is at a place."""
+    return Phrase("{robot} is at {place}", robot=robot, place=place)
+
+
+def has_left(robot: str, place: str) -> Phrase:
+    """Return the condition that a robot which is off its way has left a place."""
+    return Phrase("{robot} has left {place}", robot=robot, place=place)
+
+
+def is_open(names: Sequence[str]) -> Phrase:
+    """Return the condition that a place is open, or the lane between two places."""
+    if len(names) == 1:
+        return Phrase("{place} is open", place=names[0])
+    return Phrase("the lane between {place} and {other} is open", place=names[0], other=names[-1])
 
 
 def finishes_work(robot: str, place: str, done: int, jobs: int) -> Phrase:
