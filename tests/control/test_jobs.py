@@ -405,3 +405,32 @@ def test_replanned_laps_leave_no_robot_behind() -> None:
     assert r1.laps_done >= 2
     assert r2.arrived >= 2 * r1.laps_done
     assert "E1" not in places_of(floor)
+
+
+def test_places_of_commands_may_be_named_by_their_stations() -> None:
+    """Station D has the name of a vertex: the vertex counts."""
+    places = {"A": [0, 0], "B": [1, 0], "C": [2, 0], "D": [3, 0], "E": [2, 1]}
+    lanes = [["A", "B"], ["B", "C"], ["C", "D"], ["C", "E"]]
+    shape = {"vertices": places, "edges": lanes, "stations": {"Press 1": "E", "D": "B"}}
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {"roadmap": shape},
+        "robots": [{"name": "R1", "home": "A", "target": "C"}],
+    }
+    plan = rightofway.solve(parse_scenario(document))
+    dispatcher = Dispatcher(FleetControl(MemoryJournal()), plan)
+    dispatcher.begin("run")
+    floor = Floor(dispatcher)
+    operator = floor.operator
+    for at, vertex in (("Press 1", "E"), ("D", "D")):
+        name, messages = operator.add_job(at, 0)
+        floor.send(messages)
+        assert jobs_of(floor)[name] == vertex
+        floor.send(operator.change_job(name, "Press 1"))
+        assert jobs_of(floor)[name] == "E"
+    with pytest.raises(InputError, match=r"'Pres 1' \(did you mean 'Press 1'\?\)"):
+        operator.add_job("Pres 1", 0)
+    operator.close("Press 1", "C")
+    assert list(dispatcher.ledger.closed) == [("E", "C")]
+    operator.open("Press 1", "C")
+    assert list(dispatcher.ledger.closed) == []

@@ -11,6 +11,7 @@ from rightofway.errors import InputError
 from rightofway.io import dump_scenario, load, load_with_notes, parse_scenario, write_scenario
 from rightofway.io.scenario.fleet import ListedFleet, read_robots
 from rightofway.io.scenario.loaded_map import FleetTraits
+from rightofway.io.scenario.reader import Loaded, read_scenario
 from rightofway.model import Rules, Scenario, Stop
 from tests.builders.fleets import grid_fleet
 
@@ -336,6 +337,41 @@ def test_stations_and_parking_places_of_vertices_that_are_not_there_are_all_repo
         ("map.roadmap.parking[1]", "no vertex is named 'D' (add it to vertices)"),
         ("map.roadmap.charging[0]", "no vertex is named 'AA' (did you mean 'A'?)"),
     }
+
+
+def hidden_station(target: str) -> Loaded:
+    """Return a robot on a roadmap whose station B is at vertex C, not at vertex B."""
+    shape = {"vertices": {"A": [0, 0], "B": [1, 0], "C": [2, 0]}, "edges": [["A", "B"], ["B", "C"]]}
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {"roadmap": {**shape, "stations": {"B": "C", "A": "A"}}},
+        "robots": [{"name": "R1", "home": "A", "target": target}],
+    }
+    return read_scenario(document, None)
+
+
+@pytest.mark.parametrize("target", ["B", "C"])
+def test_a_station_with_the_name_of_another_vertex_is_named_and_the_vertex_counts(
+    target: str,
+) -> None:
+    """Station A is at the vertex of its name, so nothing is to be said of it."""
+    loaded = hidden_station(target)
+    roadmap = loaded.scenario.roadmap
+    assert roadmap.name(loaded.scenario.robots[0].stops[0].at) == target
+    assert loaded.notes == (
+        "a station has the name of another vertex, and the name means the vertex: B (station at C)",
+    )
+
+
+def test_an_unknown_place_is_compared_with_names_of_stations_too() -> None:
+    shape = {"vertices": {"A": [0, 0], "B": [1, 0]}, "edges": [["A", "B"]]}
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {"roadmap": {**shape, "stations": {"Press 17": "B"}}},
+        "robots": [{"name": "R1", "home": "A", "target": "Pres 17"}],
+    }
+    with pytest.raises(InputError, match=r"'Pres 17' \(did you mean 'Press 17'\?\)"):
+        parse_scenario(document)
 
 
 def test_a_robot_may_name_a_station_of_a_roadmap() -> None:

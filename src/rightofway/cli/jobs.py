@@ -52,7 +52,9 @@ def _time(_context: click.Context, _parameter: click.Parameter, given: str | Non
 @click.argument("journal", type=click.Path())
 @click.argument("action", type=click.Choice(list(ACTIONS)))
 @click.argument("name", required=False)
-@click.option("--at", metavar="VERTEX", help="Where the job is, or the robot.")
+@click.option(
+    "--at", metavar="PLACE", help="Where the job is, or the robot: a vertex or a station."
+)
 @click.option("--work", metavar="TIME", callback=_time, help="How long it lasts [time unit].")
 @click.option("--to", metavar="VERTEX", help="The other end of a lane, to close or open it.")
 @click.option("--robot", metavar="ROBOT",

@@ -160,7 +160,7 @@ class Operator:
         name
             Of the robot.
         at
-            The name of a vertex; None for that where the robot says that it is.
+            The name of a vertex or a station; None for that where the robot says that it is.
 
         Raises
         ------
@@ -176,8 +176,7 @@ class Operator:
             raise InputError.at("robot", f"{name} is on the floor ({remedy})")
         if at is None and not said:
             raise InputError.at("robot", f"{name} does not say where it is (give --at)")
-        place = at or said
-        self._scenario.roadmap.get_vertex(place)  # refuses what is none
+        place = self._name_vertex(at or said)
         first, stops = own.route.end, self._dispatcher.list_stops()
         # A lap that ends where the robot has arrived was counted, its work there may not be done.
         laps_ahead = tuple(end for end in own.route.lap_ends if end > own.arrived)
@@ -197,7 +196,7 @@ class Operator:
         Parameters
         ----------
         at
-            The name of a vertex.
+            The name of a vertex, or of a station.
         work
             How long it lasts [ticks].
         robot
@@ -217,7 +216,7 @@ class Operator:
         GaveUp
             If no plan with it was found: the old one stands.
         """
-        self._scenario.roadmap.get_vertex(at)  # refuses what is none
+        at = self._name_vertex(at)
         robots, stops = self._ledger.robots, self._dispatcher.list_stops()
         candidates = range(len(robots)) if robot is None else [find_robot(self._ledger, robot)]
         if after is not None:
@@ -271,7 +270,7 @@ class Operator:
         name
             The job, as ``R1/job2``.
         at, work
-            What is changed: the name of a vertex, and how long it lasts [ticks].
+            What is changed: the name of a vertex or a station, and how long it lasts [ticks].
 
         Raises
         ------
@@ -280,8 +279,7 @@ class Operator:
         GaveUp
             If no plan with it was found: the old one stands.
         """
-        if at is not None:
-            self._scenario.roadmap.get_vertex(at)  # refuses what is none
+        at = None if at is None else self._name_vertex(at)
         stops = self._dispatcher.list_stops()
         number, index = find_open_job(self._ledger, stops, name)
         old = stops[number][index]
@@ -347,6 +345,11 @@ class Operator:
             {"kind": "skipped", **find_failed_job(self._ledger, name)}, text=f"{name} is skipped"
         )
 
+    def _name_vertex(self, name: str) -> str:
+        """Return the name of the vertex that a name means: its own, or that of a station."""
+        roadmap = self._scenario.roadmap
+        return roadmap.name(roadmap.get_place(name))
+
     def _detour(self, robot: int, stops: Sequence[StopToMake], at: str) -> tuple[int, int]:
         """Return how much longer a robot drives for a job at best, and before which stop."""
         own, roadmap = self._ledger.robots[robot], self._scenario.roadmap
@@ -379,13 +382,15 @@ class Operator:
         Parameters
         ----------
         names
-            The name of a vertex, or of both ends of a lane, which is closed in both directions.
+            The name of a vertex or a station, or of both ends of a lane, which is closed in both
+            directions.
 
         Raises
         ------
         InputError
             If there is no such vertex or lane.
         """
+        names = tuple(map(self._name_vertex, names))
         edges = list_edges_into(self._scenario.roadmap, names)
         return self._change_floor({"kind": "closed", "names": names, "edges": edges}, "closed")
 
@@ -395,7 +400,7 @@ class Operator:
         Parameters
         ----------
         names
-            The name of a closed vertex, or of both ends of a closed lane.
+            The name of a closed vertex or its station, or of both ends of a closed lane.
 
         Raises
         ------
@@ -403,6 +408,7 @@ class Operator:
             If it is not closed.
         """
         closed = self._ledger.closed
+        names = tuple(map(self._name_vertex, names))
         known = names if names in closed else names[::-1]
         if known not in closed:
             remedy = f"closed are: {', '.join(map(name_place, closed)) or 'none'}"

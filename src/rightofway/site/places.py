@@ -163,7 +163,7 @@ def _named(place: str | tuple[int, int], roadmap: Roadmap) -> VertexId:
         message = f"{_named_as(place)} needs a grid, and this is a roadmap (give a vertex name)"
         raise InputError.at("", message)
     try:
-        return roadmap.get_vertex(place)
+        return roadmap.get_place(place)
     except UnknownVertex as error:
         raise InputError.at("", error.faults[0].message) from None
 

@@ -197,6 +197,7 @@ class Roadmap:
     drawing: Drawing = field(default_factory=Drawing)
     sides: NDArray[np.float64] | None = None
     _ids: Mapping[str, int] = field(init=False, repr=False)
+    _stations: Mapping[str, VertexId] = field(init=False, repr=False)
     _lane_at: Mapping[int, Lane] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -204,6 +205,7 @@ class Roadmap:
             array.flags.writeable = False
         ids = {name: vertex for vertex, name in enumerate(self.labels or ())}
         object.__setattr__(self, "_ids", ids)
+        object.__setattr__(self, "_stations", dict(self.drawing.stations))
         at = {joint: lane for lane in reversed(self.lanes) for joint in lane.joints}
         object.__setattr__(self, "_lane_at", at)
 
@@ -327,6 +329,30 @@ class Roadmap:
         if not 0 <= vertex < self.n_vertices:
             raise UnknownVertex.named(name, ())
         return VertexId(vertex)
+
+    def get_place(self, name: str) -> VertexId:
+        """Return the vertex of that name, or that of the station with the name.
+
+        The name of a vertex counts before that of a station.
+
+        Raises
+        ------
+        UnknownVertex
+            An `InputError`, and a `KeyError`, if neither has that name.
+        """
+        if self.labels is None or not isinstance(name, str) or name in self._ids:
+            return self.get_vertex(name)
+        if name not in self._stations:
+            raise UnknownVertex.named(name, {**self._ids, **self._stations})
+        return self._stations[name]
+
+    def list_hidden_stations(self) -> list[tuple[str, str]]:
+        """Return the stations with the name of another vertex, and the names of their own."""
+        return [
+            (name, self.name(vertex))
+            for name, vertex in self.drawing.stations
+            if self._ids.get(name, vertex) != vertex
+        ]
 
     def _refuse_unknown(self, place: str, vertex: int) -> None:
         """Refuse a number without a vertex; called for each visit, so it has to be quick."""

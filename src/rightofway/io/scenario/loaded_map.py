@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
 
-from rightofway.phrases import Phrase, say_count
+from rightofway.phrases import Phrase, PhraseOfPieces, say_count
 from rightofway.quantities import Units, format_decimal
 from rightofway.site import Floor, Grid, Roadmap, VertexId
 from rightofway.site.places import as_place, find_vertex_at
@@ -53,7 +53,6 @@ class LoadedMap:
     file: Path | None = None  # that the grid was read from
     rounding: tuple[int, int, Fraction] | None = None  # lengths rounded up, of how many, to a step
     units: Units = field(default_factory=Units)
-    stations: Mapping[str, str] = field(default_factory=dict)  # and the vertex of each
     chord_error: Fraction = Fraction(0)  # of curves that are cut into straight pieces
     blocked: str = ""  # what all blocked cells are; else what the grid's characters say
     keeps_clear: bool = False  # blocked cells have grown by what the largest radius is wider
@@ -74,8 +73,6 @@ class LoadedMap:
                 row = grid.rows - 1 - row
             return _obstacle(row, column, floor, grid)
 
-        if isinstance(place, str) and place not in (self.roadmap.labels or ()):
-            place = self.stations.get(place, place)
         return find_vertex_at(self.roadmap, place, units=self.units, what_blocks=what_blocks)
 
 
@@ -109,6 +106,17 @@ def note_on_squares(noun: str, roadmap: Roadmap, cells: int, units: Units) -> Ph
         span=span,
         cells=str(cells),
     )
+
+
+def note_on_hidden_stations(roadmap: Roadmap) -> Iterator[Phrase]:
+    """Yield a sentence on stations that have the name of another vertex, if there are any."""
+    hidden = [
+        Phrase("{name} (station at {vertex})", name=name, vertex=vertex)
+        for name, vertex in roadmap.list_hidden_stations()
+    ]
+    if hidden:
+        sentence = Phrase("a station has the name of another vertex, and the name means the vertex")
+        yield PhraseOfPieces(sentence, hidden)
 
 
 def note_on_rounding(rounded: int, lengths: int, step: Fraction, units: Units) -> Phrase:

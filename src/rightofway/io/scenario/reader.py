@@ -29,7 +29,7 @@ from rightofway.io.scenario.fleet import (
     read_robots_in_table,
     take_rows,
 )
-from rightofway.io.scenario.loaded_map import LoadedMap, note_on_rounding
+from rightofway.io.scenario.loaded_map import LoadedMap, note_on_hidden_stations, note_on_rounding
 from rightofway.io.scenario.maps import map_of, map_of_file
 from rightofway.io.scenario.picture import add_picture
 from rightofway.io.text import is_regular
@@ -294,6 +294,7 @@ def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[Phrase]:
     yield from loaded.notes
     if loaded.rounding:
         yield note_on_rounding(*loaded.rounding, scenario.units)
+    yield from note_on_hidden_stations(scenario.roadmap)
     yield from _type_notes(scenario)
     yield from note_crossings(scenario)
     if not scenario.problem.clock.exact:
