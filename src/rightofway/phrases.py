@@ -136,17 +136,18 @@ class PhraseOfPieces(Phrase):
 
     Examples
     --------
-    >>> PhraseOfPieces("a zone is left out", ["Aisle", "Dock"])
+    >>> PhraseOfPieces(Phrase("a zone is left out"), ["Aisle", "Dock"])
     'a zone is left out: Aisle and Dock'
-    >>> print(PhraseOfPieces("7 zones are left out", "ABCDEFG"))
+    >>> print(PhraseOfPieces(Phrase("7 zones are left out"), "ABCDEFG"))
     7 zones are left out: A, B, C, D, E and 2 more
     """
 
-    __slots__ = ("pieces",)
+    __slots__ = ("pieces", "sentence")
 
+    sentence: Phrase
     pieces: tuple[str, ...]
 
-    def __new__(cls, sentence: str, pieces: Sequence[str]) -> Self:
+    def __new__(cls, sentence: Phrase, pieces: Sequence[str]) -> Self:
         """Return the text."""
         shown, left = list(pieces[:SHOWN]), len(pieces) - SHOWN
         if left > 0:
@@ -154,12 +155,12 @@ class PhraseOfPieces(Phrase):
         names = join_items(shown)
         phrase = Phrase("{sentence}: {names}", sentence=sentence, names=names)
         own = super().__new__(cls, phrase.template, **phrase.values)
-        own.pieces = tuple(pieces)
+        own.sentence, own.pieces = sentence, tuple(pieces)
         return own
 
     def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, str]]:
         """Return what a copy is made of."""
-        return (self.values["sentence"], self.pieces), {}
+        return (self.sentence, self.pieces), {}
 
 
 class PhraseBook:

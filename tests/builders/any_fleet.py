@@ -17,7 +17,7 @@ from hypothesis import reject
 from hypothesis import strategies as st
 
 from rightofway.errors import InputError
-from rightofway.io import dump_scenario, format_example, load_map, parse_scenario
+from rightofway.io import dump_scenario, load_map, make_example, parse_scenario
 from rightofway.io.text import parse_yaml
 from rightofway.model import Scenario
 
@@ -245,7 +245,7 @@ def _quarters(length: float) -> str:
 @cache
 def _layout(name: str) -> tuple[Document, list[str]]:
     """Return the roadmap of a layout, and the vertices that its first robot can go to and back."""
-    document = parse_yaml(format_example(SAMPLES / name, SAMPLES / "scenario.yaml"))
+    document = parse_yaml(make_example(SAMPLES / name, SAMPLES / "scenario.yaml").text)
     scenario = parse_scenario(document, SAMPLES)
     inlined = dump_scenario(scenario)["map"]
     roadmap, start = scenario.roadmap, int(scenario.robots[0].home)

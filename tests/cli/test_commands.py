@@ -349,6 +349,19 @@ def test_convert_writes_a_plan_for_a_program_on_the_site(cli: Cli, door: Path) -
     assert "paths.json: y is negated" in done.err
 
 
+def test_convert_names_what_was_mended_and_which_part_of_a_layout_was_chosen(cli: Cli) -> None:
+    layouts = Path(__file__).parents[1] / "data" / "layouts"
+    done = cli("convert", layouts / "hall.lif.json", "-o", "hall.yaml")
+    notes = [line.partition("hall.lif.json: ")[2] for line in done.err.splitlines()]
+    chosen = "the map has the lanes of vehicle type tugger, which has the most (1 other type)"
+    assert chosen in notes
+    planned = cli("plan", "hall.yaml", "--planner", "prioritized").err.splitlines()
+    for note in notes[notes.index(chosen) + 1 :]:
+        assert f"hall.yaml: {note}" in planned
+    done = cli("convert", layouts / "hall.nav.yaml", "-o", "-")
+    assert "the map is level L1, which has the most lanes (1 other level)" in done.err
+
+
 def test_convert_writes_robots_with_a_radius_for_a_layout(cli: Cli) -> None:
     Path("nodes.csv").write_text("name,x,y\na,0,0\nb,5,0\n", encoding="utf-8")
     Path("edges.csv").write_text("from,to,both_ways\na,b,yes\n", encoding="utf-8")

@@ -9,7 +9,7 @@ import pytest
 
 from rightofway import check, solve
 from rightofway.errors import InputError
-from rightofway.io import format_example, parse_scenario
+from rightofway.io import make_example, parse_scenario
 from rightofway.io.text import parse_yaml
 
 SAMPLES = Path(__file__).parents[1] / "data" / "samples"
@@ -41,7 +41,7 @@ NAMES = [
 @pytest.mark.parametrize("name", sorted(set(NAMES) - set(REFUSED)))
 def test_six_robots_get_a_checked_plan(name: str, radius: str) -> None:
     document = parse_yaml(
-        format_example(SAMPLES / name, SAMPLES / "scenario.yaml", Fraction(radius))
+        make_example(SAMPLES / name, SAMPLES / "scenario.yaml", Fraction(radius)).text
     )
     robots = document["robots"]
     assert len(robots) >= FEWER.get(name, FEWER.get(name.partition("/")[0], 6))
@@ -54,7 +54,7 @@ def test_six_robots_get_a_checked_plan(name: str, radius: str) -> None:
 @pytest.mark.parametrize("name", sorted(REFUSED))
 def test_a_layout_that_cannot_be_used_is_refused_with_the_remedy(name: str) -> None:
     with pytest.raises(InputError) as error:
-        format_example(SAMPLES / name, "-")
+        make_example(SAMPLES / name, "-")
     assert REFUSED[name] in str(error.value)
 
 

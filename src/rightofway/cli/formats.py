@@ -193,16 +193,18 @@ def _write_layout(source: str, path: str, name: str | None, radius: Fraction | N
 
 def _write_example(source: str, path: str, radius: Fraction) -> None:
     from rightofway.files import write_whole
-    from rightofway.io import format_example
+    from rightofway.io import make_example
 
     if path != "-" and not path.lower().endswith((".yaml", ".yml", ".json")):
         raise click.UsageError(f"{source} is a layout (give a name that ends in .yaml or .json)")
-    text = format_example(source, path, radius)
+    example = make_example(source, path, radius)
     if path == "-":
-        click.echo(text, nl=False)
-        return
-    write_whole(path, text)
-    say_written(path)
+        click.echo(example.text, nl=False)
+    else:
+        write_whole(path, example.text)
+        say_written(path)
+    for note in example.notes:
+        say_of(source, note)
 
 
 def _write_plan(plan: Plan, path: str, name: str | None) -> None:

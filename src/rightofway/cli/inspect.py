@@ -19,6 +19,7 @@ from rightofway.cli.terminal import (
     put_report,
     say_written,
 )
+from rightofway.phrases import PhraseOfPieces
 from rightofway.report.lines import lay_out
 
 if TYPE_CHECKING:
@@ -137,6 +138,9 @@ def _data(source: str, sites: Sites, results: list[tuple[str, Site, Inspection]]
         "file": source,
         "what": sites.description,
         "notes": list(sites.notes),
+        "pieces": {
+            note: list(note.pieces) for note in sites.notes if isinstance(note, PhraseOfPieces)
+        },
         "levels": [
             {
                 "level": name or None,

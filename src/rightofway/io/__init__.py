@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from rightofway.io.plan.reader import parse_plan
     from rightofway.io.plan.writer import dump_plan, format_plan, write_plan
     from rightofway.io.readers import load, load_either, load_plan, load_with_notes
-    from rightofway.io.scenario.example import format_example
+    from rightofway.io.scenario.example import make_example
     from rightofway.io.scenario.reader import Loaded, parse_scenario
     from rightofway.io.scenario.writer import dump_scenario, format_scenario, write_scenario
     from rightofway.io.site_plans import SITE_PLAN_FORMATS, format_site_plan
@@ -48,7 +48,7 @@ _MODULES = {
     "plan.reader": ("parse_plan",),
     "plan.writer": ("dump_plan", "format_plan", "write_plan"),
     "readers": ("load", "load_either", "load_plan", "load_with_notes"),
-    "scenario.example": ("format_example",),
+    "scenario.example": ("make_example",),
     "scenario.reader": ("Loaded", "parse_scenario"),
     "scenario.writer": ("dump_scenario", "format_scenario", "write_scenario"),
     "site_plans": ("SITE_PLAN_FORMATS", "format_site_plan"),
@@ -64,7 +64,6 @@ __all__ = [
     "Loaded",
     "dump_plan",
     "dump_scenario",
-    "format_example",
     "format_foreign",
     "format_layout",
     "format_plan",
@@ -79,6 +78,7 @@ __all__ = [
     "load_plan",
     "load_scen",
     "load_with_notes",
+    "make_example",
     "make_layout_of_graph",
     "make_schema",
     "parse_plan",

@@ -14,12 +14,13 @@ from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.layouts import describe_layout, is_layout, read_layout
 from rightofway.io.locations import open_document
 from rightofway.io.readers import load_with_notes
+from rightofway.io.scenario.loaded_map import note_on_hidden_stations
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.reader import read_scenario
 from rightofway.io.text import read_text
 from rightofway.metrics import Site
 from rightofway.model import Scenario
-from rightofway.phrases import Phrase, say_count
+from rightofway.phrases import Phrase, PhraseOfPieces, say_count
 from rightofway.quantities import Units
 from rightofway.site.layout import Layout, Level, build_roadmap_of_level
 
@@ -113,7 +114,8 @@ def _of_layout(path: Path, layout: Layout, choice: Choice) -> Sites:
             continue
         name = choice.vehicle_type or _usual_type(level)
         level_map = build_roadmap_of_level(level, vehicle_type=name)
-        roadmap, lacks = level_map.roadmap, level_map.notes
+        roadmap = level_map.roadmap
+        lacks = (*level_map.notes, *note_on_hidden_stations(roadmap))
         if name and choice.vehicle_type is None:
             usual = Phrase(
                 "lanes of vehicle type {type} inspected, which has most ({others})",
@@ -122,9 +124,7 @@ def _of_layout(path: Path, layout: Layout, choice: Choice) -> Sites:
             )
             lacks = (usual, *lacks)
         if len(levels) > 1:
-            lacks = tuple(
-                Phrase("level {level}: {lack}", level=level.name, lack=lack) for lack in lacks
-            )
+            lacks = tuple(_name_level(level.name, lack) for lack in lacks)
         notes += lacks
         drawn = roadmap.drawing
         assert drawn, "the roadmap of a level has its places"
@@ -138,6 +138,13 @@ def _of_layout(path: Path, layout: Layout, choice: Choice) -> Sites:
         )
         sites.append((level.name if len(levels) > 1 else "", site))
     return Sites(description=describe_layout(layout), notes=tuple(notes), sites=tuple(sites))
+
+
+def _name_level(level: str, note: Phrase) -> Phrase:
+    """Return a note with the level that it is about."""
+    if isinstance(note, PhraseOfPieces):
+        return PhraseOfPieces(_name_level(level, note.sentence), note.pieces)
+    return Phrase("level {level}: {lack}", level=level, lack=note)
 
 
 def _usual_type(level: Level) -> str | None:

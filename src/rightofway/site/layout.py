@@ -72,7 +72,7 @@ class Level:
     vertices, edges, stations, zones
         What lies on it.
     links
-        Lanes that lead to other levels.
+        Names of tail and head of each lane that leads to another level.
     picture
         The picture that it is drawn over [m].
     """
@@ -82,7 +82,7 @@ class Level:
     edges: Sequence[LayoutEdge]
     stations: tuple[Station, ...] = ()
     zones: tuple[NamedZone, ...] = ()
-    links: int = 0
+    links: tuple[tuple[str, str], ...] = ()
     picture: Picture | None = None
 
     def __post_init__(self) -> None:
@@ -402,8 +402,11 @@ def _lacks(
         sentence = Phrase("{lanes} left out: the slowest of each counts", lanes=lanes)
         yield PhraseOfPieces(sentence, name_lanes(lost))
     if level.links:
-        lanes = say_count(level.links, "lane", "lanes")
-        yield Phrase("{lanes} to other levels left out: plans stay on one level", lanes=lanes)
+        sentence = Phrase(
+            "{lanes} to other levels left out: plans stay on one level",
+            lanes=say_count(len(level.links), "lane", "lanes"),
+        )
+        yield PhraseOfPieces(sentence, name_lanes(level.links))
 
 
 def name_lanes(ends: Iterable[tuple[str, str]]) -> list[str]:

@@ -148,8 +148,15 @@ def test_lif_numbers_that_are_text_are_named_in_a_note(tmp_path: Path) -> None:
     assert isinstance(before, Layout)
     assert isinstance(found, Layout)
     assert found.levels == before.levels
-    assert "a number is written as text" in before.notes  # one in the file
-    assert "4 times: a number is written as text" in found.notes
+    places = "layouts[0].nodes[0].nodePosition.y"  # one in the file
+    assert f"a number is written as text: {places}" in before.notes
+    places = ", ".join(
+        f"layouts[0].{place}" for place in ("nodes[0].nodePosition.y", "nodes[1].nodePosition.x")
+    )
+    places += (
+        ", layouts[0].stations[0].stationHeight and layouts[0].stations[0].stationPosition.theta"
+    )
+    assert f"4 times: a number is written as text: {places}" in found.notes
 
 
 def test_opentcs_millimetres_become_metres_and_a_speed_of_zero_is_no_lane() -> None:

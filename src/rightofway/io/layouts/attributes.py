@@ -5,10 +5,12 @@ Each name is one that some program writes; the first that is there counts.
 
 from __future__ import annotations
 
-from rightofway.io.layouts.draft import LevelDraft
+from typing import NamedTuple
+
+from rightofway.io.layouts.draft import LayoutDraft, LevelDraft
 from rightofway.io.source import Source
 from rightofway.site.geometry import Point
-from rightofway.site.layout import LayoutVertex
+from rightofway.site.layout import LayoutVertex, name_lanes
 
 PAIRS = ("pos", "coords", "coordinates", "position")
 """Names of attributes that hold x and y together."""
@@ -18,7 +20,24 @@ SPEEDS = ("max_speed", "maxspeed", "speed_limit")
 PARKING, CHARGING = ("parking", "is_parking"), ("charging", "is_charging")
 
 
-def add_vertex(level: LevelDraft, own: Source, name: str, at: Point) -> None:
+NAMES = ("name", "id", "node", "vertex", "nodeid", "node_id")
+TAILS = ("from", "source", "start", "tail", "startid")
+HEADS = ("to", "target", "end", "head", "endid")
+BOTH_WAYS = ("both_ways", "bidirectional")
+
+OF_VERTICES = {"x", "y", "z", *PAIRS, *PARKING, *CHARGING, *NAMES}
+OF_LANES = {"id", "directed", *TAILS, *HEADS, *LENGTHS, *SPEEDS, *BOTH_WAYS}
+"""All names that are read."""
+
+
+class Reading(NamedTuple):
+    """A level that is read, and its layout."""
+
+    level: LevelDraft
+    draft: LayoutDraft
+
+
+def add_vertex(reading: Reading, own: Source, name: str, at: Point) -> None:
     """Add a vertex, which is a parking or charging place if its attributes say it."""
     parking, charging = own.get(*PARKING), own.get(*CHARGING)
     vertex = LayoutVertex(
@@ -27,14 +46,17 @@ def add_vertex(level: LevelDraft, own: Source, name: str, at: Point) -> None:
         is_parking=parking is not None and parking.read_flag(),
         is_charging=charging is not None and charging.read_flag(),
     )
-    level.add(vertex, own)
+    reading.level.add(vertex, own)
+    reading.draft.note_unused(own, name, OF_VERTICES)
 
 
-def add_lanes(level: LevelDraft, own: Source, tail: str, head: str, both_ways: bool) -> None:
+def add_lanes(reading: Reading, own: Source, tail: str, head: str, both_ways: bool) -> None:
     """Add the lane from one vertex to another, or both ways, with its length and speed limit."""
+    (name,) = name_lanes([(tail, head)])
+    reading.draft.note_unused(own, name, OF_LANES)
     length, max_speed = own.get(*LENGTHS), own.get(*SPEEDS)
     for start, end in ((tail, head), (head, tail)) if both_ways else ((tail, head),):
-        level.connect(
+        reading.level.connect(
             own,
             start,
             end,

@@ -9,15 +9,20 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from rightofway.errors import InputError, Location
-from rightofway.io.layouts.attributes import add_lanes, add_vertex
-from rightofway.io.layouts.draft import LayoutDraft, LevelDraft
+from rightofway.io.layouts.attributes import (
+    BOTH_WAYS,
+    HEADS,
+    NAMES,
+    TAILS,
+    Reading,
+    add_lanes,
+    add_vertex,
+)
+from rightofway.io.layouts.draft import LayoutDraft
 from rightofway.io.source import Source
 from rightofway.io.text import is_regular, read_text
 from rightofway.site.layout import Layout
 
-NAMES = ("name", "id", "node", "vertex", "nodeid", "node_id")
-TAILS = ("from", "source", "start", "tail", "startid")
-HEADS = ("to", "target", "end", "head", "endid")
 LONGEST_HEADINGS = 10_000
 """Characters of a row of headings; a JSON file may be one line of millions."""
 
@@ -50,11 +55,11 @@ def read(text: str, path: Path) -> Layout:
                             str(beside))  # fmt: skip
     nodes, edges = (text, other) if "x" in _headings(text) else (other, text)
     draft = LayoutDraft("CSV pair")
-    level = draft.begin_level()
+    reading = Reading(draft.begin_level(), draft)
     for row in _rows(nodes):
-        draft.faults.attempt("", _add_node, level, row)
+        draft.faults.attempt("", _add_node, reading, row)
     for row in _rows(edges):
-        draft.faults.attempt("", _add_edge, level, row)
+        draft.faults.attempt("", _add_edge, reading, row)
     return draft.make_layout()
 
 
@@ -94,12 +99,12 @@ def _rows(text: str) -> Iterator[Source]:
         raise InputError.at(Location(line=reader.line_num), f"{error} (mend the row)") from None
 
 
-def _add_node(level: LevelDraft, row: Source) -> None:
+def _add_node(reading: Reading, row: Source) -> None:
     at = row.need("x").number(), row.need("y").number()
-    add_vertex(level, row, row.need(*NAMES).read_text(), at)
+    add_vertex(reading, row, row.need(*NAMES).read_text(), at)
 
 
-def _add_edge(level: LevelDraft, row: Source) -> None:
-    both = row.get("both_ways", "bidirectional")
+def _add_edge(reading: Reading, row: Source) -> None:
+    both = row.get(*BOTH_WAYS)
     ends = row.need(*TAILS).read_text(), row.need(*HEADS).read_text()
-    add_lanes(level, row, *ends, both is not None and both.read_flag())
+    add_lanes(reading, row, *ends, both is not None and both.read_flag())

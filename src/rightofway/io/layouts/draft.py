@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import groupby, pairwise
@@ -17,7 +17,7 @@ from rightofway.deadline import READING, STEPS_BETWEEN_LOOKS, check_work, limit_
 from rightofway.errors import InputError, find_nearest, is_printable, quote
 from rightofway.io.faults import Faults
 from rightofway.io.source import LONGEST_NAME, Source
-from rightofway.phrases import Phrase, say_count
+from rightofway.phrases import Phrase, PhraseOfPieces, say_count
 from rightofway.site.drawing import Picture
 from rightofway.site.geometry import (
     Point,
@@ -26,11 +26,14 @@ from rightofway.site.geometry import (
     measure_straight_length,
 )
 from rightofway.site.lane_table import BILLION, LaneKind, LaneShape, LaneTable
-from rightofway.site.layout import Layout, LayoutVertex, Level, Station
+from rightofway.site.layout import Layout, LayoutVertex, Level, Station, name_lanes
 from rightofway.site.zones import NamedZone
 
 MAX_VERTICES, MAX_EDGES = 200_000, 1_000_000
 """The most vertices and lanes of a layout."""
+
+MOST_NOTES = 50
+"""Notes of different keys that have no effect; further keys share one."""
 
 MICRO = 1_000_000
 """Positions are kept to a micrometre: floats hold those of a whole country exactly."""
@@ -175,7 +178,7 @@ class LayoutDraft:
         self.kind = kind
         self.faults = Faults()
         self.levels: list[LevelDraft] = []
-        self.repairs: Counter[Phrase] = Counter()
+        self.repairs: dict[Phrase, list[str]] = {}
 
     def begin_level(self, name: str = "") -> LevelDraft:
         """Begin a level; InputError for a name that cannot be shown."""
@@ -184,9 +187,27 @@ class LayoutDraft:
         self.levels.append(LevelDraft(name))
         return self.levels[-1]
 
-    def repair(self, mending: Phrase, count: int = 1) -> None:
-        """Note that something was mended or left out; equal notes are counted."""
-        self.repairs[mending] += count
+    def repair(self, mending: Phrase, *pieces: str) -> None:
+        """Note that pieces were mended or left out, by their names; equal notes become one."""
+        self.repairs.setdefault(mending, []).extend(pieces)
+
+    def note_unused(self, source: Source, name: str, used: Collection[str]) -> None:
+        """Note the keys of a piece that have no effect on plans, apart from those that are used.
+
+        Keys without a value, and those that are false or 0, count as not there.
+        """
+        for key, value in source.read_mapping().items():
+            if value and key not in used:
+                self.note_unused_key(key, name)
+
+    def note_unused_key(self, key: str, name: str) -> None:
+        """Note a key of a piece that has no effect on plans."""
+        mending = Phrase("{key} has no effect on plans", key=quote(key).strip("'"))
+        if mending not in self.repairs and len(self.repairs) >= MOST_NOTES:
+            mending = Phrase("a further key has no effect on plans")
+            name = f"{name}: {quote(key)}"
+        if self.repairs.get(mending, [])[-1:] != [name]:  # a key may be there for several types
+            self.repair(mending, name)
 
     def make_layout(self) -> Layout:
         """Return the layout.
@@ -204,12 +225,7 @@ class LayoutDraft:
         self.faults.stop()
         if not levels:
             raise InputError.at("", f"the {self.kind} has no vertex (give at least one)")
-        notes = (
-            repair
-            if count == 1
-            else Phrase("{count} times: {repair}", count=str(count), repair=repair)
-            for repair, count in self.repairs.items()
-        )
+        notes = (_name_pieces(mending, pieces) for mending, pieces in self.repairs.items())
         return Layout(kind=self.kind, levels=tuple(levels), notes=tuple(notes))
 
     def _finish(self, level: LevelDraft, elsewhere: set[str]) -> Level:
@@ -228,27 +244,55 @@ class LayoutDraft:
         """Return the stations with a vertex of the level; a name that is taken is left out."""
         stations: dict[str, Station] = {}
         for station in level.stations:
-            vertices = tuple(name for name in station.vertices if name in level.vertices)
+            vertices = self._keep_vertices(level, station)
             if not vertices:
-                self.repair(Phrase("a station without a vertex on its level is left out"))
+                mending = Phrase("a station without a vertex on its level is left out")
+                self.repair(mending, station.name)
             elif station.name in stations:
-                self.repair(Phrase("a second station of one name is left out"))
+                self.repair(Phrase("a second station of one name is left out"), station.name)
             else:
                 stations[station.name] = replace(station, vertices=vertices)
         return list(stations.values())
+
+    def _keep_vertices(self, level: LevelDraft, owner: Station | NamedZone) -> tuple[str, ...]:
+        """Return the vertices of a station or a zone that are on its level."""
+        vertices = tuple(name for name in owner.vertices if name in level.vertices)
+        if vertices:
+            mending = Phrase("a vertex of a station or a zone is not on its level and is left out")
+            for name in owner.vertices:
+                if name not in level.vertices:
+                    self.repair(mending, Phrase("{name} ({what})", name=name, what=owner.name))
+        return vertices
 
     def _usable_zones(self, level: LevelDraft) -> list[NamedZone]:
         """Return the zones with vertices or lanes, each name once."""
         zones: dict[str, NamedZone] = {}
         for zone in level.zones:
-            vertices = tuple(name for name in zone.vertices if name in level.vertices)
+            vertices = self._keep_vertices(level, zone)
             if zone.name in zones or not (vertices or zone.edges):
-                self.repair(
-                    Phrase("a zone without vertices and lanes, or with a name twice, is left out")
+                mending = Phrase(
+                    "a zone without vertices and lanes, or with a name twice, is left out"
                 )
+                self.repair(mending, zone.name)
             else:
                 zones[zone.name] = replace(zone, vertices=vertices)
         return list(zones.values())
+
+
+def name_piece(source: Source, *keys: str) -> str:
+    """Return what a piece is called: the value of the first key that names it, or its place."""
+    names = (source.value.get(key) for key in keys) if isinstance(source.value, dict) else ()
+    for name in names:
+        if type(name) in {int, str} and is_printable(str(name)):
+            return str(name)[:LONGEST_NAME]
+    return str(source.location)
+
+
+def _name_pieces(mending: Phrase, pieces: Sequence[str]) -> Phrase:
+    if len(pieces) > 1:
+        count = str(len(pieces))
+        mending = Phrase("{count} times: {repair}", count=count, repair=mending)
+    return PhraseOfPieces(mending, pieces) if pieces else mending
 
 
 class _LaneFinisher:
@@ -264,7 +308,7 @@ class _LaneFinisher:
         self.is_here = (self.tails >= 0) & (self.heads >= 0)
         self.squares = self._measure_squares()
         self.roots = _find_roots(self.squares)
-        self.repairs: list[tuple[int, Phrase, int]] = []
+        self.repairs: list[tuple[int, Phrase, list[str]]] = []
 
     def _measure_squares(self) -> Integers:
         """Return the squared distance of the ends of each lane [square micrometres]."""
@@ -279,14 +323,14 @@ class _LaneFinisher:
         squares: Integers = steps[:, 0] ** 2 + steps[:, 1] ** 2
         return squares
 
-    def finish(self, elsewhere: set[str]) -> tuple[LaneTable, int]:
-        """Return the lanes of the level, and how many lead to other levels."""
+    def finish(self, elsewhere: set[str]) -> tuple[LaneTable, tuple[tuple[str, str], ...]]:
+        """Return the lanes of the level, and the ends of those to other levels."""
         is_kept, links = self._leave_out(elsewhere)
         lengths = self._choose_lengths(is_kept)
         lanes_kept = np.flatnonzero(is_kept)
         shapes, lengths = self._draw_curves(is_kept, lengths)
-        for _, mending, count in sorted(self.repairs, key=lambda repair: repair[0]):
-            self.draft.repair(mending, count)
+        for _, mending, pieces in sorted(self.repairs, key=lambda repair: repair[0]):
+            self.draft.repair(mending, *pieces)
         new_number = np.cumsum(is_kept) - 1
         kinds = np.array(self.lanes.kinds, np.int32)[lanes_kept]
         return (
@@ -302,9 +346,10 @@ class _LaneFinisher:
             links,
         )
 
-    def _leave_out(self, elsewhere: set[str]) -> tuple[Bools, int]:
-        """Return the lanes that can be driven along, and count those to other levels."""
-        lanes, vertices, links = self.lanes, self.level.vertices, 0
+    def _leave_out(self, elsewhere: set[str]) -> tuple[Bools, tuple[tuple[str, str], ...]]:
+        """Return the lanes that can be driven along, and the ends of those to other levels."""
+        lanes, vertices = self.lanes, self.level.vertices
+        links = list[tuple[str, str]]()
         is_loop = self.is_here & (self.tails == self.heads)
         limits = [kind.max_speed for kind in lanes.kind_values]
         is_slow = np.array([limit is not None and limit <= 0 for limit in limits], bool)
@@ -321,18 +366,20 @@ class _LaneFinisher:
                 message = f"no vertex is named {quote(missing[0])} ({hint})"
                 self.draft.faults.note(lanes.sources[lane].location, message)
             elif missing:
-                links += 1
+                links.append(ends)
             elif not is_loop[lane]:
                 message = f"speed limit {limits[kinds[lane]]} is not positive (give m/s)"
                 self.draft.faults.note(lanes.sources[lane].location, message)
         mending = Phrase("a lane from a vertex to itself is left out")
         self._repair(is_loop, mending)
-        return is_kept, links
+        return is_kept, tuple(links)
 
     def _repair(self, lanes: Bools, mending: Phrase) -> None:
-        """Note how many lanes were mended, in the order in which they stand in the file."""
+        """Note which lanes were mended, in the order of the file."""
         if lanes.any():
-            self.repairs.append((int(lanes.argmax()), mending, int(lanes.sum())))
+            numbers = np.flatnonzero(lanes).tolist()
+            ends = ((self.lanes.tails[lane], self.lanes.heads[lane]) for lane in numbers)
+            self.repairs.append((numbers[0], mending, name_lanes(limit_loop(ends, READING))))
 
     def _choose_lengths(self, is_kept: Bools) -> Integers:
         """Return the length of each lane [billionths of a metre], not below the straight one."""

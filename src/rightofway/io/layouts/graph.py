@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from rightofway.errors import InputError, quote
-from rightofway.io.layouts.attributes import PAIRS, add_lanes, add_vertex
-from rightofway.io.layouts.draft import LayoutDraft, LevelDraft
+from rightofway.io.layouts.attributes import PAIRS, Reading, add_lanes, add_vertex
+from rightofway.io.layouts.draft import LayoutDraft
 from rightofway.io.source import Source
 from rightofway.site.geometry import Point
 from rightofway.site.layout import Layout
@@ -42,20 +42,20 @@ def make_layout_of_graph(graph: Any) -> Layout:
     if not all(hasattr(graph, name) for name in ("nodes", "edges", "is_directed")):
         raise InputError.at("graph", f"{quote(graph)} is no graph (give a networkx graph)")
     draft = LayoutDraft("networkx graph")
-    level, both_ways = draft.begin_level(), not graph.is_directed()
+    reading, both_ways = Reading(draft.begin_level(), draft), not graph.is_directed()
     for node, data in graph.nodes(data=True):
         name = f"node {quote(str(node))}"
-        draft.faults.attempt("", _add_node, level, node, Source(dict(data), (name,)))
+        draft.faults.attempt("", _add_node, reading, node, Source(dict(data), (name,)))
     for tail, head, data in graph.edges(data=True):
         name = f"edge {quote(str(tail))} to {quote(str(head))}"
         own, ends = Source(dict(data), (name,)), (str(tail), str(head))
-        draft.faults.attempt("", add_lanes, level, own, *ends, both_ways)
+        draft.faults.attempt("", add_lanes, reading, own, *ends, both_ways)
     return draft.make_layout()
 
 
-def _add_node(level: LevelDraft, node: object, own: Source) -> None:
+def _add_node(reading: Reading, node: object, own: Source) -> None:
     name = Source(str(node), own.path).read_text()
-    add_vertex(level, own, name, _position(node, own))
+    add_vertex(reading, own, name, _position(node, own))
 
 
 def _position(node: Any, own: Source) -> Point:

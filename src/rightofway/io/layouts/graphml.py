@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 
 from rightofway.errors import quote
-from rightofway.io.layouts.attributes import PAIRS, add_lanes, add_vertex
-from rightofway.io.layouts.draft import LayoutDraft, LevelDraft
+from rightofway.io.layouts.attributes import PAIRS, Reading, add_lanes, add_vertex
+from rightofway.io.layouts.draft import LayoutDraft
 from rightofway.io.layouts.xml_tree import Element
 from rightofway.io.source import Source
 from rightofway.phrases import Phrase
@@ -28,15 +28,15 @@ def read(root: Element) -> Layout:
         With every node without coordinates, and every edge that leads nowhere.
     """
     draft = LayoutDraft("GraphML graph")
-    level = draft.begin_level()
+    reading = Reading(draft.begin_level(), draft)
     keys = {key.need("id").value: key.need("attr.name", "id").value.lower()
             for key in root.list_all("key")}  # fmt: skip
     for graph in root.list_all("graph"):
         is_directed = graph.value.get("edgedefault") != "undirected"
         for node in graph.list_descendants("node"):
-            draft.faults.attempt("", _add_node, level, node, keys, draft)
+            draft.faults.attempt("", _add_node, reading, node, keys)
         for edge in graph.list_descendants("edge"):
-            draft.faults.attempt("", _add_edge, level, edge, keys, is_directed)
+            draft.faults.attempt("", _add_edge, reading, edge, keys, is_directed)
     return draft.make_layout()
 
 
@@ -49,7 +49,7 @@ def _attributes(element: Element, keys: dict[str, str]) -> Source:
     return Source(attributes, element.path, element.line)
 
 
-def _add_node(level: LevelDraft, node: Element, keys: dict[str, str], draft: LayoutDraft) -> None:
+def _add_node(reading: Reading, node: Element, keys: dict[str, str]) -> None:
     own, name = _attributes(node, keys), node.need("id").read_text()
     drawn, pair = next(node.list_descendants("Geometry"), None), own.get(*PAIRS)
     if own.get("x") and own.get("y"):
@@ -57,13 +57,13 @@ def _add_node(level: LevelDraft, node: Element, keys: dict[str, str], draft: Lay
     elif pair is not None:
         at = _pair(pair)
     elif drawn is not None:
-        draft.repair(Phrase("a node lies where it is drawn, y negated"))
+        reading.draft.repair(Phrase("a node lies where it is drawn, y negated"), name)
         half = [(drawn.get(key) or Source(0)).number() / 2 for key in ("width", "height")]
         at = drawn.need("x").number() + half[0], -drawn.need("y").number() - half[1]
     else:
         known = ", ".join(("x and y", *PAIRS))
         raise node.make_fault(f"the node {quote(name)} has no coordinates (give one of {known})")
-    add_vertex(level, own, name, at)
+    add_vertex(reading, own, name, at)
 
 
 def _pair(pair: Source) -> Point:
@@ -74,10 +74,10 @@ def _pair(pair: Source) -> Point:
     return pair.make_child(0, numbers[0]).number(), pair.make_child(1, numbers[1]).number()
 
 
-def _add_edge(level: LevelDraft, edge: Element, keys: dict[str, str], is_directed: bool) -> None:
+def _add_edge(reading: Reading, edge: Element, keys: dict[str, str], is_directed: bool) -> None:
     own, (tail, head) = _attributes(edge, keys), map(edge.value.get, ("source", "target"))
     if tail is None or head is None:
         edge.need("source" if tail is None else "target")
     directed = own.get("directed")
     is_one_way = is_directed if directed is None else directed.read_flag()
-    add_lanes(level, own, tail, head, not is_one_way)
+    add_lanes(reading, own, tail, head, not is_one_way)

@@ -11,17 +11,19 @@ VDMA, *Layout Interchange Format (LIF)*, version 1.0.0, 2024. The examples of th
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
-from rightofway.errors import InputError
-from rightofway.io.layouts.draft import MICRO, Curve, LayoutDraft, LevelDraft
+from rightofway.errors import InputError, join_names
+from rightofway.io.layouts.draft import MICRO, Curve, LayoutDraft, LevelDraft, name_piece
 from rightofway.io.layouts.nurbs import CHORD_ERROR, Nurbs
 from rightofway.io.source import Source
 from rightofway.phrases import Phrase
+from rightofway.quantities import format_decimal
 from rightofway.site.layout import Layout, LayoutVertex, Station
 
 NODE_PROPERTIES = ("vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties")
@@ -33,8 +35,29 @@ NUMBERS = {"x", "y", "theta", *SPEEDS, "maxRotationSpeed", "maximumRotationSpeed
            "maxHeight", "stationHeight", "degree", "knotVector", "weight"}  # fmt: skip
 """Keys of numbers, in both versions."""
 
-CHARGING = "startCharging"
-"""The action that makes a node a charging place."""
+CHARGING = ("startCharging", "stopCharging")
+"""The actions of a charging place."""
+
+NODE_KEYS = {"nodeId", "nodeName", "nodeDescription", "mapId", "nodePosition", *NODE_PROPERTIES}
+EDGE_KEYS = {"edgeId", "edgeName", "edgeDescription", "startNodeId", "endNodeId", *EDGE_PROPERTIES}
+PROPERTY_KEYS = {"vehicleTypeId", "mobileRobotTypes", "orientationType", "trajectory",
+                 *ACTIONS, *SPEEDS}  # fmt: skip
+STATION_KEYS = {"stationId", "stationName", "stationDescription", "interactionNodeIds",
+                "stationPosition"}  # fmt: skip
+"""The keys that are read, and those for people."""
+
+DEFAULTS: dict[str, tuple[object, ...]] = {
+    "vehicleOrientation": (0,),
+    "rotationAllowed": (True,),
+    "rotationAtStartNodeAllowed": ("BOTH",),
+    "rotationAtEndNodeAllowed": ("BOTH",),
+    "reentryAllowed": (True,),
+    "loadRestriction": ({"unloaded": True, "loaded": True},),
+}
+"""How robots drive anyway: forwards, with or without a load, and they turn where they are."""
+
+HALF_TURN = Fraction("3.15")
+"""No angle is larger; pi may be rounded."""
 
 
 def recognizes(document: Any) -> bool:
@@ -53,18 +76,20 @@ def read(document: Any) -> Layout:
         With every node, edge and station that cannot be used.
     """
     draft, root = LayoutDraft("LIF layout"), Source(document)
-    for _ in _numbers_as_text(document):
-        draft.repair(Phrase("a number is written as text"))
+    for place in _list_numbers_as_text(root):
+        draft.repair(Phrase("a number is written as text"), place)
     origins = [root] if root.get("origins") is None else root.need("origins").read_items()
     layouts = [layout for origin in origins for layout in origin.need("layouts").read_items()]
     for part, name in zip(layouts, _level_names(layouts), strict=True):
         level = draft.begin_level(name)
         for node in part.need("nodes").read_items():
-            draft.faults.attempt("", _add_node, level, node)
+            draft.faults.attempt("", _add_node, level, node, draft)
         for edge in _items(part, "edges", draft):
             draft.faults.attempt("", _add_edge, level, edge, draft)
         for station in _items(part, "stations", draft):
-            draft.faults.attempt("", _add_station, level, station)
+            draft.faults.attempt("", _add_station, level, station, draft)
+        if not draft.faults.found:
+            _note_headings(part.read_items_under("stations"), draft)
     return draft.make_layout()
 
 
@@ -81,31 +106,35 @@ def _level_names(layouts: list[Source]) -> list[str]:
 def _items(part: Source, key: str, draft: LayoutDraft) -> list[Source]:
     value = part.get(key)
     if value is None:
-        draft.repair(Phrase("the list of {key} is missing and counts as empty", key=key))
+        mending = Phrase("the list of {key} is missing and counts as empty", key=key)
+        draft.repair(mending, name_piece(part, "layoutLevelId", "layoutId"))
         return []
     return value.read_items()
 
 
-def _numbers_as_text(value: Any, is_number: bool = False) -> Iterator[str]:
-    """Yield the numbers of a document that are text, also those that nothing here depends on."""
-    if isinstance(value, dict):
-        for key, child in value.items():
-            yield from _numbers_as_text(child, key in NUMBERS)
-    elif isinstance(value, list):
-        for child in value:
-            yield from _numbers_as_text(child, is_number)
-    elif is_number and isinstance(value, str):
-        yield value
+def _list_numbers_as_text(source: Source, is_number: bool = False) -> Iterator[str]:
+    """Yield where numbers of a document are text, also those that nothing here depends on."""
+    if isinstance(source.value, dict):
+        for key, child in source.read_entries():
+            yield from _list_numbers_as_text(child, key in NUMBERS)
+    elif isinstance(source.value, list):
+        for child in source.read_items():
+            yield from _list_numbers_as_text(child, is_number)
+    elif is_number and isinstance(source.value, str):
+        yield str(source.location)
 
 
-def _add_node(level: LevelDraft, node: Source) -> None:
+def _add_node(level: LevelDraft, node: Source, draft: LayoutDraft) -> None:
     name, at = node.need("nodeId").read_text(), node.need("nodePosition")
+    draft.note_unused(node, name, NODE_KEYS)
+    for own in node.read_items_under(*NODE_PROPERTIES):
+        _note_unused_properties(own, name, draft)
     level.add(
         LayoutVertex(
             name=name,
             at=(at.need("x").number(), at.need("y").number()),
             is_charging=any(
-                action.value.get("actionType") == CHARGING
+                action.value.get("actionType") == CHARGING[0]
                 for own in node.read_items_under(*NODE_PROPERTIES)
                 for action in own.read_items_under(*ACTIONS)
                 if isinstance(action.value, dict)
@@ -117,15 +146,19 @@ def _add_node(level: LevelDraft, node: Source) -> None:
 
 def _add_edge(level: LevelDraft, edge: Source, draft: LayoutDraft) -> None:
     tail, head = edge.need("startNodeId").read_text(), edge.need("endNodeId").read_text()
-    own = edge.read_items_under(*EDGE_PROPERTIES)
+    own, name = edge.read_items_under(*EDGE_PROPERTIES), name_piece(edge, "edgeId")
+    draft.note_unused(edge, name, EDGE_KEYS)
+    for properties in own:
+        _note_unused_properties(properties, name, draft)
     if not own:
-        draft.repair(Phrase("an edge without a vehicle type is free for all"))
+        mending = Phrase("an edge without a vehicle type is free for all")
+        draft.repair(mending, name)
         level.connect(edge, tail, head)
     ways: dict[tuple[Fraction | None, Curve | None], set[str]] = {}
     for properties in own:
         speed = properties.get(*SPEEDS)
         limit = None if speed is None else speed.number()
-        limit_and_curve = limit, _curve(properties, draft)
+        limit_and_curve = limit, _curve(properties, draft, name)
         ways.setdefault(limit_and_curve, set()).update(_types(properties))
     for (limit, curve), types in ways.items():  # one lane for all types with one way
         level.connect(edge, tail, head, max_speed=limit, types=frozenset(types), curve=curve)
@@ -139,7 +172,7 @@ def _types(own: Source) -> list[str]:
     return [robot_type.need("seriesName").read_text() for robot_type in series.read_items()]
 
 
-def _curve(own: Source, draft: LayoutDraft) -> Curve | None:
+def _curve(own: Source, draft: LayoutDraft, name: str) -> Curve | None:
     """Return the curve of a trajectory, if there is one that can be read."""
     trajectory = own.get("trajectory")
     if trajectory is None:
@@ -148,7 +181,8 @@ def _curve(own: Source, draft: LayoutDraft) -> Curve | None:
         nurbs = _nurbs(trajectory)
         pieces = nurbs.cut_pieces()
     except (InputError, ValueError):
-        draft.repair(Phrase("a trajectory that cannot be read: its edge counts as straight"))
+        mending = Phrase("a trajectory that cannot be read: its edge counts as straight")
+        draft.repair(mending, name)
         return None
     points = tuple(
         (Fraction(round(x * MICRO), MICRO), Fraction(round(y * MICRO), MICRO))
@@ -173,8 +207,59 @@ def _nurbs(trajectory: Source) -> Nurbs:
     )
 
 
-def _add_station(level: LevelDraft, station: Source) -> None:
+def _note_unused_properties(own: Source, name: str, draft: LayoutDraft) -> None:
+    """Note what is written for one type of robots and has no effect on plans.
+
+    False and 0 have a meaning here. Defaults have an effect on no plan.
+    """
+    is_along = own.value.get("orientationType") != "GLOBAL"
+    for key, value in own.read_mapping().items():
+        is_default = value in DEFAULTS.get(key, ()) and (is_along or key != "vehicleOrientation")
+        if key not in PROPERTY_KEYS and value is not None and not is_default:
+            draft.note_unused_key(key, name)
+    for action in own.read_items_under(*ACTIONS):
+        kind = action.value.get("actionType") if isinstance(action.value, dict) else None
+        if kind not in CHARGING:
+            draft.note_unused_key(f"action {kind}", name)
+    _check_theta(own, name, draft)
+
+
+def _check_theta(own: Source, name: str, draft: LayoutDraft) -> None:
+    """Note an angle that is not in radians."""
+    try:
+        theta = own.need("theta").number()
+    except InputError:
+        return  # no plan depends on it
+    if abs(theta) > HALF_TURN:
+        mending = Phrase("theta is not from -pi to pi (it is in radians)")
+        draft.repair(mending, Phrase("{name} ({what})", name=name, what=format_decimal(theta)))
+
+
+def _add_station(level: LevelDraft, station: Source, draft: LayoutDraft) -> None:
+    name = station.need("stationId").read_text()
     nodes = [node.read_text() for node in station.need("interactionNodeIds").read_items()]
-    level.stations.append(
-        Station(name=station.need("stationId").read_text(), vertices=tuple(nodes))
-    )
+    level.stations.append(Station(name=name, vertices=tuple(nodes)))
+    draft.note_unused(station, name, STATION_KEYS)
+    if _get_theta(station) is not None:
+        draft.note_unused_key("stationPosition.theta", name)
+        _check_theta(station.need("stationPosition"), name, draft)
+
+
+def _get_theta(station: Source) -> Any:
+    """Return the heading of robots at a station, as it is written."""
+    position = station.value.get("stationPosition")
+    return position.get("theta") if isinstance(position, dict) else None
+
+
+def _note_headings(stations: list[Source], draft: LayoutDraft) -> None:
+    """Note the stations at one node that differ in theta."""
+    at_node = defaultdict[str, dict[str, str]](dict)
+    for station in stations:
+        theta = _get_theta(station) if isinstance(station.value, dict) else None
+        if theta is not None:
+            for node in station.need("interactionNodeIds").read_items():
+                at_node[node.read_text()][name_piece(station, "stationId")] = str(theta)
+    for thetas in at_node.values():
+        if len(set(thetas.values())) > 1:
+            mending = Phrase("stations at one node differ in theta, and are one place for plans")
+            draft.repair(mending, join_names(list(thetas)))

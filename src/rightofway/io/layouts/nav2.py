@@ -5,10 +5,11 @@ Edges are directed; their geometry is not used by Nav2, and serves for drawing h
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import Any
 
 from rightofway.errors import InputError, quote
-from rightofway.io.layouts.draft import LayoutDraft, LevelDraft
+from rightofway.io.layouts.draft import LayoutDraft, LevelDraft, name_piece
 from rightofway.io.source import Source
 from rightofway.phrases import Phrase
 from rightofway.site.geometry import Point
@@ -16,6 +17,11 @@ from rightofway.site.layout import Layout, LayoutVertex
 
 FASTEST = 10
 """A larger speed limit cannot be meant in m/s: by default Nav2 reads limits as percentages."""
+
+NODE_KEYS = {"id", "frame", "metadata"}
+EDGE_KEYS = {"id", "startid", "endid", "overridable", "metadata"}
+METADATA_KEYS = {"speed_limit"}
+"""What is read; `overridable` says only whether scorers of Nav2 may change the cost."""
 
 LINES = ("LineString", "MultiLineString")
 
@@ -47,7 +53,9 @@ def _add(level: LevelDraft, feature: Source, draft: LayoutDraft) -> None:
     kind = geometry.need("type")
     if kind.value == "Point":
         x, y = _point(geometry.need("coordinates"))
-        level.add(LayoutVertex(name=own.need("id").read_text(), at=(x, y)), feature)
+        name = own.need("id").read_text()
+        level.add(LayoutVertex(name=name, at=(x, y)), feature)
+        _note_unused(own, draft, NODE_KEYS)
     elif kind.value in LINES:
         _add_edge(level, feature, draft)
     else:
@@ -55,30 +63,40 @@ def _add(level: LevelDraft, feature: Source, draft: LayoutDraft) -> None:
         raise kind.make_fault(f"{quote(kind.value)} is no node and no edge (give one of {known})")
 
 
+def _note_unused(own: Source, draft: LayoutDraft, used: Collection[str]) -> None:
+    """Note the properties of a node or an edge that have no effect, and those in its metadata."""
+    name, metadata = name_piece(own, "id"), own.get("metadata")
+    draft.note_unused(own, name, used)
+    if metadata is not None:
+        draft.note_unused(metadata, name, METADATA_KEYS)
+
+
 def _add_edge(level: LevelDraft, feature: Source, draft: LayoutDraft) -> None:
     own = feature.need("properties")
+    name = name_piece(own, "id")
+    _note_unused(own, draft, EDGE_KEYS)
     metadata = own.get("metadata")
     limit = None if metadata is None else metadata.get("speed_limit")
     max_speed = None if limit is None else limit.number()
     if max_speed is not None and max_speed > FASTEST:
         draft.repair(
-            Phrase("a speed_limit is a percentage of a robot's speed, which cannot be kept")
+            Phrase("a speed_limit is a percentage of a robot's speed, which cannot be kept"), name
         )
         max_speed = None
     elif max_speed is not None:
         draft.repair(
-            Phrase("a speed_limit counts as m/s; Nav2 may be set to read it as a percentage")
+            Phrase("a speed_limit counts as m/s; Nav2 may be set to read it as a percentage"), name
         )
     level.connect(
         feature,
         own.need("startid").read_text(),
         own.need("endid").read_text(),
         max_speed=max_speed,
-        shape=_shape(feature.need("geometry"), draft),
+        shape=_shape(feature.need("geometry"), draft, name),
     )
 
 
-def _shape(geometry: Source, draft: LayoutDraft) -> tuple[Point, ...]:
+def _shape(geometry: Source, draft: LayoutDraft, name: str) -> tuple[Point, ...]:
     """Return the points between the ends of a line; a drawing that cannot be read is left out."""
     coordinates = geometry.get("coordinates")
     if coordinates is None:
@@ -89,7 +107,7 @@ def _shape(geometry: Source, draft: LayoutDraft) -> tuple[Point, ...]:
             points = [point for line in points for point in line.read_items()]
         return tuple(_point(point) for point in points)[1:-1]
     except InputError:
-        draft.repair(Phrase("the drawing of an edge cannot be read: it is drawn straight"))
+        draft.repair(Phrase("the drawing of an edge cannot be read: it is drawn straight"), name)
         return ()
 
 

@@ -11,15 +11,15 @@ from fractions import Fraction
 from itertools import combinations
 from math import atan2, hypot
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from rightofway.errors import InputError, join_names, quote
-from rightofway.io.layouts.draft import LayoutDraft, LevelDraft
+from rightofway.io.layouts.draft import LayoutDraft, LevelDraft, name_piece
 from rightofway.io.source import Source
 from rightofway.phrases import Phrase
 from rightofway.site.drawing import Picture
 from rightofway.site.geometry import Point
-from rightofway.site.layout import Layout, LayoutVertex
+from rightofway.site.layout import Layout, LayoutVertex, name_lanes
 from rightofway.site.zones import NamedZone
 
 Transform = Callable[[Point], Point]
@@ -32,6 +32,11 @@ MAX_FIDUCIALS = 200
 
 IN_METRES = ("cartesian_meters",)
 IN_PIXELS = (None, "reference_image")
+
+
+VERTEX_KEYS = {"name", "is_charger", "is_parking_spot", "mutex"}
+LANE_KEYS = {"speed_limit", "mutex", "graph_idx", "bidirectional", "is_bidirectional"}
+"""The parameters that are read."""
 
 
 def recognizes(document: Any) -> bool:
@@ -64,8 +69,20 @@ def read(document: Any, path: Path) -> Layout:
         _read_level(level, part, transforms.get(name), draft)
         if is_building and root.value.get("coordinate_system") in IN_PIXELS:
             level.picture = _picture(part, transforms[name], path.parent, draft)
+    _note_doors(root, draft)
     _note_lifts(root, draft)
     return draft.make_layout()
+
+
+def _note_doors(root: Source, draft: LayoutDraft) -> None:
+    """Note the doors of a navigation graph, which has them by name, and those of a building."""
+    of_graph = root.value.get("doors")
+    for name in of_graph if isinstance(of_graph, dict) else ():
+        draft.note_unused_key("door", quote(name).strip("'"))
+    for _, level in root.need("levels").read_entries():
+        for door in level.read_items_under("doors"):
+            own = draft.faults.attempt("", _own, door, 2)
+            draft.note_unused_key("door", name_piece(Source(own, door.path), "name"))
 
 
 def _note_lifts(root: Source, draft: LayoutDraft) -> None:
@@ -120,24 +137,32 @@ def _picture(
     return Picture(file=folder / name, pixel=pixel, corner=(x, y), yaw=yaw)
 
 
+class _Reading(NamedTuple):
+    """The level that is read, its layout, and the mutexes so far."""
+
+    level: LevelDraft
+    draft: LayoutDraft
+    groups: Groups
+
+
 def _read_level(
     level: LevelDraft, part: Source, transform: Transform | None, draft: LayoutDraft
 ) -> None:
     """Read vertices and lanes; with a transform, of a building."""
-    groups: Groups = {}
+    reading = _Reading(level, draft, {})
     names = [
-        draft.faults.attempt("", _add_vertex, level, vertex, index, transform, groups)
+        draft.faults.attempt("", _add_vertex, reading, vertex, index, transform)
         for index, vertex in enumerate(part.read_items_under("vertices"))
     ]
     lanes = part.read_items_under("lanes")
     owns = [draft.faults.attempt("", _own, lane, 2) or {} for lane in lanes]
     has_graphs = len({str(own.get("graph_idx", 0)) for own in owns}) > 1
     for lane in lanes:
-        draft.faults.attempt("", _add_lane, level, lane, names, groups, has_graphs)
+        draft.faults.attempt("", _add_lane, reading, lane, names, has_graphs)
     if transform is not None:  # corners of walls and floors are no vertices of the graph
         ends = {*level.lanes.tails, *level.lanes.heads}
         level.vertices = {name: vertex for name, vertex in level.vertices.items() if name in ends}
-    for name, (vertices, edges) in groups.items():
+    for name, (vertices, edges) in reading.groups.items():
         level.zones.append(NamedZone(name=name, vertices=tuple(vertices), edges=tuple(edges)))
 
 
@@ -158,9 +183,8 @@ def _name_in(own: dict[str, Any], key: str, item: Source) -> str:
     return item.make_child(key, own[key]).read_text()
 
 
-def _add_vertex(
-    level: LevelDraft, vertex: Source, index: int, transform: Transform | None, groups: Groups
-) -> str:
+def _add_vertex(reading: _Reading, vertex: Source, index: int, transform: Transform | None) -> str:
+    level, draft, groups = reading
     items = vertex.read_items()
     if len(items) < 2:  # noqa: PLR2004 - x and y
         raise vertex.make_fault("is no vertex (give [x, y, {name: …}])")
@@ -174,6 +198,7 @@ def _add_vertex(
     name = Source(given, vertex.path).read_text() if given else f"v{index}"
     if name in level.vertices:
         name = f"{name} (v{index})"
+        draft.repair(Phrase("a vertex has the name of an earlier one, and gets its number"), name)
     level.add(
         LayoutVertex(
             name=name,
@@ -183,14 +208,14 @@ def _add_vertex(
         ),
         vertex,
     )
+    draft.note_unused(Source(own), name, VERTEX_KEYS)
     if own.get("mutex"):
         groups.setdefault(_name_in(own, "mutex", vertex), ([], []))[0].append(name)
     return name
 
 
-def _add_lane(
-    level: LevelDraft, lane: Source, names: list[str | None], groups: Groups, has_graphs: bool
-) -> None:
+def _add_lane(reading: _Reading, lane: Source, names: list[str | None], has_graphs: bool) -> None:
+    level, draft, groups = reading
     items = lane.read_items()
     if len(items) < 2:  # noqa: PLR2004 - from and to
         raise lane.make_fault("is no lane (give [from, to, {…}])")
@@ -198,6 +223,8 @@ def _add_lane(
     if tail is None or head is None:
         return  # the vertex has a fault of its own
     own = _own(lane, 2)
+    (name,) = name_lanes([(tail, head)])
+    draft.note_unused(Source(own), name, LANE_KEYS)
     speed = lane.make_child("speed_limit", own.get("speed_limit", 0)).number()
     both = own.get("bidirectional") is True or own.get("is_bidirectional") is True
     own.setdefault("graph_idx", 0)
@@ -243,7 +270,7 @@ def _transforms(root: Source, draft: LayoutDraft) -> dict[str, Transform]:
             continue
         if name != reference:
             draft.repair(
-                Phrase("a level without two fiducials of the reference level keeps its frame")
+                Phrase("a level without two fiducials of the reference level keeps its frame"), name
             )
         transforms[name] = _transform_by((1 + 0j, 0j), scale)
     draft.faults.stop()

@@ -10,8 +10,9 @@ from dataclasses import replace
 from fractions import Fraction
 
 from rightofway.errors import quote
-from rightofway.io.layouts.draft import LayoutDraft, LevelDraft
+from rightofway.io.layouts.draft import LayoutDraft, LevelDraft, name_piece
 from rightofway.io.layouts.xml_tree import Element
+from rightofway.io.source import Source
 from rightofway.phrases import Phrase
 from rightofway.site.layout import Layout, LayoutVertex, Station
 from rightofway.site.zones import NamedZone
@@ -21,6 +22,15 @@ VERSIONS = ("0.0.2", "0.0.3", "0.0.4", "0.0.5", "6", "7")
 
 MILLIMETRE = Fraction(1, 1000)
 X, Y = ("positionX", "xPosition"), ("positionY", "yPosition")
+
+
+USED = {
+    *X, *Y, "destinationPoint", "id", "length", "link", "locked", "maxReverseVelocity",
+    "maxVelocity", "name", "outgoingPath", "sourcePoint", "type",
+    # What concerns the drawing alone.
+    "locationLayout", "pathLayout", "pointLayout", "positionZ", "zPosition",
+}  # fmt: skip
+"""Attributes of points, paths and locations, and elements inside, that are read."""
 
 
 def recognizes(root: Element) -> bool:
@@ -41,7 +51,7 @@ def read(root: Element) -> Layout:
     level = draft.begin_level()
     paths: dict[str, list[tuple[str, str]]] = {}
     for point in root.list_all("point"):
-        draft.faults.attempt("", _add_point, level, point)
+        draft.faults.attempt("", _add_point, level, point, draft)
     for path in root.list_all("path"):
         draft.faults.attempt("", _add_path, level, path, paths, draft)
     chargers = {
@@ -59,6 +69,9 @@ def read(root: Element) -> Layout:
         name: replace(vertex, is_charging=True) if name in charging else vertex
         for name, vertex in level.vertices.items()
     }
+    for kind in ("vehicle", "vehicleType", "staticRoute"):
+        for part in root.list_all(kind):
+            draft.note_unused_key(kind, name_piece(part, "name"))
     for block in root.list_all("block"):
         draft.faults.attempt("", _add_block, level, block, paths, draft)
     return draft.make_layout()
@@ -76,12 +89,25 @@ def _check_version(root: Element) -> None:
         raise root.make_fault(f"a plant model of version {quote(version)} ({known}: {remedy})")
 
 
+def _note_unused(element: Element, draft: LayoutDraft) -> None:
+    """Note what an element has that has no effect on plans: attributes, and elements inside.
+
+    Angles that are not given are NaN.
+    """
+    name = name_piece(element, "name")
+    given = {key: value for key, value in element.value.items() if value not in {"NaN", "0"}}
+    draft.note_unused(Source(given), name, USED)
+    for child in element.children:
+        if child.name not in USED:
+            draft.note_unused_key(child.name, name)
+
+
 def _is_locked(element: Element) -> bool:
     locked = element.get("locked")
     return locked is not None and locked.read_flag()
 
 
-def _add_point(level: LevelDraft, point: Element) -> None:
+def _add_point(level: LevelDraft, point: Element, draft: LayoutDraft) -> None:
     x, y = (point.need(*keys).number() for keys in (X, Y))
     level.add(
         LayoutVertex(
@@ -91,6 +117,7 @@ def _add_point(level: LevelDraft, point: Element) -> None:
         ),
         point,
     )
+    _note_unused(point, draft)
 
 
 def _add_path(
@@ -98,8 +125,9 @@ def _add_path(
 ) -> None:
     tail, head = path.need("sourcePoint").read_text(), path.need("destinationPoint").read_text()
     lanes = paths.setdefault(path.need("name").read_text(), [])
+    _note_unused(path, draft)
     if _is_locked(path):
-        draft.repair(Phrase("a locked path is left out"))
+        draft.repair(Phrase("a locked path is left out"), name_piece(path, "name"))
         return
     length = path.need("length").number() * MILLIMETRE if path.value.get("length") else None
     speeds = (path.need(key).number() for key in ("maxVelocity", "maxReverseVelocity"))
@@ -113,8 +141,9 @@ def _add_location(level: LevelDraft, location: Element, draft: LayoutDraft) -> l
     """Add a location as a station, and return its points."""
     points = [link.need("point").read_text() for link in location.list_all("link")]
     if _is_locked(location):
-        draft.repair(Phrase("a locked location is left out"))
+        draft.repair(Phrase("a locked location is left out"), name_piece(location, "name"))
         return []
+    _note_unused(location, draft)
     level.stations.append(Station(name=location.need("name").read_text(), vertices=tuple(points)))
     return points
 
@@ -123,8 +152,15 @@ def _add_block(
     level: LevelDraft, block: Element, paths: dict[str, list[tuple[str, str]]], draft: LayoutDraft
 ) -> None:
     members = [member.need("name").read_text() for member in block.list_all("member")]
+    mending = Phrase("a member of a block is no point and no path, and is left out")
+    for name in members:
+        if name not in level.vertices and name not in paths:
+            draft.repair(
+                mending, Phrase("{name} ({what})", name=name, what=name_piece(block, "name"))
+            )
     if block.value.get("type") == "SAME_DIRECTION_ONLY":
-        draft.repair(Phrase("a block of SAME_DIRECTION_ONLY counts as one for a single robot"))
+        mending = Phrase("a block of SAME_DIRECTION_ONLY counts as one for a single robot")
+        draft.repair(mending, name_piece(block, "name"))
     level.zones.append(
         NamedZone(
             name=block.need("name").read_text(),

@@ -87,7 +87,7 @@ def list_losses(layout: Layout, says: frozenset[str]) -> Iterator[str]:
         "vehicle types": len({name for edge in edges for name in edge.types or ()}),
         "zones": sum(len(level.zones) for level in layout.levels),
         "further zones of one place": sum(map(_overlaps, layout.levels)),
-        "lanes to other levels": sum(level.links for level in layout.levels),
+        "lanes to other levels": sum(len(level.links) for level in layout.levels),
     }
     lost = [f"{loss} ({count})" for loss, count in counts.items() if count and loss not in says]
     if lost:

@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterable
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
@@ -14,10 +14,11 @@ from rightofway.io.faults import validate
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.layouts import read_layout
 from rightofway.io.scenario.layouts import make_map_of_layout
-from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap
+from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap, note_on_hidden_stations
 from rightofway.io.scenario.writer import format_yaml
 from rightofway.io.text import format_json
 from rightofway.metrics.connectivity import find_strong_parts, list_ways
+from rightofway.phrases import Phrase, say_count
 from rightofway.quantities import Units
 from rightofway.site import make_grid_roadmap
 from rightofway.site.layout import Layout, Level
@@ -40,9 +41,24 @@ WORK = 10
 """Work time of the example's robots [time unit]."""
 
 
+class Example(NamedTuple):
+    """A first scenario for a layout.
+
+    Attributes
+    ----------
+    text
+        Its text.
+    notes
+        What the reader of the layout mended or left out, and which part of it was chosen.
+    """
+
+    text: str
+    notes: tuple[Phrase, ...]
+
+
 @checks_arguments
-def format_example(path: Path | str, target: Path | str, radius: Fraction = Fraction(0)) -> str:
-    """Return the text of a scenario that has a layout as its map.
+def make_example(path: Path | str, target: Path | str, radius: Fraction = Fraction(0)) -> Example:
+    """Return a scenario that has a layout as its map.
 
     Parameters
     ----------
@@ -70,13 +86,28 @@ def format_example(path: Path | str, target: Path | str, radius: Fraction = Frac
     layout = read_layout(path)
     beside = Path() if str(target) == "-" else target.parent
     shape: dict[str, Any] = {"layout": Path(os.path.relpath(path, beside)).as_posix()}
-    level = None
+    level, choices = None, list[Phrase]()
     if isinstance(layout, Layout):
         level = max(layout.levels, key=lambda candidate: len(candidate.edges))
-        shape |= {"level": level.name} if len(layout.levels) > 1 else {}
+        if len(layout.levels) > 1:
+            shape["level"] = level.name
+            choices.append(
+                Phrase(
+                    "the map is level {level}, which has the most lanes ({others})",
+                    level=level.name,
+                    others=say_count(len(layout.levels) - 1, "other level", "other levels"),
+                )
+            )
         types = level.vehicle_types
         if len(types) > 1:
             shape["vehicle_type"] = max(types, key=lambda name: len(level.list_lanes(name)))
+            choices.append(
+                Phrase(
+                    "the map has the lanes of vehicle type {type}, which has the most ({others})",
+                    type=shape["vehicle_type"],
+                    others=say_count(len(types) - 1, "other type", "other types"),
+                )
+            )
     elif isinstance(layout, Occupancy):
         shape["cell_size"] = _cell_size(layout, radius)
     from rightofway.io.scenario.shape import MapDocument
@@ -90,7 +121,10 @@ def format_example(path: Path | str, target: Path | str, radius: Fraction = Frac
         **({"units": {"length": "m", "time": "s"}} if loaded.units.length else {}),
         "robots": _robots(loaded, level, radius),
     }
-    return format_json(document) if target.suffix.lower() == ".json" else format_yaml(document)
+    is_json = target.suffix.lower() == ".json"
+    text = format_json(document) if is_json else format_yaml(document)
+    hidden = note_on_hidden_stations(loaded.roadmap)
+    return Example(text, (*choices, *loaded.notes, *hidden))
 
 
 def _cell_size(occupancy: Occupancy, radius: Fraction) -> str:
@@ -119,10 +153,10 @@ def _robots(loaded: LoadedMap, level: Level | None, radius: Fraction) -> list[di
             for vertex in level.vertices
             if (vertex.is_parking or vertex.is_charging) and vertex.name in ids
         ]
-        for station in level.stations:
-            vertex = ids.get(loaded.stations.get(station.name, ""))
-            if vertex is not None and vertex not in parking:
-                stations.setdefault(vertex, station.name)
+        for name, vertex in roadmap.drawing.stations:
+            if vertex in inside and vertex not in parking:
+                is_hidden = loaded.find(name) != vertex
+                stations.setdefault(vertex, roadmap.name(vertex) if is_hidden else name)
     count = min(ROBOTS, len(part) // 2)
     in_zones = {vertex for zone in roadmap.zones for vertex in zone.vertices}
     free = [vertex for vertex in parking if vertex not in in_zones]

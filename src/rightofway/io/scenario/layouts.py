@@ -75,7 +75,6 @@ def make_map_of_layout(
             cuts_curves=fleet.radius > 0,
         )
         roadmap = level_map.roadmap
-        stations = {name: roadmap.name(at) for name, at in roadmap.drawing.stations}
         notes = (
             *layout.notes,
             *level_map.notes,
@@ -86,7 +85,6 @@ def make_map_of_layout(
         return LoadedMap(
             roadmap=roadmap,
             units=units,
-            stations=stations,
             chord_error=level_map.chord_error,
             notes=notes,
         )

@@ -304,7 +304,6 @@ def _map_of_roadmap(
     error = max(curve.error for curve in curves.values()) if is_cut else Fraction(0)
     return LoadedMap(
         roadmap=replace(roadmap, drawing=drawing),
-        stations=document.stations,
         rounding=(rounded, len(document.edges), step) if rounded else None,
         chord_error=error,
         notes=(

@@ -14,11 +14,11 @@ from rightofway.errors import InputError, InputFault
 from rightofway.io import (
     Loaded,
     dump_scenario,
-    format_example,
     format_plan,
     is_layout,
     load_either,
     load_with_notes,
+    make_example,
     read_layout,
 )
 from rightofway.io.layouts import describe_layout
@@ -44,10 +44,10 @@ def open_file(_emit: Emit, _blobs: Blobs, *, path: str, count: int | None = None
     """
     file = Path(path)
     if is_layout(file):
-        document = parse_yaml(format_example(file, file.with_suffix(".yaml")))
-        layout = read_layout(file)
-        new = Phrase("a new scenario on {layout}", layout=describe_layout(layout))
-        notes = to_parts([*getattr(layout, "notes", ()), new])
+        example = make_example(file, file.with_suffix(".yaml"))
+        document = parse_yaml(example.text)
+        new = Phrase("a new scenario on {layout}", layout=describe_layout(read_layout(file)))
+        notes = to_parts([*example.notes, new])
         return (
             {"kind": "layout", "document": {**as_plain(document), "robots": []}, "notes": notes},
         )
