@@ -170,13 +170,13 @@ def test_the_report_names_jobs_and_messages() -> None:
 
 def test_laps_are_driven_until_each_robot_has_made_as_many_as_wanted() -> None:
     """The period is 10 ticks by the plan. Robots set out only when others have arrived, at the two
-    doors of the lap 2 ticks later each: 14 ticks, and some for the first lap."""
+    doors of the lap 2 ticks later each: 14 ticks, and more or less for the first lap."""
     plan = laps_plan(door().scenario, find_best_timetable)
     result = drive_demo(plan, laps=20)
     assert min(result.laps) == 20
     assert result.as_dict()["ticks"] == result.now
     assert [robot["laps"] for robot in result.as_dict()["robots"]] == list(result.laps)
-    assert 20 * 14 <= result.now <= 21 * 14
+    assert 19 * 14 < result.now <= 21 * 14
     lines = report(result, plan.scenario.quantities).splitlines()
     assert lines[1] == f"laps      {sum(result.laps)} in {result.now} time units"
     assert lines[5].split() == ["robot", "jobs", "waits", "laps", "mean", "lap"]

@@ -307,6 +307,7 @@ def _drive_at(
                 switch=switch,
                 report=_narrate,
                 metrics=counted,
+                began=opened.read_begin(),
             )
             if page is not None:
                 stack.enter_context(page.serve(journal, takes_orders=True))

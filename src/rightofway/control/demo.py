@@ -236,7 +236,9 @@ class _Demo:
         self._story = Story(control.ledger, names)
         self._sent = Counter[str]()
         self._dispatcher, self.switches = dispatcher, False
-        self._supervisor = Supervisor(dispatcher, notices, record.commands if record else None)
+        self._supervisor = Supervisor(
+            dispatcher, notices, lambda: clock.now, record.commands if record else None
+        )
         self._moment = Fraction(0)  # the time, perhaps between two ticks
         self._second, self._looks_at = clock.to_ticks(1), Fraction(0)  # after robots
         self._may_begin = set(range(len(self._robots)))  # robots that may have something to do
@@ -278,15 +280,25 @@ class _Demo:
             self._may_begin.clear()
             if not agenda or agenda[0][0] > self._now:
                 self._end_instant()
-            if not agenda and not self._waits_for_people:
+            change = self._find_next_change()
+            moments = [*(row[0] for row in agenda[:1]), *(() if change is None else (change,))]
+            if not agenda and change is None and not self._waits_for_people:
                 return
-            moment = Fraction(agenda[0][0]) if agenda else self._moment + self._step
-            if not self._come_to(moment, wait_until) or not agenda:
+            moment = Fraction(min(moments)) if moments else self._moment + self._step
+            if not self._come_to(moment, wait_until):
                 continue
-            _, number = heapq.heappop(agenda)
-            self._robots[number].end_step(self._now)
-            self._may_begin.add(number)
-            self._exchange([self._robots[number].end.report_state()])
+            if moment == change:
+                self._exchange(self._end.make_letters(self._supervisor.take_turn()))
+            elif agenda:
+                _, number = heapq.heappop(agenda)
+                self._robots[number].end_step(self._now)
+                self._may_begin.add(number)
+                self._exchange([self._robots[number].end.report_state()])
+
+    def _find_next_change(self) -> int | None:
+        """Return when a closure of the scenario may let robots go on [ticks]; None if none does."""
+        closures = self._dispatcher.closures
+        return None if closures is None or self._control.is_done else closures.find_next_change()
 
     @property
     def _waits_for_people(self) -> bool:
@@ -304,6 +316,7 @@ class _Demo:
         """Tell what is new; keep it."""
         for happening in self._story.go_on():
             self._tell(happening.text)
+        self._supervisor.tell_closures()
         if self._record:
             self._record.journal.flush()
 
@@ -328,7 +341,7 @@ class _Demo:
         messages = self._supervisor.obey()
         while self._looks_at <= self._moment:
             self._looks_at += self._second
-            messages = [*messages, *self._supervisor.pass_stuck_robots()]
+            messages = [*messages, *self._supervisor.take_turn()]
         is_asked = self._supervisor.has_answers
         if messages or is_asked:
             self._exchange(self._end.make_letters(messages))
@@ -365,9 +378,9 @@ class _Demo:
 
     @property
     def _is_as_planned(self) -> bool:
-        """Whether people have not changed what robots were to do."""
+        """Whether robots have done what they were to do, and people have not changed it."""
         name = self._plan.scenario.roadmap.name
-        return not any(
+        return self._control.is_done and not any(
             own.is_off
             or own.route.end != len(track)
             or own.route.places != tuple(map(name, track.vertices.tolist()))[own.route.first :]

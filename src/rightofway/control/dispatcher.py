@@ -12,11 +12,12 @@ from dataclasses import replace
 from functools import cache
 from itertools import pairwise
 
+from rightofway.control.clocked_closures import ClockedClosures, Closed
 from rightofway.control.commitments import StopToMake, find_last_open, list_stops_to_make
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.journal import Entry
 from rightofway.control.laps import LapsToDrive, build_graph_behind_released
-from rightofway.control.ledger import Ledger
+from rightofway.control.ledger import Edge, Ledger
 from rightofway.control.messages import Message
 from rightofway.control.releases import list_strayed_to
 from rightofway.control.rest import RestPlanner
@@ -58,6 +59,8 @@ class Dispatcher:
     ----------
     control, plan
         As given.
+    closures
+        The closures of the scenario, if it has any; `keep_closures` sets them.
     report
         Receives a sentence when no plan of the rest is found, and when one is found again; a
         supervisor sets it. A command that is refused for this reason has the answer instead.
@@ -83,6 +86,8 @@ class Dispatcher:
         self._has_failed = False  # no plan of the rest was found, and that was reported
         self._tries_in = self._patience  # calls of `pass_stuck` until the next try
         self._is_new = True  # `pass_stuck` was not called since the start
+        self.closures: ClockedClosures | None = None
+        self._planned_round = set[Edge]()  # what closures closed when the rest was planned
         control.dispatch, control.may_drive = self._dispatch, cache(self._may_drive)
 
     @property
@@ -136,7 +141,7 @@ class Dispatcher:
             # They set out without the work with which their lap begins.
         planned = [own.route.end - 1 for own in robots]
         messages = self.control.splice(routes, self._build_graph(routes))
-        closed = self.ledger.closed_edges
+        closed = self._list_closed_edges()
         if closed and any(not closed.isdisjoint(pairwise(route.places)) for route in routes):
             try:
                 messages += self._plan_behind(planned)
@@ -155,7 +160,7 @@ class Dispatcher:
             [*missed.get(robot, ()), *list_stops_to_make(own, end)]
             for robot, (own, end) in enumerate(zip(robots, committed, strict=True))
         ]
-        closed = self.ledger.closed_edges
+        closed = self._list_closed_edges()
         return self.control.splice(
             *self._rest.plan(robots, committed, stops, closed, [*self._passed])
         )
@@ -172,7 +177,7 @@ class Dispatcher:
         If all was planned again with each lap, a robot could be planned behind the others' laps
         each time, and never get there. What was planned before ends with the visits ``planned``.
         """
-        robots, closed = self.ledger.robots, self.ledger.closed_edges
+        robots, closed = self.ledger.robots, self._list_closed_edges()
         ends = [
             own.released if robot in self._passed else find_last_open(own, last, closed)
             for robot, (own, last) in enumerate(zip(robots, planned, strict=True))
@@ -246,10 +251,16 @@ class Dispatcher:
         for robot, own in placed.items():
             released[robot] = own.released
         stuck = [robot for robot in self._passed if robot not in placed]
-        routes, graph = self._rest.plan(robots, released, stops, ledger.closed_edges, stuck)
+        closed = self._list_closed_edges()
+        routes, graph = self._rest.plan(robots, released, stops, closed, stuck)
         return self.control.splice(
             routes, graph, withdrawn=withdrawn, notes=notes, placed=[*placed]
         )
+
+    def _list_closed_edges(self) -> set[Edge]:
+        """Return the edges that nobody may enter now, by people and by the scenario."""
+        self._planned_round = self.closures.list_closed_edges() if self.closures else set()
+        return self.ledger.closed_edges | self._planned_round
 
     def switch(self) -> list[Message]:
         """Switch rights of way where robots have come so far that another order is better.
@@ -261,6 +272,40 @@ class Dispatcher:
             ledger.robots, control.list_committed(), control.list_stuck()
         )
         return control.splice(*better) if better else []
+
+    # --- closures of the scenario ----------------------------------------------------------------
+
+    def keep_closures(self, read_ticks: Callable[[], int]) -> None:
+        """Keep the closures of the scenario from now on; then call `follow_closures` every second.
+
+        Parameters
+        ----------
+        read_ticks
+            Returns the time since the run began [ticks].
+        """
+        if self.plan.scenario.closures:
+            self.closures = ClockedClosures(self.plan.scenario, read_ticks)
+            self.control.may_enter = lambda robot, part: self.find_closed(robot, part) is None
+
+    def find_closed(self, robot: int, part: int) -> Closed | None:
+        """Return when a closure of the scenario keeps a robot from a part; None if none does."""
+        if self.closures is None:
+            return None
+        return self.closures.find_closed(robot, self.ledger.robots[robot], part)
+
+    def follow_closures(self) -> list[Message]:
+        """Release what closures of the scenario have kept back.
+
+        The plan has its times and ways from them. The rest is replanned where one without an end
+        begins, and where one ends that it was planned round.
+        """
+        if self.closures is None:
+            return []
+        closed, planned_round = self.closures.list_closed_edges(), self._planned_round
+        for_good = self.closures.list_closed_edges(forever=True) - planned_round
+        if self._leads_over(for_good) or not planned_round <= closed:
+            return self.replan_if_possible() or []
+        return self.control.note()
 
     # --- robots that do not go on ----------------------------------------------------------------
 
@@ -274,7 +319,7 @@ class Dispatcher:
         if self._is_new:
             self._is_new = False
             self.report("", True)  # what had failed before a start is not known
-            if self._leads_over_closed():
+            if self._leads_over(self.ledger.closed_edges):
                 return self.replan_if_possible() or []
         self._stuck_for = {k: self._stuck_for.get(k, 0) + 1 for k in self.control.list_stuck()}
         long = frozenset(k for k, times in self._stuck_for.items() if times >= self._patience)
@@ -299,11 +344,10 @@ class Dispatcher:
         """Plan the rest as things are now; where that is not possible, report it, return None."""
         return self._try(self.replan)
 
-    def _leads_over_closed(self) -> bool:
-        """Return whether a robot has a way before it over what is closed."""
-        closed = self.ledger.closed_edges
+    def _leads_over(self, closed: Collection[Edge]) -> bool:
+        """Return whether the way of a robot leads over edges, behind what is released."""
         return bool(closed) and any(
-            not closed.isdisjoint(pairwise(own.route.stretch(own.released, own.route.end)))
+            not set(closed).isdisjoint(pairwise(own.route.stretch(own.released, own.route.end)))
             for own in self.ledger.robots
         )
 

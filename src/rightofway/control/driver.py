@@ -74,6 +74,9 @@ class Driver:
         Receives each sentence of the story, and what is wrong.
     metrics
         Counts messages and robots, if that is wanted.
+    began
+        When the run began, as the clock of the machine has it [s]: closures of the scenario count
+        from then on; None for now.
 
     Raises
     ------
@@ -93,6 +96,7 @@ class Driver:
         switch: bool = False,
         report: Callable[[str], None],
         metrics: FleetMetrics | None = None,
+        began: float | None = None,
     ) -> None:
         names = [robot.name for robot in plan.scenario.robots]
         maps = make_order_maps(plan.scenario, identities)
@@ -102,7 +106,11 @@ class Driver:
         self.control = FleetControl(self._journal, report=notices.report_on)
         repeated = None if laps is None else LapsToDrive(plan, laps)
         self._dispatcher = dispatcher = Dispatcher(self.control, plan, repeated)
-        self._supervisor = Supervisor(dispatcher, notices, commands)
+        self._began = time.time() if began is None else began
+        tick = float(plan.scenario.problem.clock.tick * (plan.scenario.units.seconds or 1))
+        self._supervisor = Supervisor(
+            dispatcher, notices, lambda: int((time.time() - self._began) / tick), commands
+        )
         self.operator, self._switches = self._supervisor.operator, switch
         ledger, digest = self.control.ledger, _digest(plan, maps)
         if not ledger.run:
@@ -208,8 +216,8 @@ class Driver:
             self._news.set()
 
     def _obey(self) -> list[Letter]:
-        """Pass robots that are stuck, switch rights of way, and carry out commands."""
-        changes = self._supervisor.pass_stuck_robots()
+        """Keep closures, pass robots that are stuck, switch rights of way, carry out commands."""
+        changes = self._supervisor.take_turn()
         if self._switches:
             changes = [*changes, *self._dispatcher.switch()]
         return self.end.make_letters([*changes, *self._supervisor.obey()])

@@ -76,6 +76,9 @@ class FleetControl:
     may_drive
         Tells of each robot whether it may drive from a vertex to another one, by their names; a
         dispatcher, which knows the map, sets it.
+    may_enter
+        Tells of a robot whether a part of its route may be released, if all before it is; a
+        dispatcher, which knows the closures of the scenario, sets it.
     """
 
     def __init__(
@@ -97,6 +100,7 @@ class FleetControl:
         self._just_sent = set[int]()  # robots that the next reminder leaves out
         self.dispatch: Callable[[], list[Message]] = list
         self.may_drive: Callable[[int, str, str], bool] = lambda *_: True
+        self.may_enter: Callable[[int, int], bool] = lambda *_: True
         self._since_snapshot = 0
         for entry in journal.read_entries():
             self.ledger.apply(entry)
@@ -385,7 +389,8 @@ class FleetControl:
         """Return an update with all that may be released now, if there is any."""
         if not self.is_fit(robot):
             return None
-        end = find_last_part(self.ledger, robot, self._count_ahead(robot), self._is_in_base)
+        ahead = self._count_ahead(robot)
+        end = find_last_part(self.ledger, robot, ahead, self._is_in_base, self.may_enter)
         if end == own.released:
             return None
         # All that was released to it is driven and acknowledged, so it stands without an order.

@@ -126,6 +126,11 @@ class SqliteJournal:
         last = self._database.execute("SELECT max(number) FROM snapshots").fetchone()[0]
         return self._entries(last or 0)
 
+    def read_begin(self) -> float | None:
+        """Return the moment of the first entry of the run [s]; None if none is known."""
+        began: float | None = _find_begin(self._database).get("began")
+        return began
+
     def read_history(self) -> Iterator[Entry]:
         """Yield all entries that are still kept, in their order."""
         return self._entries(0)

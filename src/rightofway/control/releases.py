@@ -20,6 +20,7 @@ def find_last_part(
     robot: int,
     ahead: int,
     is_in_base: Callable[[RobotLedger, int], bool],
+    may_enter: Callable[[int, int], bool],
 ) -> int:
     """Return the last part that may be released now; that which is released if none may.
 
@@ -33,6 +34,8 @@ def find_last_part(
         How many parts beyond the vertex last arrived at may be released.
     is_in_base
         Tells whether a robot holds the vertex of a part already.
+    may_enter
+        Tells of a robot whether nothing else keeps it from a part, if all before it is released.
     """
     own, end = ledger.robots[robot], ledger.robots[robot].released
     if own.is_on_hold or own.fault is not None:
@@ -45,6 +48,7 @@ def find_last_part(
         and ledger.graph.may_go(Part(robot, end + 1), arrived := arrived or ledger.arrived)
         and find_closed(ledger, route.get_place(end), route.get_place(end + 1)) is None
         and not list_strayed_to(ledger, route.get_place(end + 1))
+        and may_enter(robot, end + 1)
     ):
         end += 1
     return end

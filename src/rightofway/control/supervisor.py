@@ -1,15 +1,20 @@
-"""What a control does on its own and for people: passes stuck robots, carries out commands.
+"""What a control does on its own and for people: keeps closures, passes stuck robots, obeys.
 
 A control at a broker and one of simulated robots share it; each calls it at its own pace.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from rightofway.control.commands import Answer, Commands, say_answer
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.messages import Message
 from rightofway.control.notices import Notices
 from rightofway.control.operator import Operator
+from rightofway.model import NEVER
+from rightofway.precedence import Part
+from rightofway.report.driving import waits_for_closure
 
 __all__ = ["Supervisor"]
 
@@ -26,6 +31,8 @@ class Supervisor:
         The work of robots.
     notices
         What people are told.
+    read_ticks
+        Returns the time since the run began [ticks].
     commands
         Where people ask for more: jobs, closures, holds; None where nobody can.
 
@@ -36,19 +43,50 @@ class Supervisor:
     """
 
     def __init__(
-        self, dispatcher: Dispatcher, notices: Notices, commands: Commands | None = None
+        self,
+        dispatcher: Dispatcher,
+        notices: Notices,
+        read_ticks: Callable[[], int],
+        commands: Commands | None = None,
     ) -> None:
         self._dispatcher, self._notices, self._commands = dispatcher, notices, commands
         self.operator = Operator(dispatcher)
         self._answers: list[tuple[int, Answer]] = []  # to commands, once all is on the disk
+        self._told = dict[int, int]()  # of each robot, the last part that a closure kept it from
         dispatcher.report = self._report_replanning
+        dispatcher.keep_closures(read_ticks)
 
     def _report_replanning(self, sentence: str, is_over: bool) -> None:
         self._notices.report(sentence, PLAN, is_over=is_over)
 
-    def pass_stuck_robots(self) -> list[Message]:
-        """Return what is to be sent because robots do not go on; call it every second."""
-        return self._dispatcher.pass_stuck()
+    def take_turn(self) -> list[Message]:
+        """Return what is to be sent because time has passed; call it every second."""
+        messages = [*self._dispatcher.follow_closures(), *self._dispatcher.pass_stuck()]
+        self.tell_closures()
+        return messages
+
+    def tell_closures(self) -> None:
+        """Report robots that nothing keeps from going on but closures of the scenario."""
+        if self._dispatcher.closures is None:
+            return
+        ledger = self._dispatcher.ledger
+        format_moment = self._dispatcher.plan.scenario.quantities.format_moment
+        for robot, own in enumerate(ledger.robots):
+            part, route = own.released + 1, own.route
+            is_at_end = own.arrived == own.released and own.finished.issuperset(
+                route.get_jobs(own.arrived)
+            )
+            if part == route.end or own.is_off or not is_at_end or self._told.get(robot) == part:
+                continue
+            if not ledger.graph.may_go(Part(robot, part), ledger.arrived):
+                continue
+            if (closed := self._dispatcher.find_closed(robot, part)) is None:
+                continue
+            self._told[robot] = part
+            end = None if closed.end == NEVER else format_moment(closed.end)
+            place, head = route.get_place(own.arrived), route.get_place(part)
+            sentence = waits_for_closure(place, head, format_moment(closed.begin), end)
+            self._notices.report_on(robot, sentence)
 
     def obey(self) -> list[Message]:
         """Carry out what people have asked for; return what is to be sent."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from functools import cache, lru_cache
 
 from rightofway.control.endpoints import RobotEnd
@@ -25,6 +26,9 @@ class Durations:
     def __init__(
         self, plan: Plan, delays: str | Iterable[str], seed: int, laps: LapsToDrive | None
     ) -> None:
+        # Who waits for a closure is decided as robots drive; it makes nothing take longer.
+        scenario, clock = plan.scenario, plan.scenario.problem.clock
+        plan = replace(plan, scenario=replace(scenario, closures=(), clock=clock))
         self._plan, self._delays, self._seed, self._laps = plan, delays, seed, laps
         self._routes, self._roadmap = make_routes_to_drive(plan), plan.scenario.roadmap
         self.round = lru_cache(maxsize=4)(self._round)

@@ -19,6 +19,7 @@ __all__ = [
     "is_open",
     "say_start",
     "sets_out",
+    "waits_for_closure",
     "waits_until",
 ]
 
@@ -80,6 +81,24 @@ def is_open(names: Sequence[str]) -> Phrase:
     if len(names) == 1:
         return Phrase("{place} is open", place=names[0])
     return Phrase("the lane between {place} and {other} is open", place=names[0], other=names[-1])
+
+
+def waits_for_closure(place: str, head: str, begin: str, end: str | None) -> Phrase:
+    """Return the predicate that a robot waits, because the way before it is closed by the clock."""
+    if end is None:
+        return Phrase(
+            "waits at {place}: the way to {head} is closed from {begin} on",
+            place=place,
+            head=head,
+            begin=begin,
+        )
+    return Phrase(
+        "waits at {place}: the way to {head} is closed from {begin} to {end}",
+        place=place,
+        head=head,
+        begin=begin,
+        end=end,
+    )
 
 
 def finishes_work(robot: str, place: str, done: int, jobs: int) -> Phrase:
