@@ -46,6 +46,7 @@ SLOW = (
     "studio/test_plans_page.py",  # a browser
     "studio/test_robots_table.py",  # a browser
     "studio/test_runs.py",  # plans
+    "studio/test_sizes.py",  # a browser
     "studio/test_stories.py",  # a browser
     "studio/test_streams.py",  # a browser
     "studio/test_studies_page.py",  # a browser

@@ -1,0 +1,80 @@
+"""The page in windows of every size: whatever a large window offers, a small one offers, too."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.builders.browsers import needs_browser
+from tests.builders.drawing import StudioPage, studio_page
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+    from tests.builders.studios import Client
+
+pytestmark = needs_browser
+
+LARGE = (1280, 800)
+SIZES = [(320, 480), (390, 844), (640, 400), (844, 390), (1024, 500), (1280, 520), (1366, 480)]
+
+REACHED = """() => {
+  const found = new Set();
+  for (const it of document.querySelectorAll("button, select, input, textarea, summary")) {
+    if (it.disabled || !it.checkVisibility()) continue;
+    it.scrollIntoView({ block: "center", inline: "center" });
+    const { left, top, width, height } = it.getBoundingClientRect();
+    const over = document.elementFromPoint(left + width / 2, top + height / 2);
+    const named = it.ariaLabel || it.textContent.trim() || it.labels?.[0]?.textContent.trim();
+    if (over && (it.contains(over) || over.contains(it))) found.add(named);
+  }
+  return [...found].filter(Boolean);
+}"""
+"""Names of all controls that a pointer reaches, perhaps after scrolling."""
+
+
+@pytest.fixture
+def studio(browser: Browser, site: Client) -> Iterator[StudioPage]:
+    """Return the page of a studio with a plan of a door."""
+    site.studio.file = "door.yaml"
+    with studio_page(browser, site) as studio:
+        studio.opened()
+        studio.tab("Plan")
+        studio.page.fill("#limit", "0.5")
+        studio.button("Plan").click()
+        studio.planned()
+        yield studio
+
+
+def list_reached(studio: StudioPage, size: tuple[int, int]) -> set[str]:
+    """Return the names of all controls that a pointer reaches in a window of a size."""
+    studio.page.set_viewport_size({"width": size[0], "height": size[1]})
+    studio.settle()
+    studio.painted()
+    assert studio.page.evaluate("document.documentElement.scrollWidth") <= size[0]
+    return set(studio.page.evaluate(REACHED))
+
+
+def test_all_that_a_large_window_offers_is_reached_in_a_small_one(studio: StudioPage) -> None:
+    for tab in ("Plan", "Robots", "Map"):
+        studio.tab(tab)
+        offered = list_reached(studio, LARGE)
+        assert {"Files", "Save", "Language", "Help and keys", "Plan"} <= offered
+        for size in SIZES:
+            assert offered - list_reached(studio, size) == set(), (tab, size)
+
+
+def test_all_ways_to_begin_are_reached_in_a_small_window(studio: StudioPage) -> None:
+    studio.start()
+    offered = list_reached(studio, LARGE)
+    assert {"Create the floor", "Choose files", "Language"} <= offered
+    for size in SIZES:
+        assert offered - list_reached(studio, size) == set(), size
+
+
+def test_help_can_be_read_and_closed_in_a_small_window(studio: StudioPage) -> None:
+    studio.button("Help and keys").click()
+    for size in SIZES:
+        assert "Close" in list_reached(studio, size), size
