@@ -42,7 +42,7 @@ def test_the_panel_says_first_that_a_plan_must_not_be_run(faulty: StudioPage) ->
     panel = faulty.page.get_by_role("tabpanel")
     caption = panel.get_by_role("figure")
     caption.get_by_text("waits only").wait_for()
-    assert "sum of arrivals" not in caption.inner_text()  # its times are worth nothing
+    assert "flowtime" not in caption.inner_text()  # its times are worth nothing
     status = faulty.page.get_by_label("Map", exact=True).locator("xpath=..").get_by_role("status")
     status.get_by_text(VERDICT).wait_for()
 
@@ -71,7 +71,7 @@ def test_list_comparison_and_what_if_name_the_faults(faulty: StudioPage) -> None
     figures = page.get_by_role("region", name="Compared").get_by_role("table").first
     faults = figures.get_by_role("row").filter(has_text="Faults")
     faults.get_by_text(VERDICT).wait_for()
-    arrivals = figures.get_by_role("row").filter(has_text="Sum of arrivals")
+    arrivals = figures.get_by_role("row").filter(has_text="Flowtime")
     assert "best" not in arrivals.get_by_role("cell").first.inner_text()
 
 

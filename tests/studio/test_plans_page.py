@@ -382,7 +382,7 @@ def test_the_curve_has_axes_and_says_the_same_in_words(opened: Opener) -> None:
     said = plot.get_attribute("aria-label") or ""
     assert f"from {first} at" in said
     assert f"to {best} at" in said
-    assert f"each alone {run['figures']['lower_bound']}" in said
+    assert f"lower bound {run['figures']['lower_bound']}" in said
     assert studio.text(".plot .label >> nth=0") == str(first)
     assert studio.text(".seconds.last").endswith(" s")
 

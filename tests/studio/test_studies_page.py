@@ -195,7 +195,7 @@ def test_delays_show_their_spread_and_replay_any_run(studio: StudioPage) -> None
     rank.press("Home")
     assert sum(arrivals(studio)) == report["ranks"]["flowtime"][0]
     best = report["ranks"]["run"][0]
-    assert f"Run {best}: sum of arrivals" in str(rank.get_attribute("aria-valuetext"))
+    assert f"Run {best}: flowtime" in str(rank.get_attribute("aria-valuetext"))
     picture = studio.page.locator(".spread svg")
     box = picture.bounding_box()
     assert box is not None

@@ -122,10 +122,10 @@ def test_all_maps_show_the_same_moment(many: Player) -> None:
 
 def test_a_table_has_the_figures_and_marks_the_best(both: Player) -> None:
     found = figures(both)
-    assert found["Sum of arrivals"] == ["19 (the best)", "20"]
-    assert found["Last arrival"] == ["10 (the best)", "11"]
-    assert found["Each alone"] == ["18", "18"]
-    assert found["Extra"] == ["5.6% (the best)", "11.1%"]
+    assert found["Flowtime"] == ["19 (the best)", "20"]
+    assert found["Makespan"] == ["10 (the best)", "11"]
+    assert found["Lower bound"] == ["18", "18"]
+    assert found["Gap"] == ["5.6% (the best)", "11.1%"]
     assert found["Planner"] == ["two-level", "two-level"]
 
 

@@ -45,7 +45,7 @@ COLUMNS = (
     Column("message", "text", "what the planner did, or what went wrong"),
     Column("flowtime", "int", "sum of the completion times [ticks]"),
     Column("makespan", "int", "the latest completion time [ticks]"),
-    Column("lower_bound", "int", "no flowtime is smaller [ticks]"),
+    Column("lower_bound", "int", "flowtime of the robots alone [ticks]"),
     Column("ratio", "float", "flowtime / lower bound"),
     Column("tick", "text", "how long a tick is [time unit]"),
     Column("first_plan_seconds", "float", "until there was a first plan, not yet judged [s]"),

@@ -7,7 +7,6 @@ the process that waits for the outcome closes standard input, this process ends.
 from __future__ import annotations
 
 import json
-import math
 import os
 import pickle
 import sys
@@ -76,8 +75,8 @@ def _judged(plan: Plan) -> dict[str, Any]:
         **_ended("solved", plan.run.status, valid=True),
         "flowtime": int(metrics.flowtime),
         "makespan": int(metrics.makespan),
-        "lower_bound": int(metrics.lower_bound),
-        "ratio": round(1 + metrics.gap, 6) if math.isfinite(metrics.gap) else None,
+        "lower_bound": int(metrics.flowtime_alone),
+        "ratio": round(metrics.flowtime / alone, 6) if (alone := metrics.flowtime_alone) else None,
         "tick": str(plan.scenario.problem.clock.tick),
         "figures": json.dumps(figures),
         "first_plan_seconds": None if first is None else round(first, 6),

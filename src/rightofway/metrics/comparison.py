@@ -81,6 +81,7 @@ class Comparison:
             "flowtime": metrics.flowtime,
             "makespan": metrics.makespan,
             "lower_bound": metrics.lower_bound,
+            "alone": metrics.flowtime_alone,
         }
         gap = metrics.gap if metrics.lower_bound else None
         return {

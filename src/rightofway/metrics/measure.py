@@ -1,4 +1,4 @@
-"""The numbers that plans are compared by."""
+"""Cost metrics of plans, and the lower bound of the flowtime."""
 
 from __future__ import annotations
 
@@ -7,13 +7,17 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from rightofway.metrics.alone import compute_alone_completions
-from rightofway.model import Plan, Tick
+from rightofway.model import Objective, Outcome, OutcomeKind, Plan, Proof, Tick
 from rightofway.model.given import require_plan
+from rightofway.model.outcome import classify_cost
+
+WITHOUT_PLAN = {OutcomeKind.NO_PLAN_EXISTS, OutcomeKind.GAVE_UP}
+"""Outcomes of a run whose tracks are no plan."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Metrics:
-    """What a plan costs, and what it must cost at least.
+    """Costs of a plan, and their lower bound.
 
     Attributes
     ----------
@@ -22,7 +26,8 @@ class Metrics:
     makespan
         The latest completion time [ticks].
     lower_bound
-        Sum of the shortest completion times alone: no plan has a smaller flowtime [ticks].
+        No plan has a smaller flowtime [ticks]: the sum of ``alone``, or what the planner has proven
+        if that is more.
     waiting
         The sum of all times that robots stand still without work [ticks].
     moves
@@ -51,7 +56,12 @@ class Metrics:
     @property
     def detours(self) -> Tick:
         """How much longer the routes are than the shortest, without waiting [ticks]."""
-        return Tick(self.flowtime - self.lower_bound - self.waiting)
+        return Tick(self.flowtime - self.flowtime_alone - self.waiting)
+
+    @property
+    def flowtime_alone(self) -> Tick:
+        """The sum of the completion times of robots that drive alone [ticks]."""
+        return Tick(sum(self.alone))
 
     def as_dict(self) -> dict[str, Any]:
         """Return the attributes by name, as files keep them: integers and lists of integers."""
@@ -77,14 +87,33 @@ def measure(plan: Plan) -> Metrics:
     return require_plan(plan).compute_once("metrics", lambda: _measured(plan))
 
 
+def get_own_outcome(plan: Plan) -> Outcome | None:
+    """Return what the planner of a plan has proven; None where the plan itself refutes it.
+
+    Files can be changed: a plan below the bound of its outcome refutes it.
+    """
+    outcome = plan.run.outcome
+    if outcome is None or outcome.bound is None or outcome.kind in WITHOUT_PLAN:
+        return None
+    cost = plan.compute_value(outcome.objective)
+    proof = Proof(bound=outcome.bound, objective=outcome.objective, factor=outcome.factor)
+    # A plan with swaps proves nothing, so it may be called best found where it is at its bound.
+    is_careful = outcome.kind is OutcomeKind.BEST_FOUND
+    is_true = cost >= outcome.bound and (is_careful or classify_cost(cost, proof) == outcome)
+    return outcome if is_true else None
+
+
 def _measured(plan: Plan) -> Metrics:
     stays = plan.stays
     completions = tuple(stay.completion for stay in stays)
     alone = plan.run.alone or compute_alone_completions(plan.scenario)
+    outcome, bound = get_own_outcome(plan), Tick(sum(alone))
+    if outcome and outcome.objective is Objective.FLOWTIME and outcome.bound is not None:
+        bound = max(bound, outcome.bound)
     return Metrics(
         flowtime=Tick(sum(completions)),
         makespan=max(completions),
-        lower_bound=Tick(sum(alone)),
+        lower_bound=bound,
         waiting=Tick(sum(int(stay.waits.sum()) for stay in stays)),
         moves=sum(len(track) - 1 for track in plan.tracks),
         completions=completions,

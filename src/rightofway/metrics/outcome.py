@@ -1,10 +1,10 @@
-"""What is proven of a plan, also of one whose maker does not say."""
+"""Proven bounds of plans, also of plans without an outcome of their own."""
 
 from __future__ import annotations
 
 from rightofway.arguments import checks_arguments
-from rightofway.metrics.measure import measure
-from rightofway.model import Outcome, OutcomeKind, Plan, Proof
+from rightofway.metrics.measure import WITHOUT_PLAN, get_own_outcome, measure
+from rightofway.model import Outcome, Plan, Proof
 from rightofway.model.outcome import classify_cost
 
 
@@ -27,14 +27,10 @@ def derive_outcome(plan: Plan) -> Outcome:
     An outcome that the plan itself refutes, because it is below the bound, counts for nothing:
     files can be changed.
     """
-    said = plan.run.outcome
-    if said is not None and said.kind in {OutcomeKind.NO_PLAN_EXISTS, OutcomeKind.GAVE_UP}:
-        return said  # its tracks stand for no plan
-    if said is not None and said.bound is not None:
-        cost = plan.compute_value(said.objective)
-        proof = Proof(bound=said.bound, objective=said.objective, factor=said.factor)
-        is_careful = said.kind is OutcomeKind.BEST_FOUND  # a plan with swaps proves nothing
-        if cost >= said.bound and (is_careful or classify_cost(cost, proof) == said):
-            return said
+    outcome = plan.run.outcome
+    if outcome is not None and outcome.kind in WITHOUT_PLAN:
+        return outcome
+    if own := get_own_outcome(plan):
+        return own
     metrics = measure(plan)
-    return classify_cost(metrics.flowtime, Proof(bound=metrics.lower_bound))
+    return classify_cost(metrics.flowtime, Proof(bound=metrics.flowtime_alone))

@@ -12,13 +12,12 @@ from rightofway.metrics import (
     Metrics,
     compute_alone_completions,
     compute_lost_time,
-    derive_outcome,
     find_collisions,
     find_swaps,
     free_running,
     measure,
 )
-from rightofway.model import ForcedLoss, Loss, LostTime, Objective, Plan, Proof, Scenario
+from rightofway.model import ForcedLoss, Loss, LostTime, Plan, Proof, Scenario
 from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import Phrase, chain_items, join_items, say_count
 from rightofway.quantities import Quantities, format_decimal
@@ -101,7 +100,7 @@ def describe_planning(plan: Plan, quantities: Quantities) -> str:
     proven = describe_proof(plan)
     if proven:
         parts.append(proven)
-    if metrics.flowtime == metrics.lower_bound:
+    if metrics.flowtime == metrics.flowtime_alone:
         pass  # nothing was to be improved
     elif run.improvement is not None:
         parts.append(describe_improvement(run.improvement, quantities))
@@ -121,10 +120,7 @@ def describe_planning(plan: Plan, quantities: Quantities) -> str:
 
 
 def _flowtime(words: Words, metrics: Metrics) -> str:
-    outcome, flowtime = derive_outcome(words.plan), words.say_time(metrics.flowtime)
-    bound = int(metrics.lower_bound)
-    if outcome.objective is Objective.FLOWTIME and outcome.bound is not None:
-        bound = max(bound, outcome.bound)
+    flowtime, bound = words.say_time(metrics.flowtime), metrics.lower_bound
     if metrics.flowtime == bound:
         return Phrase("{flowtime}, the least possible", flowtime=flowtime)
     if not bound:
@@ -132,7 +128,7 @@ def _flowtime(words: Words, metrics: Metrics) -> str:
     return Phrase(
         "{flowtime}, {gap} above the lower bound of {bound}",
         flowtime=flowtime,
-        gap=f"{metrics.flowtime / bound - 1:.1%}",
+        gap=f"{metrics.gap:.1%}",
         bound=words.say_time(bound),
     )
 

@@ -96,7 +96,7 @@ def describe_proof(plan: Plan) -> str:
     """Return what is proven of a plan, beside its lower bound; empty if that is nothing."""
     outcome, metrics = derive_outcome(plan), measure(plan)
     if outcome.kind is OutcomeKind.OPTIMAL:
-        if metrics.flowtime == metrics.lower_bound:
+        if metrics.flowtime == metrics.flowtime_alone:
             return Phrase("optimal, no robot loses time")
         objective = OBJECTIVES[outcome.objective]
         return Phrase("optimal, no plan has a smaller {objective}", objective=objective)
@@ -105,10 +105,11 @@ def describe_proof(plan: Plan) -> str:
         return Phrase(
             "at most {factor} times the least {objective}", factor=factor, objective=objective
         )
-    says_more = outcome.objective not in {Objective.FLOWTIME, Objective.COST} or (
-        outcome.bound is not None and outcome.bound > metrics.lower_bound
+    # The flowtime is shown with its own bound; surcharges count where they raise it.
+    is_shown = outcome.objective is Objective.FLOWTIME or (
+        outcome.objective is Objective.COST and (outcome.bound or 0) <= metrics.flowtime_alone
     )
-    if outcome.kind is OutcomeKind.BEST_FOUND and outcome.bound and says_more:
+    if outcome.kind is OutcomeKind.BEST_FOUND and outcome.bound and not is_shown:
         cost = plan.compute_value(outcome.objective)
         return Phrase(
             "at most {gap} above the least {objective}",

@@ -73,6 +73,7 @@ export interface ComparedFigures {
   flowtime: number;
   makespan: number;
   lower_bound: number;
+  alone: number;
   text: FigureTexts;
   tick: [number, number];
   units: UnitNames;
@@ -244,6 +245,7 @@ export interface FigureTexts {
   flowtime: string;
   makespan: string;
   lower_bound: string;
+  alone: string;
   gap: string | null;
 }
 
@@ -477,6 +479,7 @@ export interface PlanFigures {
   flowtime: number;
   makespan: number;
   lower_bound: number;
+  alone: number;
   text: FigureTexts;
   tick: [number, number];
   units: UnitNames;

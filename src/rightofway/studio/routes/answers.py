@@ -195,6 +195,7 @@ class FigureTexts(TypedDict):
     flowtime: str
     makespan: str
     lower_bound: str
+    alone: str
     gap: str | None
 
 
@@ -211,6 +212,7 @@ class PlanFigures(TypedDict):
     flowtime: int
     makespan: int
     lower_bound: int
+    alone: int
     text: FigureTexts
     tick: Ratio
     units: UnitNames

@@ -176,6 +176,7 @@ def compute_figures(plan: Plan) -> dict[str, Any]:
         "flowtime": metrics.flowtime,
         "makespan": metrics.makespan,
         "lower_bound": metrics.lower_bound,
+        "alone": metrics.flowtime_alone,
     }
     text = {key: duration(ticks) for key, ticks in costs.items()}
     text["gap"] = f"{metrics.gap:.1%}" if metrics.lower_bound else ""

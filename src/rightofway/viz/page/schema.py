@@ -336,6 +336,7 @@ class FiguresText(TypedDict):
     flowtime: str
     makespan: str
     lower_bound: str
+    alone: str
     gap: str
     seconds: str
 
@@ -349,6 +350,7 @@ class ComparedPlan(TypedDict):
     flowtime: int
     makespan: int
     lower_bound: int
+    alone: int
     gap: float | None
     robots: int
     faults: int

@@ -128,14 +128,14 @@ def _figures(plan: Plan) -> Iterator[tuple[str, str]]:
     quantities, count = plan.scenario.quantities, len(plan.tracks)
     yield "planner", f"{plan.run.name}: {plan.run.status}"
     yield "robots", str(count)
-    yield "all done after", quantities.format_duration(plan.makespan)
-    yield "sum of completion times", quantities.format_duration(plan.flowtime)
+    yield "flowtime", quantities.format_duration(plan.flowtime)
+    yield "makespan", quantities.format_duration(plan.makespan)
     try:
         metrics = measure(plan)
     except NoPlanExists:
         return
     bound = quantities.format_duration(metrics.lower_bound)
-    yield "no plan takes less than", f"{bound}; this one takes {metrics.gap:.1%} more"
+    yield "lower bound of the flowtime", f"{bound}; this plan is {metrics.gap:.1%} above it"
     yield "waiting in all", quantities.format_duration(metrics.waiting)
 
 

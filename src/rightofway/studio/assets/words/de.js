@@ -226,18 +226,17 @@ export const GERMAN = {
   options: "Optionen",
   stop: "Stopp, besten behalten",
   live: "Bei jeder Änderung neu planen",
-  flowtime: "Summe der Ankünfte",
-  makespan: "letzte Ankunft",
-  bound: "jeder allein",
-  gap: "Aufschlag",
+  flowtime: "Zeitsumme",
+  makespan: "Gesamtdauer",
+  bound: "untere Schranke",
+  gap: "Abstand",
   terms: {
     flowtime: "Zeitsumme (flowtime): die Summe der Zeiten, zu denen die Roboter fertig sind",
     makespan: "Gesamtdauer (makespan): wann der letzte Roboter fertig ist",
-    bound:
-      "Untere Schranke: die Summe der Ankünfte, wenn jeder Roboter allein führe; kein Plan liegt darunter",
-    gap: "Abstand: wie weit die Summe der Ankünfte über der von Robotern liegt, die allein fahren",
+    bound: "Untere Schranke der Zeitsumme, soweit bewiesen; kein Plan liegt darunter",
+    gap: "Abstand: wie weit die Zeitsumme über der unteren Schranke liegt",
   },
-  curve: "Summe der Ankünfte im Verlauf der Suche",
+  curve: "Zeitsumme im Verlauf der Suche",
   curveOf: (number, first, start, best, end) =>
     first === best
       ? `Plan ${number}: ${best} ab ${start} s`
@@ -369,7 +368,7 @@ export const GERMAN = {
   plannedSum: (time) => `geplant ${time}`,
   runByRank: "Ein Lauf, vom besten bis zum schlechtesten",
   runSays: (run, flowtime, share) =>
-    `Lauf ${run}: Summe der Ankünfte ${flowtime}; ${share} % der Läufe sind besser.`,
+    `Lauf ${run}: Zeitsumme ${flowtime}; ${share} % der Läufe sind besser.`,
   runNeverEnds: (run) => `Lauf ${run}: Ein Roboter kommt nie an.`,
   runsNeverEnd: (count, all) => `In ${count} von ${all} Läufen kommt ein Roboter nie an.`,
   best: "Bester",
@@ -380,8 +379,7 @@ export const GERMAN = {
   suffersMost: "Am stärksten betroffen",
   suffers: (p95, own, behind, waits) =>
     `${own} selbst verursacht${behind ? `, ${waits} hinter ${behind}` : ""}; in 95 % der Läufe höchstens ${p95}`,
-  spread: (from, to, planned) =>
-    `Summe der Ankünfte der Läufe: ${from} bis ${to}; geplant: ${planned}`,
+  spread: (from, to, planned) => `Zeitsumme der Läufe: ${from} bis ${to}; geplant: ${planned}`,
   waits: "Wer wartet, und warum",
   waitsOf: (name) => `Warum ${name} wartet`,
   noWaits: "Kein Roboter wartet auf einen anderen.",

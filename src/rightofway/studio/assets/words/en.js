@@ -220,17 +220,17 @@ export const ENGLISH = {
   options: "Options",
   stop: "Stop, keep the best",
   live: "Plan again at each change",
-  flowtime: "sum of arrivals",
-  makespan: "last arrival",
-  bound: "each alone",
-  gap: "extra",
+  flowtime: "flowtime",
+  makespan: "makespan",
+  bound: "lower bound",
+  gap: "gap",
   terms: {
     flowtime: "Flowtime: the sum of the times at which the robots are done",
     makespan: "Makespan: when the last robot is done",
-    bound: "Lower bound: the sum of arrivals if each robot drove alone; no plan is below it",
-    gap: "Gap: how far the sum of arrivals is above that of robots that drive alone",
+    bound: "Lower bound of the flowtime, as far as proven: no plan is below it",
+    gap: "Gap: how far the flowtime is above the lower bound",
   },
-  curve: "Sum of arrivals while the search goes on",
+  curve: "Flowtime while the search goes on",
   curveOf: (
     /** @type {number} */ number,
     /** @type {string} */ first,
@@ -393,7 +393,7 @@ export const ENGLISH = {
     /** @type {number} */ run,
     /** @type {string} */ flowtime,
     /** @type {string | number} */ share,
-  ) => `Run ${run}: sum of arrivals ${flowtime}; ${share} % of the runs are better.`,
+  ) => `Run ${run}: flowtime ${flowtime}; ${share} % of the runs are better.`,
   runNeverEnds: (/** @type {number} */ run) => `Run ${run}: a robot never arrives.`,
   runsNeverEnd: (/** @type {number} */ count, /** @type {number} */ all) =>
     `In ${count} of ${all} runs a robot never arrives.`,
@@ -411,7 +411,7 @@ export const ENGLISH = {
   ) =>
     `${own} of its own${behind ? `, ${waits} behind ${behind}` : ""}; in 95 % of the runs at most ${p95}`,
   spread: (/** @type {string} */ from, /** @type {string} */ to, /** @type {string} */ planned) =>
-    `Sum of arrivals of the runs: ${from} to ${to}; planned: ${planned}`,
+    `Flowtime of the runs: ${from} to ${to}; planned: ${planned}`,
   waits: "Who waits, and why",
   waitsOf: (/** @type {string} */ name) => `Why ${name} waits`,
   noWaits: "No robot waits for another one.",

@@ -54,6 +54,7 @@ export interface ComparedPlan {
   flowtime: number;
   makespan: number;
   lower_bound: number;
+  alone: number;
   gap: number | null;
   robots: number;
   faults: number;
@@ -146,6 +147,7 @@ export interface FiguresText {
   flowtime: string;
   makespan: string;
   lower_bound: string;
+  alone: string;
   gap: string;
   seconds: string;
 }

@@ -215,7 +215,7 @@ export class Summary {
       ],
       [
         texts.timeLost,
-        both(({ flowtime, lower_bound: bound }) => flowtime - bound),
+        both(({ flowtime, alone }) => flowtime - alone),
         texts.timeLostAtLength,
       ],
       [texts.earlier, String(earlier), texts.earlierAtLength(title)],

@@ -177,8 +177,8 @@ export const GERMAN = {
   tick: "Zeitschritt",
   tickAtLength: (time) => `${time}, die Schrittweite, in der Zeiten gezählt werden`,
   explanation: [
-    "Die Zeitsumme ist die Summe der Zeiten, zu denen die Roboter fertig sind. Die untere Schranke ist dieselbe Summe, wenn jeder " +
-      "Roboter allein führe: Kein Plan hat eine kleinere Zeitsumme. Der Abstand sagt, wie weit die Zeitsumme dieses Plans über der unteren Schranke liegt.",
+    "Die Zeitsumme ist die Summe der Zeiten, zu denen die Roboter fertig sind. Kein Plan hat eine Zeitsumme " +
+      "unter der unteren Schranke; sie ist bewiesen, durch die Summe der Roboter, die allein fahren, oder durch eine Suche. Der Abstand sagt, wie weit die Zeitsumme dieses Plans über der unteren Schranke liegt.",
     "Die Gesamtdauer ist die Zeit, zu der der letzte Roboter fertig ist.",
   ],
 
@@ -270,10 +270,10 @@ export const GERMAN = {
     figures: {
       faults: "Fehler",
       planner: "Verfahren",
-      flowtime: "Summe der Ankünfte",
-      makespan: "Letzte Ankunft",
-      lower_bound: "Jeder allein",
-      gap: "Aufschlag",
+      flowtime: "Zeitsumme",
+      makespan: "Gesamtdauer",
+      lower_bound: "Untere Schranke",
+      gap: "Abstand",
       seconds: "Geplant in",
       seed: "Startwert",
       robots: "Roboter",
@@ -281,8 +281,8 @@ export const GERMAN = {
     terms: {
       flowtime: "Zeitsumme (flowtime): die Summe der Zeiten, zu denen die Roboter fertig sind",
       makespan: "Gesamtdauer (makespan): wann der letzte Roboter fertig ist",
-      lower_bound: "Untere Schranke: die Summe der Ankünfte, wenn jeder Roboter allein führe",
-      gap: "Abstand: wie weit die Summe der Ankünfte über der von Robotern liegt, die allein fahren",
+      lower_bound: "Untere Schranke der Zeitsumme, soweit bewiesen; kein Plan liegt darunter",
+      gap: "Abstand: wie weit die Zeitsumme über der unteren Schranke liegt",
     },
     isBest: "am besten",
     changes: (title, base) => `${title} gegenüber ${base}`,
@@ -309,7 +309,7 @@ export const GERMAN = {
     sortBy: (title) => `Nach ${title} sortieren: größte Änderung zuerst`,
     sortByName: "Nach Namen sortieren",
     firstAllAtLength: "Der Plan, dessen letzter Roboter zuerst ankommt",
-    least: "Kleinste Summe der Ankünfte",
+    least: "Kleinste Zeitsumme",
     leastAtLength: "Der Plan mit der kleinsten Summe der Zeiten aller Roboter",
   },
 

@@ -209,8 +209,8 @@ export const ENGLISH = {
   /** @param {string} time */
   tickAtLength: (time) => `${time}, the step in which times are counted`,
   explanation: [
-    "The flowtime is the sum of the times at which the robots are done. The lower bound is the same sum if each robot " +
-      "drove alone: no plan has a smaller flowtime. The gap is how far the flowtime of this plan is above the lower bound.",
+    "The flowtime is the sum of the times at which the robots are done. No plan has a flowtime below the lower " +
+      "bound, which is proven: by the sum of the robots that drive alone, or by a search. The gap is how far the flowtime of this plan is above the lower bound.",
     "The makespan is the time at which the last robot is done.",
   ],
 
@@ -330,10 +330,10 @@ export const ENGLISH = {
     figures: {
       faults: "Faults",
       planner: "Planner",
-      flowtime: "Sum of arrivals",
-      makespan: "Last arrival",
-      lower_bound: "Each alone",
-      gap: "Extra",
+      flowtime: "Flowtime",
+      makespan: "Makespan",
+      lower_bound: "Lower bound",
+      gap: "Gap",
       seconds: "Planned in",
       seed: "Seed",
       robots: "Robots",
@@ -341,9 +341,8 @@ export const ENGLISH = {
     terms: {
       flowtime: "Flowtime: the sum of the times at which the robots are done",
       makespan: "Makespan: when the last robot is done",
-      lower_bound:
-        "Lower bound: the sum of arrivals if each robot drove alone; no plan is below it",
-      gap: "Gap: how far the sum of arrivals is above that of robots that drive alone",
+      lower_bound: "Lower bound of the flowtime, as far as proven: no plan is below it",
+      gap: "Gap: how far the flowtime is above the lower bound",
     },
     isBest: "the best",
     /** @param {string} title @param {string} base */
@@ -372,7 +371,7 @@ export const ENGLISH = {
     sortBy: (title) => `Sort by ${title}: largest change first`,
     sortByName: "Sort by name",
     firstAllAtLength: "The plan whose last robot arrives first",
-    least: "Least sum of arrivals",
+    least: "Least flowtime",
     leastAtLength: "The plan with the smallest sum of the times of all robots",
   },
   /** @param {string} time */
