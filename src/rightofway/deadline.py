@@ -1,16 +1,18 @@
-"""When to stop, and a deadline for the work that goes into a scenario.
+"""When to stop, and a deadline for the work that goes into a scenario and its routes.
 
 A large file takes seconds to read, and its scenario derives what it needs when it is made. Both are
-done far below the command that has the time limit, so that `limit_work` hands the deadline down.
+done far below the command that has the time limit, so that `limit_work` hands the deadline down; so
+are the routes of laps.
 """
 
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
+from functools import partial
 from typing import TypeVar
 
 from rightofway.errors import GaveUp
@@ -82,9 +84,20 @@ def check_work(doing: str) -> None:
     _deadline.get().check(doing)
 
 
-def limit_loop(items: Iterable[T], doing: str) -> Iterator[T]:
-    """Yield items of a long loop; raise `GaveUp` between two of them if the time is over."""
+def make_check(doing: str) -> Callable[[], None]:
+    """Return a function that raises `GaveUp` if the time is over, for threads of a pool, too.
+
+    A thread has no context: its `check_work` knows no deadline.
+    """
+    return partial(_deadline.get().check, doing)
+
+
+def limit_loop(items: Iterable[T], doing: str, steps: int = STEPS_BETWEEN_LOOKS) -> Iterator[T]:
+    """Yield items of a long loop; raise `GaveUp` between two of them if the time is over.
+
+    The clock is looked at each ``steps`` items: fewer where an item takes long.
+    """
     for step, item in enumerate(items):
-        if step % STEPS_BETWEEN_LOOKS == 0:
+        if step % steps == 0:
             check_work(doing)
         yield item

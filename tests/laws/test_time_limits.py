@@ -20,7 +20,7 @@ import rightofway
 from rightofway import _core
 from rightofway.cyclic import find_best_timetable
 from rightofway.errors import NoPlanExists, RightOfWayError
-from rightofway.model import BookingRules, Lap, Plan, Scenario, Tick
+from rightofway.model import BookingRules, Lap, Plan, Rules, Scenario, Tick
 from rightofway.planners import find_all
 from rightofway.planners.flip import flip_right_of_way
 from rightofway.precedence import ActionDependencyGraph, DelayModel, TimedEventGraph
@@ -245,3 +245,16 @@ def test_what_follows_a_plan_ends_when_its_limit_is_over() -> None:
             rightofway.simulate(some, "stop:R1@3+50", runs=10**6, replan=True, time_limit=limit)
         with in_time(limit):
             flip_right_of_way(some, waits, goes_first, end, time_limit=limit)
+
+
+@pytest.mark.parametrize("limit", [0.05, 1])
+@pytest.mark.parametrize(("robots", "size"), [(30, 20), (90, 40), (150, 40), (800, 80)])
+def test_a_timetable_of_any_fleet_is_chosen_within_a_short_limit(
+    robots: int, size: int, limit: float
+) -> None:
+    """The effort for all robots of a large fleet is many times the limit."""
+    rules = Rules(occupancy="both")
+    scenario = random_fleet(1, size=size, robots=robots, walls=0, rules=rules, apart=True)
+    assert scenario.problem
+    with in_time(limit):
+        find_best_timetable(scenario, time_limit=limit)

@@ -312,7 +312,8 @@ class _SeamClosing:
     def connect_all(self) -> bool:
         """Connect robots by waits at home, or else by laps; return whether all are connected."""
         queue = deque(robot for robot in range(len(self._kept)) if not self._waits_at_home(robot))
-        while queue and self._searches < self._params.searches * len(self._kept):
+        most = self._params.searches * len(self._kept)
+        while queue and self._searches < most and not self._problem.is_out_of_time:
             self._searches += 1  # counts also without choices
             robot = queue.popleft()
             blocking = self._connect(robot, self._choices(robot))

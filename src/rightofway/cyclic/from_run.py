@@ -31,7 +31,7 @@ class RunChoiceParams:
     laps_dispersing: float = 1  # Preceding first-come simulation [longest laps].
     looks: int = 10  # Number of checks of the duration of a trial.
     good: Fraction = Fraction(1005, 1000)  # A run of baseline value times this ends the trials.
-    continuing_share: float = 0.9  # Share for continuing the best run before closing.
+    continuing_share: float = 0.8  # Share for continuing the best run before closing.
     slices: int = 4  # Number of parts of this share, each with a new choice.
     seam: float = 0.55  # Estimated loss of a closing [laps per robot].
     stretches_each: int = 2  # Attempted closings per simulation.
@@ -117,6 +117,10 @@ def choose_runs(
     loss = params.seam * float(problem.compute_worth([1] * len(problem)))
     reserve = (1 - params.continuing_share) * (deadline.measure_seconds_left() or 0)
 
+    def is_over() -> bool:
+        """Return whether only the time for a closing is left."""
+        return (deadline.measure_seconds_left() or 0) <= reserve
+
     def best() -> SimulatedRun:
         """Return the run with the largest estimated value after continuing and closing."""
         seconds = max((deadline.measure_seconds_left() or 0) - reserve, 0)
@@ -127,7 +131,9 @@ def choose_runs(
 
     for left in range(params.slices, 0, -1):
         run = best()
-        while run.value <= enough and (another := next(rest, None)):
+        if is_over():
+            break
+        while run.value <= enough and not is_over() and (another := next(rest, None)):
             tried.append(SimulatedRun(problem, *another, params))
             run = best()
         run.advance(max((deadline.measure_seconds_left() or 0) - reserve, 0) / left)
@@ -139,20 +145,17 @@ def extract_cycle(
 ) -> Candidate | None:
     """Return the timetable of a long stretch of a run; None without a fair closing.
 
-    At least one closing is completed, in a bounded number of steps, also after the deadline; and
-    one of each other run, if it fails.
+    A closing ends at the deadline: the best runs end early enough for one of them.
     """
     candidates: list[tuple[float, Stretch, int]] = []
     for number, run in enumerate(runs):
         some = find_stretches(problem, run)[: params.stretches_each]
         candidates += [(value, stretch, number) for value, stretch in some]
     candidates.sort(key=lambda candidate: candidate[:2], reverse=True)
-    failed = set[int]()
     for _, stretch, number in candidates[: params.most_stretches]:
-        if problem.is_out_of_time and number in failed:
-            continue
+        if problem.is_out_of_time:
+            break
         closed = close_stretch(problem, runs[number], stretch)
         if closed is not None and problem.accepts(closed):
             return closed
-        failed.add(number)
     return None

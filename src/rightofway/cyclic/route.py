@@ -12,10 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
+from rightofway.deadline import limit_loop, make_check
 from rightofway.errors import InputError, InputFault
 from rightofway.model import BookingRules, Lap, Robot, Route, Scenario, Tick, make_lap
 from rightofway.native import BookedRows, list_excluded
 from rightofway.planners.routing import (
+    ROUTING,
     clear_routes,
     find_direct_routes,
     find_shortest_route,
@@ -228,7 +230,7 @@ def _one_lap_each(scenario: Scenario) -> tuple[Scenario, Distances]:
     if faults:
         raise InputError(faults)
     once = replace(scenario, robots=tuple(replace(robot, laps=1) for robot in scenario.robots))
-    distances = Distances(once.roadmap)
+    distances = Distances(once.roadmap, checkpoint=make_check(ROUTING))
     itineraries = once.problem.itineraries
     distances.prepare(
         (stage.vertex, itinerary.edge_ticks)
@@ -298,7 +300,7 @@ def _repeated(once: Scenario, routes: Sequence[Route]) -> list[CyclicRoute]:
             lap=make_lap(once.roadmap, itineraries[robot], route),
             first_dwell=route.dwell[0],
         )
-        for robot, route in enumerate(routes)
+        for robot, route in limit_loop(enumerate(routes), ROUTING)
     ]
 
 
@@ -323,9 +325,9 @@ def avoid_homes(scenario: Scenario, routes: Sequence[Route]) -> list[Route]:
         rows = resources.list_rows_of_lap(roadmap, robot, avoiding[robot].vertices[:-1])
         return frozenset(np.concatenate(rows).tolist())
 
-    booked = [passed(robot) for robot in range(len(avoiding))]
+    booked = [passed(robot) for robot in limit_loop(range(len(avoiding)), ROUTING)]
     tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
-    for robot, itinerary in enumerate(itineraries):
+    for robot, itinerary in limit_loop(enumerate(itineraries), ROUTING, 8):
         met = {
             neighbour
             for row in owners.keys() & booked[robot]
@@ -366,7 +368,7 @@ def split_groups(scenario: Scenario, fleet: Sequence[CyclicRoute]) -> list[list[
         return index
 
     first_at: dict[int, int] = {}
-    laps = [make_lap_rows(scenario, route.robot, route.lap) for route in fleet]
+    laps = [make_lap_rows(scenario, route.robot, route.lap) for route in limit_loop(fleet, ROUTING)]
     booked = frozenset().union(*(lap.booked for lap in laps))
     excluded = frozenset().union(*(lap.excluded for lap in laps))
     for index, lap in enumerate(laps):

@@ -29,14 +29,19 @@ from rightofway.cyclic.route import (
 from rightofway.cyclic.rules import TIMETABLE
 from rightofway.cyclic.run import advance, make_simulation
 from rightofway.cyclic.startup import start
+from rightofway.deadline import limit_loop, limit_work
 from rightofway.errors import GaveUp, InputError, report_kernel_limits
 from rightofway.model import Scenario, Tick, require_time_limit
 from rightofway.model.given import require_functions, require_number, require_scenario, require_seed
 from rightofway.phrases import Phrase
 from rightofway.planners import Deadline
+from rightofway.planners.routing import ROUTING
 from rightofway.precedence import unroll_schedule
 from rightofway.search import Distances, RoundTrip
 from rightofway.values import list_of, read_at, read_number
+
+CLOSING = "closing a stretch of a simulation"
+"""What may take the time, for messages."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -126,8 +131,27 @@ def find_best_timetable(
     scenario = take_out_closed_places(scenario)
     if time_limit is None and rounds is None:
         raise InputError.at("rounds", "neither they nor the time are limited (limit one of them)")
-    deadline, params = Deadline.after(time_limit), ChoiceParams()
-    if n_robots > params.large:
+    deadline = Deadline.after(time_limit)
+    with limit_work(deadline):
+        results = _choose_all(
+            scenario, weights, least_fairness, deadline, rounds=rounds, seed=seed, report=report
+        )
+    return CyclicResult(scenario=scenario, rule=TIMETABLE, routes="chosen", groups=tuple(results))
+
+
+def _choose_all(
+    scenario: Scenario,
+    weights: tuple[Fraction, ...],
+    least_fairness: Fraction,
+    deadline: Deadline,
+    *,
+    rounds: int | None,
+    seed: int,
+    report: Callable[[str], None] | None,
+) -> list[GroupResult]:
+    """Choose a timetable for each independent group, or one for all robots."""
+    params = ChoiceParams()
+    if len(scenario.robots) > params.large:
         usual, others = clear_and_direct(scenario)
     else:
         usual, others = make_cyclic_routes(scenario), make_cyclic_routes(scenario, "shortest")
@@ -141,16 +165,14 @@ def find_best_timetable(
         deadline=deadline,
         draw=random.Random(),  # noqa: S311 (each group has its own)
     )
-    results: list[GroupResult] = []
     groups = split_groups(scenario, usual)
-    for partition in (groups, [usual]):  # at last with the vertices of other groups
-        try:
-            results = _by_groups(fleet, partition, params, rounds=rounds, seed=seed, report=report)
-            break
-        except GaveUp:
-            if len(partition) == 1:
-                raise
-    return CyclicResult(scenario=scenario, rule=TIMETABLE, routes="chosen", groups=tuple(results))
+    try:
+        return _by_groups(fleet, groups, params, rounds=rounds, seed=seed, report=report)
+    except GaveUp:
+        if len(groups) == 1 or fleet.is_out_of_time:
+            raise
+    # With the vertices of other groups.
+    return _by_groups(fleet, [usual], params, rounds=rounds, seed=seed, report=report)
 
 
 def _checked_weights(weights: Sequence[Fraction] | None, n_robots: int) -> tuple[Fraction, ...]:
@@ -222,11 +244,15 @@ def _part(
     trips: tuple[RoundTrip, ...] = ()
     if len(fleet) <= params.most_with_round_trips:
         distances = Distances(scenario.roadmap)
-        round_trips = [_round_trip(scenario, robot, distances, taken) for robot in robots]
+        rows = sorted(taken)
+        round_trips = [
+            _round_trip(scenario, robot, distances, rows)
+            for robot in limit_loop(robots, ROUTING, 8)
+        ]
         trips = tuple(trip for trip in round_trips if trip is not None)
         trips = trips if len(trips) == len(round_trips) else ()
     ways = []
-    for robot in robots:
+    for robot in limit_loop(robots, ROUTING):
         usual, other = fleet.ways[robot]
         fits = other != usual and taken.isdisjoint(make_lap_rows(scenario, robot, other).booked)
         ways.append((usual, other) if fits else (usual,))
@@ -242,7 +268,7 @@ def _part(
 
 
 def _round_trip(
-    scenario: Scenario, robot: int, distances: Distances, taken: set[int]
+    scenario: Scenario, robot: int, distances: Distances, taken: Sequence[int]
 ) -> RoundTrip | None:
     """Return a round trip of a robot that keeps clear of rows.
 
@@ -251,19 +277,17 @@ def _round_trip(
     """
     resources, once = scenario.problem.resources, take_one_lap(scenario, robot)
     places, roadmap = {stage.vertex for stage in once.stages}, scenario.roadmap
-    forbidden = {
-        vertex
-        for vertex in range(roadmap.n_vertices)
-        if resources.get_vertex_row(robot, vertex) in taken
-    }
-    for tail in range(roadmap.n_vertices):
-        for edge in range(int(roadmap.indptr[tail]), int(roadmap.indptr[tail + 1])):
-            ends = (int(roadmap.heads[edge]), tail)
-            if resources.get_edge_row(robot, edge) in taken and forbidden.isdisjoint(ends):
-                free = [vertex for vertex in ends if vertex not in places]
-                if not free:
-                    return None
-                forbidden.add(free[0])
+    own = np.arange(resources.n_vertices + resources.n_edges)
+    is_taken = np.isin(own + resources.get_vertex_row(robot, 0), taken)
+    forbidden = set(np.flatnonzero(is_taken[: resources.n_vertices]).tolist())
+    edges = np.flatnonzero(is_taken[resources.n_vertices :])
+    tails = np.searchsorted(roadmap.indptr, edges, side="right") - 1
+    for ends in zip(roadmap.heads[edges].tolist(), tails.tolist(), strict=True):
+        if forbidden.isdisjoint(ends):
+            free = [vertex for vertex in ends if vertex not in places]
+            if not free:
+                return None
+            forbidden.add(free[0])
     return RoundTrip.of(once, distances, forbidden=forbidden)
 
 
@@ -276,7 +300,7 @@ def _choose(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) ->
         return _started(problem, alone, "repeats", problem.compute_value(alone))
     if len(problem) > params.large and (closed := _closed_run(problem)):
         return closed
-    problem.deadline.check("closing a stretch of a simulation")
+    problem.deadline.check(CLOSING)
     baseline = _simulated(problem, "first-come", params.baseline_share)
     ends, worth = _baseline(problem, baseline)
     pattern = _fair_pattern(problem, baseline)
@@ -310,6 +334,7 @@ def _closed_run(problem: CyclicProblem) -> GroupResult | None:
     """Return the closing of a simulation, or the baseline's pattern if the pattern is better."""
     if problem.deadline.at is None:
         return None
+    problem.deadline.check(CLOSING)
     baseline = SimulatedRun(problem, problem.context, "first-come")
     extracted = extract_cycle(problem, choose_runs(problem, baseline))
     pattern, compared = _fair_pattern(problem, baseline.result), _baseline(problem, baseline.result)

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 from itertools import accumulate, pairwise
 
+from rightofway.deadline import limit_loop
 from rightofway.errors import GaveUp
 from rightofway.model import Itinerary, Route, Scenario, Track, join_route, make_route
 from rightofway.planners.impossible import refuse_the_impossible
@@ -13,10 +14,13 @@ from rightofway.planners.task import Task, make_planning_problem
 from rightofway.search import Bookings, Congestion, Distances, find_earliest_track
 from rightofway.site import Roadmap, VertexId
 
+ROUTING = "choosing routes"
+"""What takes the time, for messages."""
+
 
 def choose_routes(task: Task) -> tuple[Distances, list[Route]]:
     """Return the tables of a roadmap, and the routes of the fleet as the option ``routes`` asks."""
-    checkpoint = partial(task.deadline.check, "choosing routes")
+    checkpoint = partial(task.deadline.check, ROUTING)
     distances = Distances(task.scenario.roadmap, checkpoint=checkpoint)
     if task.scenario.problem.closures is not None:
         return distances, choose_routes_among_closures(task, distances)
@@ -50,7 +54,10 @@ def find_shortest_routes(scenario: Scenario, distances: Distances) -> list[Route
     """
     refuse_the_impossible(scenario, distances)
     itineraries, roadmap = scenario.problem.itineraries, scenario.roadmap
-    return [find_shortest_route(roadmap, itinerary, distances) for itinerary in itineraries]
+    return [
+        find_shortest_route(roadmap, itinerary, distances)
+        for itinerary in limit_loop(itineraries, ROUTING)
+    ]
 
 
 def free_running_tracks(scenario: Scenario) -> tuple[Track, ...]:
@@ -97,7 +104,8 @@ def clear_routes(scenario: Scenario, distances: Distances) -> list[Route]:
     """
     refuse_the_impossible(scenario, distances)
     traffic = Congestion.of_trips(scenario.problem, distances)
-    return [_clear(scenario, traffic, robot) for robot in range(len(scenario.robots))]
+    robots = range(len(scenario.robots))
+    return [_clear(scenario, traffic, robot) for robot in limit_loop(robots, ROUTING)]
 
 
 def find_direct_routes(
@@ -110,8 +118,8 @@ def find_direct_routes(
     """
     new_routes, detours = list(routes), []
     traffic = Congestion.of_laps(scenario.problem, distances)
-    for robot, (itinerary, route) in enumerate(
-        zip(scenario.problem.itineraries, routes, strict=True)
+    for robot, (itinerary, route) in limit_loop(
+        enumerate(zip(scenario.problem.itineraries, routes, strict=True)), ROUTING
     ):
         trips = _trips(itinerary)
         least = sum(int(distances.to(end, itinerary.edge_ticks)[start]) for start, end in trips)
@@ -119,7 +127,7 @@ def find_direct_routes(
             detours.append(robot)
         else:
             traffic.add(robot, route.vertices)
-    for robot in detours:
+    for robot in limit_loop(detours, ROUTING):
         new_routes[robot] = _clear(scenario, traffic, robot)
     return new_routes
 
