@@ -24,6 +24,7 @@ SLOW = (
     "campaigns/",  # processes on all cores
     "cli/test_bench.py",  # a process for each case of a suite
     "cli/test_bench_cluster.py",  # starts a Dask cluster
+    "cli/test_large_numbers.py",  # hundreds of runs of commands
     "cli/test_process.py",  # starts the command as a process, and interrupts it
     "conformance/test_execution.py",  # hundreds of runs for each planner and scenario
     "conformance/test_samples.py",  # plans on 36 real layouts

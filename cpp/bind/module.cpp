@@ -1,7 +1,12 @@
+#include <exception>
+#include <stdexcept>
+
 #include "bindings.hpp"
 #include "core/types.hpp"
 
 namespace {
+
+namespace nb = nanobind;
 
 constexpr const char* compiler() {
 #if defined(__clang__)
@@ -15,9 +20,22 @@ constexpr const char* compiler() {
 #endif
 }
 
+// What integers cannot hold is a fault of the input wherever a kernel finds it.
+void raise_kernel_limits() {
+    nb::register_exception_translator([](const std::exception_ptr& error, void*) {
+        try {
+            std::rethrow_exception(error);
+        } catch (const std::overflow_error& limit) {
+            const nb::object kind = nb::module_::import_("rightofway.errors").attr("KernelLimit");
+            PyErr_SetObject(kind.ptr(), kind.attr("at")("", limit.what()).ptr());
+        }
+    });
+}
+
 }  // namespace
 
 NB_MODULE(_core, module) {
+    raise_kernel_limits();
     module.doc() =
         "The native kernels: arrays and integers in, arrays and integers out.\n\n"
         "ValueError names the array, the index and the value that do not fit. ``time_limit`` [s]\n"

@@ -31,6 +31,7 @@ __all__ = [
     "InputError",
     "InputFault",
     "InvalidPlan",
+    "KernelLimit",
     "Location",
     "NoPlanExists",
     "RightOfWayError",
@@ -46,7 +47,6 @@ __all__ = [
     "locate_faults",
     "name_file",
     "quote",
-    "report_kernel_limits",
 ]
 
 MAX_REASONS = 50
@@ -332,13 +332,8 @@ def name_file(source: str) -> Iterator[None]:
         raise InputError(error.faults, source) from None
 
 
-@contextmanager
-def report_kernel_limits() -> Iterator[None]:
-    """Raise as `InputError` what a native kernel refuses because its integers cannot hold it."""
-    try:
-        yield
-    except OverflowError as limit:
-        raise InputError.at("", str(limit)) from limit
+class KernelLimit(InputError, OverflowError):
+    """The native core's integers cannot hold a number of the input, or of what follows from it."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ import numpy as np
 
 from rightofway.check import check
 from rightofway.deadline import Deadline, limit_work
-from rightofway.errors import GaveUp, InputError, InvalidPlan, report_kernel_limits
+from rightofway.errors import GaveUp, InputError, InvalidPlan
 from rightofway.model import (
     Objective,
     Outcome,
@@ -237,7 +237,7 @@ def _run(
     def keep() -> None:
         with_plan.append(time.perf_counter() - began)
 
-    with report_kernel_limits(), limit_work(deadline):
+    with limit_work(deadline):
         alone = compute_least_completions(task.scenario, time_limit=deadline.measure_seconds_left())
         if alone is None:
             raise GaveUp("time ran out while measuring distances (give a longer time limit)")

@@ -251,7 +251,7 @@ def test_durations_too_far_apart_for_64_bits_are_refused() -> None:
         {"name": "R1", "home": "N0", "target": "N6", "speed": 1e9},
         {"name": "R2", "home": "N2", "target": "N6", "work": 1e9},
     ]
-    with pytest.raises(InputError, match=r"robots: a duration of \d+ ticks of 1/1000000000 is too"):
+    with pytest.raises(InputError, match=r"robots\[1\]: work, turning and a drive takes \d+ ticks"):
         parse_scenario(document(robots=robots))
 
 

@@ -10,6 +10,7 @@ import pytest
 
 from rightofway import _core
 from rightofway._core import CONFLICT_CAP, DistanceTables, PrecedenceGraph
+from rightofway.errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -171,8 +172,9 @@ def test_bad_tables_are_value_errors_and_too_long_ways_overflow_errors() -> None
         DistanceTables(int32(0, 1, 2, 2), int32(1, 3))
     with pytest.raises(ValueError, match=r"edge_ticks\[0\]: 0 is neither positive nor -1"):
         line().to(2, int32(0, 4))
-    with pytest.raises(OverflowError, match="4294967294 ticks do not fit int32"):
+    with pytest.raises(OverflowError, match="4294967294 ticks do not fit int32") as refused:
         line().to(2, int32(2**31 - 1, 2**31 - 1))
+    assert isinstance(refused.value, InputError)
 
 
 def test_threads_may_share_distance_tables() -> None:

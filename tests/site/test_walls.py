@@ -6,6 +6,8 @@ from dataclasses import replace
 from fractions import Fraction
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import rightofway
 from rightofway.errors import InputError, NoPlanExists
@@ -39,6 +41,44 @@ def test_a_robot_reaches_where_its_disc_leaves_the_free_cells() -> None:
     assert free == corners | right
     assert not reaches_walls(roadmap, Fraction(1, 2)).any(), "discs may touch walls"
     assert reaches_walls(roadmap, Fraction(71, 100)).sum() == 29 - len(right), "over the corner"
+
+
+GRIDS = (
+    st.tuples(st.integers(1, 9), st.integers(1, 9))
+    .flatmap(
+        lambda size: st.lists(
+            st.text("..@", min_size=size[0], max_size=size[0]), min_size=size[1], max_size=size[1]
+        )
+    )
+    .filter(lambda rows: any("." in row for row in rows))
+)
+
+
+@given(GRIDS, st.fractions(0, 6, max_denominator=7))
+def test_walls_are_reached_as_all_blocked_cells_and_the_border_say(
+    rows: list[str], radius: Fraction
+) -> None:
+    roadmap = make_grid_roadmap(rows)
+    width, height = len(rows[0]), len(rows)
+    walls = [
+        (row, column)
+        for row in range(-1, height + 1)
+        for column in range(-1, width + 1)
+        if not (0 <= row < height and 0 <= column < width and rows[row][column] == ".")
+    ]
+    assert roadmap.grid is not None
+    for vertex, reaches in enumerate(reaches_walls(roadmap, radius)):
+        at = roadmap.grid.get_cell(vertex)
+        gaps = [
+            [max(abs(x - y) - Fraction(1, 2), Fraction(0)) for x, y in zip(at, wall, strict=True)]
+            for wall in walls
+        ]
+        assert reaches == any(down**2 + right**2 < radius**2 for down, right in gaps)
+
+
+def test_a_robot_larger_than_the_map_reaches_its_border_at_once() -> None:
+    roadmap = make_grid_roadmap(["." * 200] * 300)
+    assert reaches_walls(roadmap, Fraction(10**12)).all()
 
 
 def test_edges_are_barred_for_robots_that_are_too_wide() -> None:

@@ -47,7 +47,7 @@ TEST_CASE("a least distance that does not fit is an error, whether or not edges 
     const DistanceTables line(Ints{0, 1, 2, 2}, Ints{1, 2});
     CHECK_THROWS_WITH_AS(line.to(2, Ints{int32_max, int32_max}),
                          "distance from 0 to 2: 4294967294 ticks do not fit int32 "
-                         "(use a larger tick)",
+                         "(bring speeds and lengths closer together)",
                          std::overflow_error);
     CHECK_THROWS_AS(line.to(2, Ints{1, int32_max}), std::overflow_error);
     CHECK(line.to(2, Ints{1, int32_max - 1}) == Ints{int32_max, int32_max - 1, 0});

@@ -16,7 +16,7 @@ from rightofway.cyclic.route import (
 )
 from rightofway.cyclic.rules import NATIVE_RULES, RULES
 from rightofway.cyclic.simulator import CyclicSimulator, Deadlock
-from rightofway.errors import GaveUp, report_kernel_limits
+from rightofway.errors import GaveUp
 from rightofway.model import Scenario, require_time_limit
 from rightofway.model.given import require_functions, require_scenario
 from rightofway.model.place_names import PlaceNames
@@ -29,7 +29,6 @@ Simulation = CyclicSimulator | RollingHorizon
 """The simulation of a group under a lap rule."""
 
 
-@report_kernel_limits()
 def run_laps(
     scenario: Scenario,
     rule: str = "first-come",

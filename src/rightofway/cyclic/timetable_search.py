@@ -30,7 +30,7 @@ from rightofway.cyclic.rules import TIMETABLE
 from rightofway.cyclic.run import advance, make_simulation
 from rightofway.cyclic.startup import start
 from rightofway.deadline import limit_loop, limit_work
-from rightofway.errors import GaveUp, InputError, report_kernel_limits
+from rightofway.errors import GaveUp, InputError
 from rightofway.model import Scenario, Tick, require_time_limit
 from rightofway.model.given import require_functions, require_number, require_scenario, require_seed
 from rightofway.phrases import Phrase
@@ -68,7 +68,6 @@ class ChoiceParams:
     most_visits: int = 20_000  # Up to this many visits, a fractional cycle time becomes whole.
 
 
-@report_kernel_limits()
 def find_best_timetable(
     scenario: Scenario,
     *,

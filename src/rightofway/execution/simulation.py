@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
 from rightofway.check import check
-from rightofway.errors import InputError, report_kernel_limits
+from rightofway.errors import InputError
 from rightofway.execution.delays import DEFAULT_DELAYS, Delay, delay_model_of, read_delays
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
 from rightofway.execution.statistics import (
@@ -36,7 +36,6 @@ MOST_RUNS = 10**9
 """More would take years."""
 
 
-@report_kernel_limits()
 def simulate(
     plan: Plan,
     delays: str | Iterable[str] = DEFAULT_DELAYS,

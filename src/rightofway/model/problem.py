@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import chain
+from itertools import chain, groupby
 from math import gcd, lcm
+from operator import attrgetter
 from typing import Any
 
 from rightofway.deadline import DERIVING, limit_loop
-from rightofway.errors import InputError
+from rightofway.errors import InputError, InputFault, Steps, quote
 from rightofway.model.booking_rules import BookingRules
 from rightofway.model.closures import Closure, Closures, book_closures
 from rightofway.model.resources import Resources, bind_resources, make_points
@@ -21,6 +22,12 @@ from rightofway.site import Roadmap, VertexId
 
 LARGEST_SURCHARGE = 2**27
 """Routes are chosen as if no edge had a larger surcharge [ticks]."""
+
+MAX_TICKS = 2**40
+"""Longest duration of a scenario [ticks]; routes of any length then stay within 64 bits."""
+
+MAX_DRIVE = 2**31 - 1
+"""Longest drive along one edge [ticks]."""
 
 HEAVIEST = 10**6
 """The largest weight of a robot in whole numbers, so that weighted costs fit 64 bits."""
@@ -235,7 +242,7 @@ def bind_problem(
     for robot in robots:
         if _ticks_key(robot) not in edge_ticks:  # robots of one kind have the same
             edge_ticks[_ticks_key(robot)] = _edge_ticks(roadmap, robot, clock)
-    return Problem(
+    problem = Problem(
         roadmap=roadmap,
         clock=clock,
         booking_rules=BookingRules(
@@ -261,6 +268,36 @@ def bind_problem(
         resources=bind_resources(roadmap, radii, rules.clearance),
         closures=book_closures(closures, roadmap, radii, rules.clearance, clock),
     )
+    longest = {id(ticks): max(ticks, default=Tick(0)) for ticks in edge_ticks.values()}
+    faults = list(_find_long_times(problem, longest))
+    if faults:
+        raise InputError(faults)
+    return problem
+
+
+def _find_long_times(problem: Problem, longest: Mapping[int, int]) -> Iterator[InputFault]:
+    """Yield the times that do not fit the integers of the native core.
+
+    ``longest`` is the longest drive along an edge, by the identity of the ticks of all edges.
+    """
+    limits: list[tuple[Steps, str, int, int]] = [
+        (("rules", "headway"), "it", problem.booking_rules.headway, MAX_TICKS),
+        (("map",), "a surcharge", max(problem.itineraries[0].surcharges, default=0), MAX_TICKS),
+    ]
+    for index, itinerary in enumerate(problem.itineraries):
+        where: Steps = ("robots", index)
+        drive = longest[id(itinerary.edge_ticks)]
+        if drive > MAX_DRIVE:
+            limits.append((where, "a drive along an edge", drive, MAX_DRIVE))
+        if sum(stage.work + stage.turn for stage in itinerary.stages) + drive > MAX_TICKS:
+            stays = groupby(itinerary.stages, attrgetter("vertex"))
+            busy = max(sum(stage.work + stage.turn for stage in stay) for _, stay in stays)
+            limits.append((where, "work, turning and a drive", busy + drive, MAX_TICKS))
+    for where, cause, ticks, most in limits:
+        if ticks > most:
+            message = f"{cause} takes {quote(ticks)} ticks of {quote(problem.clock.tick)}"
+            remedy = "bring speeds, lengths and times closer together"
+            yield InputFault(where, f"{message}, more than {most} ({remedy})")
 
 
 def compute_turning_time(roadmap: Roadmap, robot: Robot, rules: Rules) -> Fraction:

@@ -352,7 +352,7 @@ class TimedEventGraph:
         """
         enter, arcs = np.concatenate(self.timetable.enter), self.arcs
         due = enter[arcs.tail] + arcs.length
-        return enter[arcs.head] + arcs.height * int(self.timetable.period) - due
+        return enter[arcs.head] + arcs.height.astype(np.int64) * int(self.timetable.period) - due
 
     def find_critical_circuit(self, *, time_limit: float | None = None) -> Circuit:
         """Return a circuit of the largest mean, and with it the exact cycle time.

@@ -16,7 +16,7 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.site.roadmap import EdgeClass, Roadmap
+from rightofway.site.roadmap import EdgeClass, Grid, Roadmap
 
 
 @lru_cache(maxsize=8)
@@ -30,20 +30,35 @@ def reaches_walls(roadmap: Roadmap, radius: Fraction) -> NDArray[np.bool_]:
     """
     grid = roadmap.grid
     assert grid is not None, "only grids have walls"
-    reach = 2 * radius / grid.cell_size  # in half cells, as are gaps
-    steps = max(ceil((reach - 1) / 2), 0)
-    blocked = np.pad(
-        grid.vertex_at.reshape(grid.rows, grid.columns) < 0, steps, constant_values=True
-    )
-    is_wall = np.zeros((grid.rows, grid.columns), bool)
-    for down in range(-steps, steps + 1):
-        for right in range(-steps, steps + 1):
-            gaps = (max(2 * abs(offset) - 1, 0) for offset in (down, right))
-            if sum(gap**2 for gap in gaps) < reach**2:
-                top, left = steps + down, steps + right
-                is_wall |= blocked[top : top + grid.rows, left : left + grid.columns]
-    reaches: NDArray[np.bool_] = is_wall.ravel()[grid.cells]
+    reach = ceil((2 * radius / grid.cell_size) ** 2)
+    reaches: NDArray[np.bool_] = measure_gaps(grid, reach) < reach
     return reaches
+
+
+def measure_gaps(grid: Grid, limit: int | None = None) -> NDArray[np.int64]:
+    """Return the squared distance from each vertex to the nearest wall or border [half cells].
+
+    It is exact below the limit, and the limit or more elsewhere.
+    """
+    blocked = grid.vertex_at.reshape(grid.rows, grid.columns) < 0
+    columns, rows = np.arange(grid.columns), np.arange(grid.rows)[:, None]
+    before = np.maximum.accumulate(np.where(blocked, columns, -1), axis=1)
+    behind = np.where(blocked, columns, grid.columns)[:, ::-1]
+    behind = np.minimum.accumulate(behind, axis=1)[:, ::-1]
+    in_row = _square_gaps(np.minimum(columns - before, behind - columns))
+    gaps = np.minimum(in_row, _square_gaps(np.minimum(rows + 1, grid.rows - rows)))
+    for offset in range(1, grid.rows):
+        in_column = (2 * offset - 1) ** 2
+        if in_column >= (gaps.max() if limit is None else min(limit, gaps.max())):
+            break
+        np.minimum(gaps[offset:], in_row[:-offset] + in_column, out=gaps[offset:])
+        np.minimum(gaps[:-offset], in_row[offset:] + in_column, out=gaps[:-offset])
+    return gaps.ravel()[grid.cells]
+
+
+def _square_gaps(offsets: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the squared gaps between the middles of cells and other cells [half cells]."""
+    return np.maximum(2 * offsets - 1, 0) ** 2
 
 
 def clear_of_walls(roadmap: Roadmap, radii: Collection[Fraction]) -> Roadmap:

@@ -40,9 +40,6 @@ from rightofway.phrases import Phrase, say_count
 from rightofway.quantities import Units
 from rightofway.site import Roadmap
 
-MAX_TICKS = 2**40
-"""Longest duration of a scenario [ticks]; routes of any length then stay within 64 bits."""
-
 CLASSIC = Rules(turn=Fraction(0), ends="none")
 """The rules of the classic benchmark: robots need not turn, and stay at their targets."""
 
@@ -245,7 +242,6 @@ def _assemble(
     robots = tuple(placed_robot.robot for placed_robot in placed)
     try:
         scenario = Scenario(roadmap=roadmap, robots=robots, **others)
-        _check_ticks(scenario)
     except InputError as error:
         starts = dict[Steps, Where]()
         for index, placed_robot in enumerate(
@@ -258,23 +254,6 @@ def _assemble(
         faults.add(fault.relocate(starts) for fault in error.faults)
         return None
     return scenario
-
-
-def _check_ticks(scenario: Scenario) -> None:
-    problem = scenario.problem
-    longest = max(
-        problem.booking_rules.headway,
-        *(max(itinerary.edge_ticks, default=0) for itinerary in problem.itineraries),
-        *(
-            stage.work + stage.turn
-            for itinerary in problem.itineraries
-            for stage in itinerary.stages
-        ),
-    )
-    if longest > MAX_TICKS:
-        ticks = f"{quote(longest)} ticks of {quote(problem.clock.tick)}"
-        message = f"a duration of {ticks} is too long (bring speeds and times closer together)"
-        raise InputError.at("robots", message)
 
 
 def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[Phrase]:
