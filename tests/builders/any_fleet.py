@@ -292,7 +292,8 @@ def _on_lanes(
             }
             for k in range(draw(st.integers(1, 2)))
         ]
-    return {"roadmap": changed, **({"spacing": 2} if "spacing" in has else {})}, places
+    spacing = {"spacing": draw(st.sampled_from([2, "4/3"]))} if "spacing" in has else {}
+    return {"roadmap": changed, **spacing}, places
 
 
 def _trip(draw: st.DrawFn, has: set[str], trip: tuple[str, str], places: list[str]) -> Document:

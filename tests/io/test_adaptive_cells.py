@@ -42,10 +42,10 @@ def test_the_smallest_cell_is_as_wide_as_the_largest_robot_or_as_node_clustering
     where = {"floor": narrow, "cell_size": "adaptive", "largest": 1}
     wide = parse_scenario(document(where, radius="0.25", home={"x": 0.1, "y": 0.1}))
     assert wide.roadmap.sides is not None
-    assert set(wide.roadmap.sides.tolist()) == {0.5, 1.0}
+    assert set(wide.roadmap.sides) == {0.5, 1.0}
     fast = parse_scenario(document(where, speed=4))
     assert fast.roadmap.sides is not None
-    assert set(fast.roadmap.sides.tolist()) == {0.25, 0.5, 1.0}
+    assert set(fast.roadmap.sides) == {0.25, 0.5, 1.0}
 
 
 @pytest.mark.parametrize("y", ["up", "down"])

@@ -75,7 +75,7 @@ def grids(draw: st.DrawFn) -> Roadmap:
 
 @st.composite
 def drawn_roadmaps(draw: st.DrawFn) -> Roadmap:
-    places = st.floats(-1e9, 1e9)
+    places = st.floats(-1e9, 1e9) | coordinates
     positions = draw(st.dictionaries(names, st.tuples(places, places), min_size=2, max_size=5))
     pairs = st.tuples(st.sampled_from(list(positions)), st.sampled_from(list(positions)))
     ends = draw(st.lists(pairs.filter(lambda pair: pair[0] != pair[1]), unique=True, max_size=8))

@@ -124,6 +124,8 @@ def _place(roadmap: Roadmap, vertex: int) -> Point:
     if roadmap.grid is not None:
         row, column = roadmap.grid.get_cell(vertex)
         return column * roadmap.grid.cell_size, row * roadmap.grid.cell_size
+    if vertex in roadmap.fractions:
+        return roadmap.fractions[vertex]
     x, y = roadmap.positions[vertex].tolist()
     return Fraction(repr(x)), Fraction(repr(y))
 

@@ -30,6 +30,8 @@ def point(roadmap: Roadmap, vertex: int) -> Point:
     if roadmap.grid is not None:
         row, column = roadmap.grid.get_cell(vertex)
         return column * roadmap.grid.cell_size, row * roadmap.grid.cell_size
+    if vertex in roadmap.fractions:
+        return roadmap.fractions[vertex]
     x, y = roadmap.positions[vertex]
     return Fraction(str(float(x))), Fraction(str(float(y)))
 

@@ -179,12 +179,7 @@ class _Shut:
         )
 
     def _at(self, vertex: int) -> Vector:
-        grid = self.roadmap.grid
-        if grid is not None:
-            row, column = divmod(int(grid.cells[vertex]), grid.columns)
-            return column * grid.cell_size, row * grid.cell_size
-        x, y = self.roadmap.positions[vertex].tolist()
-        return Fraction(repr(x)), Fraction(repr(y))
+        return self.roadmap.get_position(vertex)
 
 
 def _square_between(p: Vector, q: Vector, r: Vector, s: Vector) -> Fraction:

@@ -217,15 +217,15 @@ class _Shapes:
 def _coordinates(roadmap: Roadmap) -> list[tuple[list[Fraction], Indices]]:
     """Return numbers, and which of them is x of each vertex; the same for y.
 
-    The numbers are exact: floats count as the decimals that they print as.
+    The numbers are exact.
     """
     grid = roadmap.grid
     if grid is not None:
         rows, columns = np.divmod(grid.cells, grid.columns)
         steps = [k * grid.cell_size for k in range(max(grid.rows, grid.columns))]
         return [(steps, columns), (steps, rows)]
-    axes = roadmap.positions.T.tolist()
-    return [([Fraction(str(v)) for v in axis], np.arange(len(axis))) for axis in axes]
+    axes = zip(*roadmap.list_positions(), strict=True)
+    return [(list(axis), np.arange(len(axis))) for axis in axes]
 
 
 def _spread(first: Indices, counts: Indices) -> tuple[Indices, Indices]:

@@ -83,5 +83,4 @@ def _place(roadmap: Roadmap, vertex: int) -> tuple[Fraction | int, Fraction | in
     if roadmap.grid is not None:
         row, column = roadmap.grid.get_cell(vertex)
         return column, row  # whole cells: fractions are slow to compare
-    x, y = roadmap.positions[vertex].tolist()
-    return Fraction(str(x)), Fraction(str(y))
+    return roadmap.get_position(vertex)

@@ -126,7 +126,7 @@ class DrawnLanes:
             self.positions, edges, spacing, distance=distance, is_drawn=self.is_drawn
         )
         return make_roadmap_of_table(
-            {name: (float(x), float(y)) for name, (x, y) in split.positions.items()},
+            split.positions,
             split.edges,
             y_up=y_up,
             zones=self.zones,

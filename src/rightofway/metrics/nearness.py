@@ -237,7 +237,7 @@ def find_smallest_cell(roadmap: Roadmap) -> Fraction | None:
     """Return the side of the smallest cells, None where vertices are no cells."""
     if roadmap.grid is not None:
         return roadmap.grid.cell_size
-    return None if roadmap.sides is None else Fraction(repr(float(roadmap.sides.min())))
+    return None if roadmap.sides is None else min(roadmap.sides)
 
 
 def _near_vertices(site: Site, pairs: ClosePairs, need: Phrase | None) -> Iterator[Finding]:

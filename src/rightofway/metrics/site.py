@@ -269,7 +269,7 @@ def compute_extent(roadmap: Roadmap) -> tuple[Fraction, Fraction]:
     if roadmap.grid is not None:
         grid = roadmap.grid
         return grid.columns * grid.cell_size, grid.rows * grid.cell_size
-    reach = 0.0 if roadmap.sides is None else roadmap.sides[:, None] / 2
+    reach = 0.0 if roadmap.sides is None else roadmap.drawn_sides[:, None] / 2
     spans = (roadmap.positions + reach).max(axis=0) - (roadmap.positions - reach).min(axis=0)
     width, height = (Fraction(repr(span)) for span in spans.tolist())
     return width, height

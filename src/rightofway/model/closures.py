@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 
 from rightofway.deadline import check_work
 from rightofway.errors import InputFault
-from rightofway.model.resources import read_exact_positions
 from rightofway.model.units import NEVER, Clock, Tick
 from rightofway.site import Point, Roadmap, VertexId, measure_squared_distance
 from rightofway.values import allow_none, coerce_fields, read_number, read_vertex
@@ -209,7 +208,7 @@ class _Plane:
     @cached_property
     def exact(self) -> list[Point]:
         """The exact position of each vertex."""
-        return read_exact_positions(self.roadmap)
+        return self.roadmap.list_positions()
 
     @cached_property
     def drawn(self) -> NDArray[np.float64]:

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from rightofway.deadline import check_work
 from rightofway.errors import InputError, quote
-from rightofway.site import Point, Roadmap, measure_squared_distance
+from rightofway.site import Roadmap, measure_squared_distance
 from rightofway.site.nearness import Lines, PointGrid
 from rightofway.site.zones import Zone, ZoneGuard
 
@@ -85,33 +85,15 @@ def circumscribe(length: Fraction, width: Fraction) -> Fraction:
     return (below + (below**2 < square)) * RADIUS_STEP
 
 
-def read_exact_positions(roadmap: Roadmap) -> list[Point]:
-    """Return the position of each vertex; a coordinate is its shortest decimal."""
-    if roadmap.grid is not None:
-        grid = roadmap.grid
-        steps = [k * grid.cell_size for k in range(max(grid.rows, grid.columns))]
-        rows, columns = np.divmod(grid.cells, grid.columns)
-        cells = zip(rows.tolist(), columns.tolist(), strict=True)
-        return [(steps[column], steps[row]) for row, column in cells]
-    return [(Fraction(repr(x)), Fraction(repr(y))) for x, y in roadmap.positions.tolist()]
-
-
-def are_nearer(roadmap: Roadmap, first: int, other: int, distance: Fraction) -> bool:
-    """Return whether two vertices are nearer than a distance; exact."""
-    at = read_exact_positions(roadmap)
-    return measure_squared_distance(at[first], at[other]) < distance**2
-
-
 def measure_distance(roadmap: Roadmap, first: int, other: int) -> float:
     """Return the distance of two vertices [length unit]."""
-    at = read_exact_positions(roadmap)
-    return sqrt(measure_squared_distance(at[first], at[other]))
+    return sqrt(measure_squared_distance(*map(roadmap.get_position, (first, other))))
 
 
 def find_too_short_edges(roadmap: Roadmap) -> Iterator[tuple[int, int, Fraction, float]]:
     """Yield tail, head, length and straight distance of edges that are shorter than straight.
 
-    A part in 10**9 is rounding: positions are decimals, and pieces of lanes are not.
+    A part in 10**9 is rounding, of positions or of the length.
     """
     if roadmap.grid is not None:
         return
@@ -122,11 +104,10 @@ def find_too_short_edges(roadmap: Roadmap) -> Iterator[tuple[int, int, Fraction,
     straight = np.hypot(*(end - begin).T) + doubt
     for edge in np.flatnonzero(straight > lengths * (1 + float(ROUNDING) / 2)).tolist():
         length = roadmap.get_edge_class(edge).length
-        (x, y), (to_x, to_y) = begin[edge].tolist(), end[edge].tolist()
-        tail = Fraction(repr(x)), Fraction(repr(y))
-        square = measure_squared_distance(tail, (Fraction(repr(to_x)), Fraction(repr(to_y))))
+        ends = int(tails[edge]), int(roadmap.heads[edge])
+        square = measure_squared_distance(*map(roadmap.get_position, ends))
         if square > (length * (1 + ROUNDING)) ** 2:
-            yield int(tails[edge]), int(roadmap.heads[edge]), length, sqrt(square)
+            yield *ends, length, sqrt(square)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -276,7 +257,7 @@ def _refuse_large_zones(roadmap: Roadmap) -> None:
 def scale_positions(roadmap: Roadmap, lengths: Sequence[Fraction]) -> tuple[list[int], int]:
     """Return x and y of each vertex in turn, in whole multiples of 1 / scale, and the scale.
 
-    A coordinate is the shortest decimal that stands for it; the lengths are whole multiples, too.
+    The lengths are whole multiples, too.
     """
     scale = lcm(*(length.denominator for length in lengths))
     if roadmap.grid is not None:
@@ -288,8 +269,12 @@ def scale_positions(roadmap: Roadmap, lengths: Sequence[Fraction]) -> tuple[list
     decimals = [Decimal(repr(x)) for x in roadmap.positions.ravel().tolist()]
     places = max([0, *(-int(number.as_tuple().exponent) for number in decimals)])
     scale = lcm(scale, 10**places)
+    scale = lcm(scale, *(x.denominator for point in roadmap.fractions.values() for x in point))
     factor = scale // 10**places
-    return [int(number.scaleb(places)) * factor for number in decimals], scale
+    whole = [int(number.scaleb(places)) * factor for number in decimals]
+    for vertex, point in roadmap.fractions.items():
+        whole[2 * vertex : 2 * vertex + 2] = [int(x * scale) for x in point]
+    return whole, scale
 
 
 class _Drawing:

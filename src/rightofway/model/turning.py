@@ -17,7 +17,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError, quote
-from rightofway.model.resources import read_exact_positions
 from rightofway.model.units import Clock, Tick
 from rightofway.site import Roadmap
 
@@ -128,7 +127,7 @@ def _headings(roadmap: Roadmap) -> tuple[NDArray[np.float64], NDArray[np.bool_]]
         y, x = np.divmod(roadmap.grid.cells.astype(np.int64), roadmap.grid.columns)
         dx, dy = (at[roadmap.heads] - at[tails] for at in (x, y))
     else:
-        positions = read_exact_positions(roadmap)
+        positions = roadmap.list_positions()
         ends = list(zip(tails.tolist(), roadmap.heads.tolist(), strict=True))
         dx, dy = (
             np.array([float(positions[b][k] - positions[a][k]) for a, b in ends], np.float64)

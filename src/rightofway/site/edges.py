@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from rightofway.arguments import checks_arguments
 from rightofway.deadline import READING, limit_loop
 from rightofway.errors import InputError, quote
-from rightofway.site.geometry import Frame, VertexId
+from rightofway.site.geometry import Frame, VertexId, find_fractions
 from rightofway.site.roadmap import EdgeClass, Lane, Roadmap
 from rightofway.site.zones import NamedZone, number_zones
 from rightofway.values import (
@@ -183,13 +183,13 @@ def tabulate_edges(positions: Mapping[str, object], edges: Sequence[Edge]) -> Ed
 
 @checks_arguments
 def make_roadmap(
-    positions: Mapping[str, tuple[float, float]],
+    positions: Mapping[str, tuple[float | Fraction, float | Fraction]],
     edges: Sequence[Edge],
     *,
     y_up: bool = False,
     zones: Sequence[NamedZone] = (),
     pieces: Mapping[tuple[str, str], Sequence[tuple[str, str]]] | None = None,
-    sides: Sequence[float] | None = None,
+    sides: Sequence[Fraction] | None = None,
     frame: Frame | None = None,
     barred: Mapping[str, Collection[str]] | None = None,
     surcharges: Mapping[str, Fraction] | None = None,
@@ -199,8 +199,8 @@ def make_roadmap(
     Parameters
     ----------
     positions
-        Name and (x, y) of every vertex in the site's frame [length unit]; the order gives the
-        vertex ids.
+        Name and (x, y) of every vertex in the site's frame [length unit], exact; floating point
+        counts as its shortest decimal. The order gives the vertex ids.
     edges
         Directed edges; their order decides between equally short paths.
     y_up
@@ -238,13 +238,13 @@ def make_roadmap(
 
 
 def make_roadmap_of_table(
-    positions: Mapping[str, tuple[float, float]],
+    positions: Mapping[str, tuple[float | Fraction, float | Fraction]],
     table: EdgeTable,
     *,
     y_up: bool = False,
     zones: Sequence[NamedZone] = (),
     pieces: Mapping[tuple[str, str], Sequence[tuple[str, str]]] | None = None,
-    sides: Sequence[float] | None = None,
+    sides: Sequence[Fraction] | None = None,
     frame: Frame | None = None,
     barred: Mapping[str, Collection[str]] | None = None,
     surcharges: Mapping[str, Fraction] | None = None,
@@ -262,7 +262,8 @@ def make_roadmap_of_table(
     classes, kinds = _sort_classes(table)
     order = np.argsort(table.tails, kind="stable")  # the given order at each vertex
     degrees = np.bincount(table.tails, minlength=len(ids))
-    down = (1.0, -1.0 if y_up else 1.0)
+    down = -1 if y_up else 1
+    points = [(float(x), down * float(y)) for x, y in positions.values()]
     return Roadmap(
         indptr=np.concatenate(([0], np.cumsum(degrees))).astype(np.int32),
         heads=table.heads[order],
@@ -272,10 +273,13 @@ def make_roadmap_of_table(
             VertexId(ids[name]): frozenset(kinds_of_vertex)
             for name, kinds_of_vertex in (barred or {}).items()
         },
-        positions=np.array(list(positions.values()), np.float64).reshape(len(ids), 2) * down,
+        positions=np.array(points, np.float64).reshape(len(ids), 2),
+        fractions={
+            vertex: (x, down * y) for vertex, (x, y) in find_fractions(positions.values()).items()
+        },
         labels=table.names,
         frame=frame or Frame(y_up=y_up),
-        sides=None if sides is None else np.array(sides, np.float64),
+        sides=None if sides is None else tuple(sides),
         zones=number_zones(zones, ids, _list_ends(table), pieces or {}) if zones else (),
         lanes=_lanes((pieces or {}).values(), ids),
     )

@@ -6,11 +6,12 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
+from math import lcm
 from typing import NewType
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
-from rightofway.values import DIGITS
+from rightofway.values import COORDINATE_DIGITS, DIGITS
 
 VertexId = NewType("VertexId", int)
 """The number of a vertex."""
@@ -64,6 +65,64 @@ class Frame:
         """Return cosine and sine of the yaw, to 1e-12."""
         cos, sin = (round(f(self.yaw) * 10**12) for f in (math.cos, math.sin))
         return Fraction(cos, 10**12), Fraction(sin, 10**12)
+
+
+MOST_BITS, MOST_BITS_OF_ONE = 2**30, 2**14
+"""Bits of all positions of a roadmap in whole multiples of one length at most (128 MB), and of one.
+All denominators up to 10 000 fit into one position."""
+
+MILLION, FIFTEEN_DIGITS, LARGEST_PART = 10**6, 10**15, 10**COORDINATE_DIGITS
+
+
+def read_shortest(point: tuple[float, float]) -> Point:
+    """Return a point given in floating point; a coordinate is its shortest decimal."""
+    return Fraction(repr(point[0])), Fraction(repr(point[1]))
+
+
+def find_fractions(
+    points: Iterable[tuple[float | Fraction, float | Fraction]],
+) -> dict[int, Point]:
+    """Return the points, by number, of which some coordinate is no shortest decimal: 1/3, say.
+
+    Of all others, floating point keeps the exact position.
+
+    Raises
+    ------
+    InputError
+        If a coordinate has too many digits for a file, or points in whole multiples of one length
+        take more than `MOST_BITS` or `MOST_BITS_OF_ONE`.
+    """
+    scale, fractions, number = 1, dict[int, Point](), -1
+    for number, point in enumerate(points):
+        if all(map(_is_shortest_decimal, point)):
+            continue
+        x, y = (Fraction(repr(float(c))) if isinstance(c, float) else c for c in point)
+        fractions[number] = x, y
+        if max(abs(x.numerator), x.denominator, abs(y.numerator), y.denominator) > LARGEST_PART:
+            raise InputError.at("vertices", "a position has too many digits (give decimals)")
+        scale = lcm(scale, x.denominator, y.denominator)
+        _refuse_large_scale(scale, len(fractions))
+    _refuse_large_scale(scale if fractions else 1, number + 1)
+    return fractions
+
+
+def _refuse_large_scale(scale: int, n_points: int) -> None:
+    """Refuse points that only a very short length measures all, which would fill the memory."""
+    n_bits = scale.bit_length()
+    if n_bits > MOST_BITS_OF_ONE or 2 * n_points * n_bits > MOST_BITS:
+        message = f"the denominators of {n_points} positions have too large a common multiple"
+        raise InputError.at("vertices", f"{message} (give decimals)")
+
+
+def _is_shortest_decimal(number: float | Fraction) -> bool:
+    """Return whether a number is the shortest decimal that prints its floating-point number."""
+    if isinstance(number, float):
+        return True
+    # Fifteen digits always come back; nearly all coordinates have no more.
+    millionths, rest = divmod(MILLION, number.denominator)
+    if rest == 0 and abs(number.numerator) * millionths < FIFTEEN_DIGITS:
+        return True
+    return Fraction(repr(float(number))) == number
 
 
 def measure_squared_distance(tail: Point, head: Point) -> Fraction:

@@ -233,8 +233,9 @@ def build_roadmap_of_level(
         ends: [(x * metre, y * metre) for x, y in shape.points] for ends, shape in curves.items()
     }
     split = split_lanes(positions, table, spacing, shapes, distance=distance)
-    drawn = {name: (float(x), float(y)) for name, (x, y) in split.positions.items()}
-    roadmap = make_roadmap_of_table(drawn, split.edges, y_up=True, zones=zones, pieces=split.pieces)
+    roadmap = make_roadmap_of_table(
+        split.positions, split.edges, y_up=True, zones=zones, pieces=split.pieces
+    )
     bends = {lanes.get_ends(lane): shape.points for lane, shape in lanes.shapes.items()
              if shape.points}  # fmt: skip
     roadmap = replace(roadmap, drawing=_drawing(level, roadmap, bends, metre))

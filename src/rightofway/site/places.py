@@ -210,7 +210,7 @@ def _limits(place: Place, roadmap: Roadmap, grid: Grid) -> str:
 def _vertex_at_point(spot: Spot, roadmap: Roadmap, units: Units) -> VertexId:
     x, y = roadmap.frame.to_plane((spot.x, spot.y))
     if roadmap.sides is not None:
-        return _square_that_holds(spot, roadmap, roadmap.sides, units)
+        return _square_that_holds(spot, roadmap, roadmap.drawn_sides, units)
     vertices = np.flatnonzero((roadmap.positions == (float(x), float(y))).all(axis=1)).tolist()
     if len(vertices) == 1:
         return VertexId(vertices[0])
@@ -256,7 +256,7 @@ def _smallest_side(roadmap: Roadmap) -> Fraction:
     """Return the side of the smallest cell, 0 for vertices that are points."""
     if roadmap.grid is not None:
         return roadmap.grid.cell_size
-    return Fraction(0) if roadmap.sides is None else Fraction(float(roadmap.sides.min()))
+    return Fraction(0) if roadmap.sides is None else min(roadmap.sides)
 
 
 def _named_as(place: Place) -> str:

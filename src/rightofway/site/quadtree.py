@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputError
 from rightofway.site.clustering import MAX_CELLS
-from rightofway.site.geometry import Frame, Point
+from rightofway.site.geometry import Frame, Point, find_fractions
 from rightofway.site.roadmap import EdgeClass, Roadmap
 
 MAX_SMALLEST = 32_000_000
@@ -198,12 +198,21 @@ def build_roadmap_of_squares(
     known, class_of_edge = np.unique(lengths, return_inverse=True)
     left, low = (corner[0] - origin[0], corner[1] - origin[1]) if yaw else corner
     half = smallest / 2
+    multiples = {int(side): int(side) * smallest for side in np.unique(squares.side)}
     middles = [2 * along + squares.side for along in (squares.column, squares.row)]
     halves = range(2 * max(free.shape) + 1)
+    exact_x, exact_y = ([start + step * half for step in halves] for start in (left, low))
     x, y = (
-        np.array([float(start + step * half) for step in halves])[middle]
-        for start, middle in zip((left, low), middles, strict=True)
+        np.array([float(coordinate) for coordinate in coordinates])[middle]
+        for coordinates, middle in zip((exact_x, exact_y), middles, strict=True)
     )
+    fractions: dict[int, Point] = {}
+    if find_fractions(zip(exact_x, exact_y, strict=True)):
+        along, down = (middle.tolist() for middle in middles)
+        up = -1 if y_up else 1
+        fractions = find_fractions(
+            (exact_x[column], up * exact_y[row]) for column, row in zip(along, down, strict=True)
+        )
     turned = {"x": origin[0], "y": origin[1], "yaw": yaw} if yaw else {}
     return Roadmap(
         indptr=np.concatenate(([0], np.cumsum(np.bincount(tails, minlength=count)))).astype(
@@ -215,9 +224,10 @@ def build_roadmap_of_squares(
             EdgeClass(length=Fraction(int(twelfths), 12) * smallest) for twelfths in known
         ),
         positions=np.column_stack((x, -y if y_up else y)),
+        fractions=fractions,
         labels=tuple(squares.name_squares()),
         frame=Frame(y_up=y_up, **turned),
-        sides=np.asarray(squares.side * float(smallest), np.float64),
+        sides=tuple(map(multiples.__getitem__, squares.side.tolist())),
     )
 
 

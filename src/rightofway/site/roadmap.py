@@ -14,7 +14,7 @@ from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, InputFault, find_nearest, quote
 from rightofway.site.clustering import Obstacle
 from rightofway.site.drawing import Drawing
-from rightofway.site.geometry import Frame, Point, VertexId
+from rightofway.site.geometry import Frame, Point, VertexId, read_shortest
 from rightofway.site.zones import Zone
 from rightofway.values import TypeSpeeds
 
@@ -159,6 +159,11 @@ class Roadmap:
         What edges have in common; all differ.
     positions
         Where to draw each vertex, x to the right and y down [length unit]; float64, shape (V, 2).
+        On a grid, the exact position is a multiple of the cell's side; on other roadmaps it is the
+        shortest decimal, but for `fractions`.
+    fractions
+        Vertices of which some coordinate is no shortest decimal, such as 1/3, with their exact
+        positions [length unit].
     labels
         Names of the vertices, or None on a grid, where they are ``N<row-major number>``.
     grid
@@ -179,7 +184,9 @@ class Roadmap:
         Stations, parking places, the picture below: only for people, too.
     sides
         Side of the square cell round each vertex [length unit], None where vertices have none and
-        on a grid; float64, shape (V,).
+        on a grid.
+    drawn_sides
+        The same in floating point; float64, shape (V,), empty where vertices have none.
     """
 
     indptr: NDArray[np.int32]
@@ -187,6 +194,7 @@ class Roadmap:
     class_of_edge: NDArray[np.int32]
     edge_classes: tuple[EdgeClass, ...]
     positions: NDArray[np.float64]
+    fractions: Mapping[int, Point] = field(default_factory=dict)
     labels: tuple[str, ...] | None = None
     grid: Grid | None = None
     frame: Frame = field(default_factory=Frame)
@@ -195,7 +203,8 @@ class Roadmap:
     lanes: tuple[Lane, ...] = ()
     obstacles: tuple[Obstacle, ...] = ()
     drawing: Drawing = field(default_factory=Drawing)
-    sides: NDArray[np.float64] | None = None
+    sides: tuple[Fraction, ...] | None = None
+    drawn_sides: NDArray[np.float64] = field(init=False, repr=False)
     _ids: Mapping[str, int] = field(init=False, repr=False)
     _stations: Mapping[str, VertexId] = field(init=False, repr=False)
     _lane_at: Mapping[int, Lane] = field(init=False, repr=False)
@@ -203,6 +212,7 @@ class Roadmap:
     def __post_init__(self) -> None:
         for array in (self.indptr, self.heads, self.class_of_edge, self.positions):
             array.flags.writeable = False
+        object.__setattr__(self, "drawn_sides", np.array(self.sides or (), np.float64))
         ids = {name: vertex for vertex, name in enumerate(self.labels or ())}
         object.__setattr__(self, "_ids", ids)
         object.__setattr__(self, "_stations", dict(self.drawing.stations))
@@ -224,7 +234,8 @@ class Roadmap:
             and np.array_equal(self.heads, other.heads)
             and np.array_equal(self.class_of_edge, other.class_of_edge)
             and np.array_equal(self.positions, other.positions)
-            and _same_sides(self.sides, other.sides)
+            and self.fractions == other.fractions
+            and self.sides == other.sides
         )
 
     def __hash__(self) -> int:
@@ -363,13 +374,29 @@ class Roadmap:
 
     def get_point(self, vertex: int) -> Point:
         """Return where a vertex lies in the site's frame; on a grid, the centre of its cell."""
+        return self.frame.to_site(self.get_position(vertex))
+
+    def get_position(self, vertex: int) -> Point:
+        """Return the exact position of a vertex in the plane."""
         self._refuse_unknown("vertex", vertex)
         if self.grid is not None:
             row, column = self.grid.get_cell(vertex)
             size = self.grid.cell_size
-            return self.frame.to_site((column * size, row * size))
-        x, y = self.positions[vertex].tolist()
-        return self.frame.to_site((Fraction(repr(x)), Fraction(repr(y))))
+            return column * size, row * size
+        known = self.fractions.get(vertex)
+        return read_shortest(self.positions[vertex].tolist()) if known is None else known
+
+    def list_positions(self) -> list[Point]:
+        """Return the exact position of each vertex in the plane."""
+        if self.grid is not None:
+            steps = [k * self.grid.cell_size for k in range(max(self.grid.rows, self.grid.columns))]
+            rows, columns = np.divmod(self.grid.cells, self.grid.columns)
+            cells = zip(rows.tolist(), columns.tolist(), strict=True)
+            return [(steps[column], steps[row]) for row, column in cells]
+        points = list(map(read_shortest, self.positions.tolist()))
+        for vertex, point in self.fractions.items():
+            points[vertex] = point
+        return points
 
     @checks_arguments
     def exclude(self, closed: Collection[int], edges: Collection[tuple[int, int]] = ()) -> Roadmap:
@@ -420,12 +447,6 @@ class Roadmap:
             fits = (edge < last) & (self.heads.take(edge, mode="clip") == heads)
             np.copyto(edge_of_pair, edge, where=fits)
         return edge_of_pair
-
-
-def _same_sides(first: NDArray[np.float64] | None, other: NDArray[np.float64] | None) -> bool:
-    if first is None or other is None:
-        return first is other
-    return np.array_equal(first, other)
 
 
 def _same_grid(first: Grid | None, other: Grid | None) -> bool:

@@ -44,7 +44,7 @@ def lay_out_roadmap(roadmap: Roadmap) -> Plane:
             corner=(0.0, 0.0),
         )
     if roadmap.sides is not None:
-        unit, half = float(roadmap.sides.min()), roadmap.sides[:, None] / 2
+        unit, half = float(min(roadmap.sides)), roadmap.drawn_sides[:, None] / 2
         left, top = (roadmap.positions - half).min(axis=0) + unit / 2
         width, height = (roadmap.positions + half).max(axis=0) - (left, top) + unit / 2
         return Plane(

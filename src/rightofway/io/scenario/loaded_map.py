@@ -93,9 +93,7 @@ def _obstacle(row: int, column: int, floor: Floor, grid: Grid) -> str:
 def note_on_squares(noun: str, roadmap: Roadmap, cells: int, units: Units) -> Phrase:
     """Return a sentence on the squares that the smallest cells of a map have been joined to."""
     assert roadmap.sides is not None, "the cells are squares"
-    least, most = (
-        Fraction(repr(float(ends))) for ends in (roadmap.sides.min(), roadmap.sides.max())
-    )
+    least, most = min(roadmap.sides), max(roadmap.sides)
     span = units.format_length(most)
     if most > least:
         span = Phrase("{first} to {last}", first=format_decimal(least), last=span)

@@ -283,9 +283,8 @@ def _map_of_roadmap(
         ).items()
     }
     left, low = on.origin if on.origin and on.yaw else (Fraction(0), Fraction(0))
-    drawn = {name: (float(x - left), float(y - low)) for name, (x, y) in split.positions.items()}
+    drawn = {name: (x - left, y - low) for name, (x, y) in split.positions.items()}
     frame = Frame(x=left, y=low, y_up=on.y_up, yaw=on.yaw or Fraction(0))
-    sides = None if document.sides is None else [float(side) for side in document.sides]
     rounded = sum((lengths[index] or 0) ** 2 != square for index, square in squares.items())
     roadmap = make_roadmap_of_table(
         drawn,
@@ -293,7 +292,7 @@ def _map_of_roadmap(
         y_up=on.y_up,
         zones=zones,
         pieces=written_pieces | split.pieces,
-        sides=sides,
+        sides=document.sides,
         frame=frame,
         barred={name: vertex.barred for name, vertex in document.vertices.items() if vertex.barred},
         surcharges={

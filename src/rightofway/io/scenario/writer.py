@@ -182,10 +182,8 @@ def _shape(roadmap: Roadmap) -> dict[str, Any]:
 
 
 def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
-    name, frame = roadmap.name, roadmap.frame
-    down = (1.0, -1.0 if frame.y_up else 1.0)
-    # The sum has no -0.0, which would be read as 0.0.
-    positions = (roadmap.positions * down + (float(frame.x), float(frame.y))).tolist()
+    name = roadmap.name
+    positions = _positions(roadmap)
     vertices: dict[str, Any] = {name(vertex): position for vertex, position in enumerate(positions)}
     for vertex, types in roadmap.barred_vertices.items():
         vertices[name(vertex)] = {"at": positions[vertex], "barred": sorted(types)}
@@ -216,11 +214,33 @@ def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
         "stations": {station: name(at) for station, at in drawing.stations},
         "parking": [name(at) for at in drawing.parking],
         "charging": [name(at) for at in drawing.charging],
-        "sides": [] if roadmap.sides is None else roadmap.sides.tolist(),
+        "sides": list(map(_format_coordinate, roadmap.sides or ())),
     }
     return {"vertices": vertices, "edges": edges} | {
         key: value for key, value in places.items() if value
     }
+
+
+def _positions(roadmap: Roadmap) -> list[list[Any]]:
+    """Return x and y of each vertex in the site's frame before its yaw, exactly."""
+    frame = roadmap.frame
+    down = -1 if frame.y_up else 1
+    if frame.x == frame.y == 0:
+        # The sum has no -0.0, which would be read as 0.0.
+        positions: list[list[Any]] = (roadmap.positions * (1.0, down) + 0.0).tolist()
+        shifted = roadmap.fractions
+    else:
+        positions = roadmap.positions.tolist()
+        shifted = dict(enumerate(roadmap.list_positions()))
+    for vertex, (x, y) in shifted.items():
+        positions[vertex] = list(map(_format_coordinate, (x + frame.x, down * y + frame.y)))
+    return positions
+
+
+def _format_coordinate(number: Fraction) -> float | str:
+    """Return a coordinate as a decimal where that is exact, else as text like ``1/3``."""
+    decimal = float(number)
+    return decimal if Fraction(repr(decimal)) == number else str(number)
 
 
 def _of_class(edge_class: EdgeClass) -> dict[str, Any]:

@@ -58,7 +58,7 @@ def map_data(
             ],
         }
     drawing = roadmap.drawing
-    sides = () if roadmap.sides is None else roadmap.sides / plane.unit
+    sides = () if roadmap.sides is None else roadmap.drawn_sides / plane.unit
     marks = {
         "obstacles": [] if grid is None else _obstacles(roadmap, grid),
         "sides": np.round(sides, decimals).tolist(),

@@ -52,7 +52,7 @@ def draw_roadmap(pen: Pen, scene: Ground, sizes: LaneSizes) -> None:
         _grid(pen, scene, scene.roadmap.grid)
         _picture(pen, scene)
     elif scene.roadmap.sides is not None:
-        _squares(pen, scene, scene.roadmap.sides / scene.plane.unit / 2)
+        _squares(pen, scene, scene.roadmap.drawn_sides / scene.plane.unit / 2)
         _picture(pen, scene)
     else:
         _picture(pen, scene)
