@@ -38,6 +38,7 @@ __all__ = [
     "Steps",
     "Where",
     "as_location",
+    "describe_defect",
     "describe_error",
     "escape_text",
     "find_nearest",
@@ -486,6 +487,11 @@ def describe_error(error: BaseException) -> str:
         The exception.
     """
     return " ".join([f"{type(error).__name__}:", *str(error).split()])
+
+
+def describe_defect(error: BaseException) -> str:
+    """Return on one line an exception that this package does not raise on purpose."""
+    return escape_text(f"unexpected {describe_error(error)[:MANY]} (please report it)")
 
 
 def find_nearest(word: object, known: Collection[str]) -> str | None:

@@ -44,9 +44,9 @@ class AnyOrderId(FleetControl):
 class SentBeforeCommitted(FleetControl):
     """A release is sent before it is in the journal: a kill between the two forgets it."""
 
-    def _commit(self, *entries: Entry) -> None:
+    def commit(self, *entries: Entry) -> None:
         if not any(entry["kind"] == "order" for entry in entries):
-            super()._commit(*entries)
+            super().commit(*entries)
             return
         for entry in entries:
             self.ledger.apply(entry)
@@ -105,9 +105,9 @@ class FreeWhenCancelled(FleetControl):
 class FactsInMemory(FleetControl):
     """Arrivals and finished jobs are not in the journal."""
 
-    def _commit(self, *entries: Entry) -> None:
+    def commit(self, *entries: Entry) -> None:
         facts = [entry for entry in entries if entry["kind"] in {"arrived", "finished"}]
-        super()._commit(*(entry for entry in entries if entry not in facts))
+        super().commit(*(entry for entry in entries if entry not in facts))
         for entry in facts:
             self.ledger.apply(entry)
 
@@ -153,14 +153,14 @@ class OrderPerLeg(FleetControl):
 class WithdrawalOutlivesOrder(FleetControl):
     """A new order after a doubt does not drop the withdrawal that is under way."""
 
-    def _commit(self, *entries: Entry) -> None:
+    def commit(self, *entries: Entry) -> None:
         kept = {
             entry["robot"]: cancel
             for entry in entries
             if entry["kind"] == "order" and "stands_at" not in entry
             if (cancel := self.ledger.robots[entry["robot"]].cancel) is not None
         }
-        super()._commit(*entries)
+        super().commit(*entries)
         for robot, cancel in kept.items():
             self.ledger.robots[robot].cancel = cancel
 

@@ -104,4 +104,4 @@ def test_a_control_that_does_not_run_answers_later(cli: Cli, tmp_path: Path) -> 
     assert ended.code == 3
     assert "it is carried out when the control runs" in ended.err
     [(_, command)] = Commands(tmp_path / "a.journal").list_unanswered()
-    assert command == {"kind": "hold"}
+    assert json.loads(command) == {"kind": "hold"}

@@ -9,68 +9,13 @@ from typing import Any
 
 import pytest
 
-from rightofway.control import FleetControl, Order, SimulatedRobot
-from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd
+from rightofway.control import Order
+from rightofway.control.endpoints import Letter
 from rightofway.control.identities import VERSIONS, Identity
-from rightofway.control.notices import Notices
-from rightofway.control.order_map import make_order_maps
-from rightofway.control.routes import make_routes_to_drive
-from rightofway.model import Plan
-from rightofway.precedence import ReleaseGraph
-from tests.builders.chaos import MemoryJournal
 from tests.builders.plans import door
 from tests.builders.schemas import validator
+from tests.builders.sites import Site
 from tests.campaigns.states import fuzz_states
-
-NOW = "2026-01-31T12:00:00.000Z"
-
-
-class Site:
-    """The door with both ends of its wires, and what is said of its robots."""
-
-    def __init__(self, plan: Plan | None = None, version: str = "2.1.0") -> None:
-        plan = plan or door()
-        self.said: list[str] = []
-        self.time = 0.0
-        names = [robot.name for robot in plan.scenario.robots]
-        notices = Notices(names, self.said.append, lambda: self.time)
-        self.control = FleetControl(MemoryJournal(), report=notices.report_on)
-        routes = make_routes_to_drive(plan)
-        self.control.begin("run", routes, ReleaseGraph.of(plan.scenario, plan.tracks))
-        self.identities = [
-            Identity(manufacturer="maker", serial_number=name, version=version) for name in names
-        ]
-        maps = make_order_maps(plan.scenario, self.identities)
-        self.end = ControlEnd(self.control, maps, lambda: NOW, notices)
-        self.robots = [
-            RobotEnd(SimulatedRobot(route.places[0]), k, self.identities[k], lambda: NOW)
-            for k, route in enumerate(routes)
-        ]
-        self.deliver(self.end.make_letters(self.control.start()))
-
-    def deliver(self, letters: list[Letter]) -> None:
-        """Bring letters to robots, and nothing back."""
-        for letter in letters:
-            for robot in self.robots:
-                if letter.topic in robot.topics:
-                    robot.receive(letter)
-
-    def say(self, robot: int, **changes: Any) -> None:
-        """Let a robot send its state with changes, and deliver what is answered."""
-        letter = self.robots[robot].report_state()
-        document = {**json.loads(letter.payload), **changes}
-        self.deliver(self.end.receive(Letter(letter.topic, json.dumps(document).encode())))
-
-    def send(self, robot: int, name: str, document: Any) -> None:
-        """Let a robot send a message."""
-        topic = self.identities[robot].get_topic(name)
-        self.end.receive(Letter(topic, json.dumps(document).encode()))
-
-    @property
-    def released(self) -> list[int]:
-        """The last released part of each robot."""
-        return [own.released for own in self.control.ledger.robots]
-
 
 UNFIT: dict[str, tuple[dict[str, Any], str]] = {
     "mode": (
@@ -111,26 +56,49 @@ def test_an_error_that_does_no_harm_is_reported_and_holds_nothing_back() -> None
     assert site.released[1] > 0
 
 
-def test_trouble_that_comes_and_goes_is_reported_again_after_a_while() -> None:
+def test_each_begin_and_each_end_of_trouble_is_reported() -> None:
     site = Site()
     for _ in range(20):
         site.say(1, paused=True)
+        site.say(1, paused=True)
         site.say(1, paused=False)
-    assert site.said == [
+    assert site.said == 20 * [
         "R2 is paused: it gets nothing more until it goes on",
         "R2 is paused no longer",
     ]
-    site.time = 1000.0
-    site.say(1, paused=True)
-    assert len(site.said) == 3
+
+
+def test_each_loss_of_a_robot_is_reported_also_by_silence() -> None:
+    """Whatever brings it back: its connection, or a state."""
+    site = Site()
+    for number in range(15):
+        site.send(1, "connection", {"connectionState": "CONNECTIONBROKEN"})
+        site.end.connect(1, is_connected=False, why="has been silent for 35 s")
+        if number % 2:
+            site.send(1, "connection", {"connectionState": "ONLINE"})
+        site.say(1)
+    assert site.said == 15 * [
+        "R2 is not connected: it keeps what it holds and gets nothing more",
+        "R2 is connected again",
+    ]
 
 
 def test_a_robot_may_not_make_up_trouble_without_end() -> None:
+    """Of kinds that follow each other 100 sentences are reported, of one state 50 kinds."""
     site = Site()
     for number in range(1000):
         site.say(1, errors=[{"errorType": f"kind {number}", "errorLevel": "WARNING"}])
-    assert len(site.said) == 51
-    assert site.said[-1] == "R2 reports further kinds of trouble, which are left out here"
+    assert len(site.said) == 101
+    assert site.said[-1] == "R2 has trouble that begins and ends too often: it is reported in part"
+    more = Site()
+    kinds = [{"errorType": f"kind {number}", "errorLevel": "WARNING"} for number in range(1000)]
+    more.say(1, errors=kinds)
+    assert len(more.said) == 51
+    assert more.said[-1] == "R2 reports further kinds of trouble, which are left out here"
+    more.say(1, errors=kinds[:1])
+    assert more.said[51:-1] == [
+        f"R2 no longer reports WARNING kind {number}" for number in range(1, 50)
+    ]
 
 
 def test_a_robot_that_asks_for_more_gets_more() -> None:
@@ -211,13 +179,26 @@ def test_a_broken_state_proves_nothing_and_is_reported_once() -> None:
     for payload in broken:
         assert site.end.receive(Letter("uagv/v2/maker/R2/state", payload)) == []
     assert all(sentence.startswith("R2 sent what cannot be read: ") for sentence in site.said)
-    assert len(site.said) == 2  # no JSON, and no order
+    assert len(site.said) == 1
     assert site.control.ledger.arrived == [0, 0]
 
 
 def test_broken_states_do_no_harm_and_are_reported_once() -> None:
     """A few hundred; `just fuzz-states 100000` sends more."""
     assert fuzz_states(300, 1)
+
+
+@pytest.mark.parametrize("digits", ["9" * 4301, "1-" + "9" * 10_000, "0" * 5000, "²", "٣"])
+def test_an_order_of_any_length_is_one_of_others(digits: str) -> None:
+    """Python refuses to read a number of more than 4300 digits."""
+    site = Site()
+    site.say(0)
+    for _ in range(3):
+        site.say(0, orderId=f"run-0-{digits}")
+    assert len(site.said) == 1
+    assert site.said[0].startswith("R1 is faulty: it has order run-0-")
+    site.say(1)
+    assert site.released[1] > 0
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 import click
@@ -43,8 +42,13 @@ Examples:
 
 
 def _time(_context: click.Context, _parameter: click.Parameter, given: str | None) -> str | None:
-    if given is not None and not re.fullmatch(r"[0-9]+(\.[0-9]+|/[1-9][0-9]*)?", given):
-        raise click.BadParameter(f"{given!r} is no time (for example 5 or 1/2)")
+    from rightofway.control.commands import read_time
+
+    if given is not None:
+        try:
+            read_time(given)
+        except InputError as error:
+            raise click.BadParameter(error.faults[0].message) from None
     return given
 
 
@@ -89,26 +93,11 @@ def jobs(
         raise InputError.at(journal, "there is no such file (name the journal of rightofway drive)")
     if action == "add" and at is None:
         raise click.UsageError("a job is somewhere (give --at)")
-    if (
-        action
-        in {
-            "change",
-            "withdraw",
-            "close",
-            "open",
-            "cancel",
-            "clear",
-            "remove",
-            "again",
-            "skip",
-            "place",
-        }
-        and not name
-    ):
-        raise click.UsageError(f"{action} needs a NAME")
-    from rightofway.control.commands import Commands
+    from rightofway.control.commands import NAMED, Commands
     from rightofway.control.journal import JournalReader
 
+    if action in NAMED and not name:
+        raise click.UsageError(f"{action} needs a NAME")
     JournalReader(Path(journal)).close()
     commands = Commands(Path(journal))
     values = {"name": name, "at": at, "to": to, "work": work, "robot": robot, "after": after}

@@ -8,19 +8,46 @@ one transaction, so that it is carried out once, also by a control that was kill
 from __future__ import annotations
 
 import json
+import re
 import sqlite3
 import time
 from collections.abc import Mapping
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from rightofway.errors import InputError
+from rightofway.errors import InputError, quote
 from rightofway.phrases import Phrase
 
-__all__ = ["Answer", "Commands", "say_answer"]
+__all__ = [
+    "NAMED",
+    "Answer",
+    "Commands",
+    "read_command",
+    "read_time",
+    "refuse_nameless",
+    "say_answer",
+]
 
 Answer = Mapping[str, Any]
 """What became of a command: ``done``, and ``text`` for people; more for programs."""
+
+NAMED: Mapping[str, str] = {
+    "change": "job",
+    "withdraw": "job",
+    "again": "job",
+    "skip": "job",
+    "close": "place",
+    "open": "place",
+    "cancel": "robot",
+    "clear": "robot",
+    "remove": "robot",
+    "place": "robot",
+}
+"""The kinds of commands that need a ``name``, each with the thing that it names."""
+
+LONGEST_TIME = 40
+"""Characters of a time; Python reads no number of more than 4300 digits."""
 
 KEPT = 1_000
 """Commands that are kept with their answers."""
@@ -67,10 +94,13 @@ class Commands:
         query = "INSERT INTO commands (command) VALUES (?)"
         return int(self._database.execute(query, (json.dumps(command),)).lastrowid or 0)
 
-    def list_unanswered(self) -> list[tuple[int, dict[str, Any]]]:
-        """Return number and content of each command that has no answer, in their order."""
+    def list_unanswered(self) -> list[tuple[int, Any]]:
+        """Return number and text of each command that has no answer, in their order.
+
+        Any program may have written the text: see `read_command`.
+        """
         query = "SELECT number, command FROM commands WHERE answer IS NULL ORDER BY number"
-        return [(number, json.loads(text)) for number, text in self._database.execute(query)]
+        return list(self._database.execute(query))
 
     def answer(self, number: int, answer: Answer) -> None:
         """Answer a command.
@@ -110,6 +140,68 @@ class Commands:
     def close(self) -> None:
         """Close the file."""
         self._database.close()
+
+
+def read_command(text: Any) -> Mapping[str, Any]:
+    """Return a command that a program has written.
+
+    Parameters
+    ----------
+    text
+        As it is in the file.
+
+    Raises
+    ------
+    InputError
+        If it is no JSON object with the ``kind`` of a command.
+    """
+    try:
+        command = json.loads(text)
+    except (TypeError, ValueError, RecursionError):
+        command = text
+    if not isinstance(command, dict) or not isinstance(command.get("kind"), str):
+        message = f"{quote(command)} is no command (give a JSON object with its kind)"
+        raise InputError.at("command", message)
+    return command
+
+
+def refuse_nameless(command: Mapping[str, Any]) -> None:
+    """Refuse a command without the name that its kind needs.
+
+    Parameters
+    ----------
+    command
+        A command with its ``kind``.
+
+    Raises
+    ------
+    InputError
+        If it has no name, or an empty one.
+    """
+    kind = command["kind"]
+    if kind in NAMED and not command.get("name"):
+        named = NAMED[kind]
+        raise InputError.at(named, f"{kind} needs the name of a {named} (give one)")
+
+
+def read_time(text: object) -> Fraction:
+    """Return a time that a person has written [time unit].
+
+    Parameters
+    ----------
+    text
+        A decimal number or a fraction, not negative.
+
+    Raises
+    ------
+    InputError
+        If it is none, or has more than `LONGEST_TIME` characters.
+    """
+    pattern = r"[0-9]+(\.[0-9]+|/[1-9][0-9]*)?"
+    given = str(text) if isinstance(text, str | int | float) else ""
+    if len(given) > LONGEST_TIME or not re.fullmatch(pattern, given, re.ASCII):
+        raise InputError.at("work", f"{quote(text)} is no time (for example 5 or 1/2)")
+    return Fraction(given)
 
 
 def say_answer(answer: Answer) -> str:

@@ -226,6 +226,7 @@ class Driver:
         """Return what is to be sent again; robots that are silent are lost."""
         if self._metrics is not None:
             self._metrics.survey(self.control)
+        self.end.notices.settle()
         letters = self.end.make_letters(self.control.remind())
         now = time.monotonic()
         for robot, heard in enumerate(self._heard):

@@ -15,19 +15,28 @@ from math import hypot
 from typing import Any, TypeVar
 
 from rightofway.control import vda5050
-from rightofway.control.fleet_control import FleetControl
+from rightofway.control.fleet_control import UNSOUND, FleetControl
 from rightofway.control.identities import Identity
 from rightofway.control.messages import Condition, InstantAction, Message, Order
 from rightofway.control.notices import Notices
 from rightofway.control.order_map import OrderLane, OrderMap, Place
 from rightofway.control.simulated_robot import SimulatedRobot
-from rightofway.errors import InputError, escape_text, quote
+from rightofway.errors import InputError, describe_defect, escape_text, quote
 from rightofway.phrases import Phrase
 
 __all__ = ["ControlEnd", "Letter", "RobotEnd", "format_timestamp", "make_timestamp"]
 
 READ = ("state", "connection", "factsheet")
 """Topics that a control listens to."""
+
+LOST = "lost"
+"""The kind of trouble of a robot that no message reaches."""
+
+LONGEST_MESSAGE = 1_000_000
+"""Bytes of a message that is read: to refuse a longer one field by field takes seconds."""
+
+LONGEST_EXCERPT = 200
+"""Bytes of a message that its report shows."""
 
 ROUNDING = 1e-3
 """By how much a factsheet may miss the plan [m, m/s]: its numbers are rounded."""
@@ -154,7 +163,6 @@ class ControlEnd:
     ) -> None:
         self.control, self.notices = control, notices
         self._maps = maps
-        self._missed = set[int]()  # robots that were reported as lost
         self._writer = _Writer(now)
         self._robots = {
             order_map.identity.get_topic(name): (robot, name)
@@ -188,19 +196,40 @@ class ControlEnd:
         """
         robot, name = self._robots[letter.topic]
         try:
-            if name == "state":
-                state = _read(vda5050.StateMessage, letter).to_robot_state()
-                self.notices.take(robot, state.condition)
-                self._welcome(robot)
-                return self.make_letters(self.control.receive(robot, state))
-            if name == "connection":
-                is_online = _read(vda5050.ConnectionMessage, letter).is_online
-                return self.connect(robot, is_connected=is_online)
-            self._compare(robot, _read(vda5050.Factsheet, letter))
+            letters = self._take(robot, name, letter)
         except InputError as error:
-            path = ".".join(step for step in error.faults[0].path if isinstance(step, str))
-            reason = Phrase("sent what cannot be read: {error}", error=escape_text(str(error)))
-            self.notices.report_once(robot, f"message {path}", reason)
+            self._refuse(robot, name, Phrase("sent what cannot be read: {error}", error=str(error)))
+        except UNSOUND:
+            raise
+        except Exception as error:  # noqa: BLE001 (the guard: no message ends the control)
+            excerpt = escape_text(letter.payload[:LONGEST_EXCERPT].decode(errors="replace"))
+            sentence = Phrase(
+                "sent a message that the control cannot process: {error}: {message}",
+                error=describe_defect(error),
+                message=excerpt,
+            )
+            self._refuse(robot, name, sentence)
+        else:
+            self.notices.end(robot, f"message {name}")
+            return letters
+        return []
+
+    def _refuse(self, robot: int, name: str, sentence: str) -> None:
+        """Report messages of a robot that are not used, until one is."""
+        end = Phrase("sends messages that can be used again ({topic})", topic=name)
+        self.notices.begin(robot, f"message {name}", sentence, end)
+
+    def _take(self, robot: int, name: str, letter: Letter) -> list[Letter]:
+        """Take in a message of a robot; return what is to be sent because of it."""
+        if name == "state":
+            state = _read(vda5050.StateMessage, letter).to_robot_state()
+            self.notices.take(robot, state.condition)
+            self.notices.end(robot, LOST)
+            return self.make_letters(self.control.receive(robot, state))
+        if name == "connection":
+            is_online = _read(vda5050.ConnectionMessage, letter).is_online
+            return self.connect(robot, is_connected=is_online)
+        self._compare(robot, _read(vda5050.Factsheet, letter))
         return []
 
     def connect(self, robot: int, *, is_connected: bool, why: str = "") -> list[Letter]:
@@ -216,20 +245,14 @@ class ControlEnd:
             How it is known that it is not.
         """
         if is_connected:
-            self._welcome(robot)
-        elif robot not in self.control.lost:
+            self.notices.end(robot, LOST)
+        else:
             reason = why or Phrase("is not connected")
             sentence = Phrase(
                 "{reason}: it keeps what it holds and gets nothing more", reason=reason
             )
-            if self.notices.report_once(robot, "lost", sentence):
-                self._missed.add(robot)
+            self.notices.begin(robot, LOST, sentence, Phrase("is connected again"))
         return self.make_letters(self.control.connect(robot, is_connected=is_connected))
-
-    def _welcome(self, robot: int) -> None:
-        if robot in self._missed:
-            self._missed.discard(robot)
-            self.notices.report_on(robot, Phrase("is connected again"), "lost", is_over=True)
 
     def _compare(self, robot: int, sheet: vda5050.Factsheet) -> None:
         """Report where a robot is slower or larger than the plan takes it to be."""
@@ -244,7 +267,9 @@ class ControlEnd:
                 top=f"{top:g}",
                 speed=f"{speed:g}",
             )
-            self.notices.report_once(robot, "speed", sentence)
+            self.notices.begin(robot, "speed", sentence, Phrase("is as fast as the plan takes it"))
+        else:
+            self.notices.end(robot, "speed")
         if radius and physical.length is not None and physical.width is not None:
             needed = hypot(physical.length, physical.width) / 2
             if needed > radius + ROUNDING:
@@ -257,7 +282,8 @@ class ControlEnd:
                     needed=f"{needed:.3g}",
                 )
                 self.control.refuse(robot)
-                self.notices.report_once(robot, "size", sentence)
+                # The control refuses it as long as it runs, so this trouble does not end.
+                self.notices.begin(robot, "size", sentence, "")
 
     def make_letters(self, messages: Iterable[Message]) -> list[Letter]:
         """Return messages of the control as they are sent.
@@ -412,6 +438,9 @@ def _read(model: type[_AnyBody], letter: Letter) -> _AnyBody:
 
 def _document(payload: bytes) -> dict[str, Any]:
     """Return a payload as JSON has it."""
+    if len(payload) > LONGEST_MESSAGE:
+        message = f"has {len(payload)} bytes (the sender has to send {LONGEST_MESSAGE} at most)"
+        raise InputError.at("message", message)
     try:
         document = json.loads(payload)
     except (ValueError, RecursionError) as error:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 
-from rightofway.control.journal import Entry, Journal
+from rightofway.control.journal import Entry, Journal, JournalFailed
 from rightofway.control.ledger import Ledger, make_plan_entry
 from rightofway.control.messages import Condition, InstantAction, Message, RobotState
 from rightofway.control.orders import make_order, make_update
@@ -29,7 +29,16 @@ from rightofway.control.releases import find_last_part, is_in_base
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive
 from rightofway.control.splices import refuse_changes, refuse_rotation, refuse_ways
+from rightofway.errors import describe_defect
 from rightofway.precedence import Arrival, ReleaseGraph
+
+
+class LedgerFailed(Exception):
+    """An entry that is on the disk could not be applied: what robots hold is no longer known."""
+
+
+UNSOUND = (JournalFailed, LedgerFailed)
+"""Exceptions after which nothing may be sent; the guards of what comes in let them pass."""
 
 LOOK_AHEAD = 4
 """Released parts that a robot has not reached yet, at most: re-planning keeps the rest free."""
@@ -136,11 +145,11 @@ class FleetControl:
         refuse_rotation(graph, names)
         refuse_ways(routes, committed, names, self.may_drive)
         entry = make_plan_entry("plan", run, routes, graph, committed=committed, names=names)
-        self._commit(entry)
+        self.commit(entry)
 
     def start(self) -> list[Message]:
         """Return what is to be sent after a start: all that is unanswered, requests for states."""
-        self._commit({"kind": "started"})
+        self.commit({"kind": "started"})
         number, run = self.ledger.starts, self.ledger.run
         asks = [
             InstantAction(robot=k, action_id=f"{run}-{k}-start{number}", kind="stateRequest")
@@ -189,7 +198,7 @@ class FleetControl:
         refuse_ways(routes, committed, names, self.may_drive)
         entry = make_plan_entry("splice", self.ledger.run, routes, graph, committed=committed)
         begins = [{"kind": "placed", "robot": k, "visit": routes[k].first} for k in placed]
-        self._commit(*begins, {**entry, "withdrawn": [list(job) for job in withdrawn]}, *notes)
+        self.commit(*begins, {**entry, "withdrawn": [list(job) for job in withdrawn]}, *notes)
         if self._since_snapshot >= self._snapshot_every:
             self._journal.begin_again(self.ledger.make_snapshot())
             self._since_snapshot = 0
@@ -203,7 +212,7 @@ class FleetControl:
         entries
             For the ledger.
         """
-        self._commit(*entries)
+        self.commit(*entries)
         return self._release()
 
     @property
@@ -250,9 +259,9 @@ class FleetControl:
         own, graph = self.ledger.robots[robot], self.ledger.graph
         before = own.arrived
         visit = self._find_proven(own, state)
-        self._commit(*list_facts(self.ledger, robot, state, visit, self._report))
+        self.commit(*list_facts(self.ledger, robot, state, visit, self._report))
         answers = list(self._follow_state(robot, state))
-        self._commit(*answers)
+        self.commit(*answers)
         # At once: by the timer alone, a robot that says often that it has no order, because the
         # next one is not sent yet, could be asked without end.
         sends = list[Message]()
@@ -366,7 +375,7 @@ class FleetControl:
         for robot in range(len(self.ledger.robots)) if robots is None else robots:
             entry = self._find_step(robot, self.ledger.robots[robot])
             if entry is not None:
-                self._commit(entry)
+                self.commit(entry)
                 sends += self._list_unanswered(robot)
         return sends
 
@@ -413,10 +422,26 @@ class FleetControl:
         """Return the last part that a splice has to keep."""
         return own.released
 
-    def _commit(self, *entries: Entry) -> None:
-        """Write entries to the disk, then take them in."""
+    def commit(self, *entries: Entry) -> None:
+        """Write entries to the disk, then take them in; release nothing.
+
+        Parameters
+        ----------
+        entries
+            For the ledger.
+
+        Raises
+        ------
+        JournalFailed
+            If they could not be written: nothing has changed.
+        LedgerFailed
+            If they were written and could not be taken in: the control has to end.
+        """
         if entries:
             self._journal.commit(entries)
             self._since_snapshot += len(entries)
-            for entry in entries:
-                self.ledger.apply(entry)
+            try:
+                for entry in entries:
+                    self.ledger.apply(entry)
+            except Exception as error:
+                raise LedgerFailed(describe_defect(error)) from error

@@ -33,6 +33,7 @@ class Ledger:
         self.closed: dict[Names, tuple[Edge, ...]] = {}  # what nobody may enter
         self.commands = 0  # the number of the last command that was carried out
         self.answer = ""  # to it
+        self.failed = False  # whether it has raised
         self.changed = set[int]()
 
     @property
@@ -74,12 +75,26 @@ class Ledger:
         order_id
             As a state names it.
         """
-        known = self.robots[robot]
-        if order_id in known.orders:
-            return True
-        start, _, number = order_id.rpartition("-")
-        is_number = number.isdecimal() and number == str(int(number))
-        return start == f"{self.run}-{robot}" and is_number and int(number) < known.order_count
+        return (
+            order_id in self.robots[robot].orders or self.find_number(robot, order_id) is not None
+        )
+
+    def find_number(self, robot: int, order_id: str) -> int | None:
+        """Return the number of an order of ours for a robot; None for an order of others.
+
+        Parameters
+        ----------
+        robot
+            Its number.
+        order_id
+            As a state names it, of any length.
+        """
+        start, _, digits = order_id.rpartition("-")
+        count = self.robots[robot].order_count
+        is_short = len(digits) <= len(str(count)) and digits.isdecimal()
+        if start != f"{self.run}-{robot}" or not is_short or digits != str(int(digits)):
+            return None
+        return int(digits) if int(digits) < count else None
 
     def apply(self, entry: Entry) -> None:
         """Take in an entry.
@@ -103,6 +118,7 @@ class Ledger:
             self.closed.pop(tuple(entry["names"]), None)
         elif kind == "command":
             self.commands, self.answer = entry["number"], entry["answer"]
+            self.failed = entry.get("failed", False)  # journals of 1.0 have no failed commands
         elif kind in UNFOLDED:
             pass
         else:
@@ -122,6 +138,7 @@ class Ledger:
             "closed": list(self.closed.items()),
             "commands": self.commands,
             "answer": self.answer,
+            "failed": self.failed,
             "robots": robots,
             "waits": waits,
         }
@@ -143,6 +160,7 @@ class Ledger:
             {tuple(names): tuple(map(tuple, edges)) for names, edges in entry["closed"]},
         )
         self.commands, self.answer = entry["commands"], entry["answer"]
+        self.failed = entry.get("failed", False)
         self.robots = [RobotLedger.of_document(robot) for robot in entry["robots"]]
         self.graph = _make_graph([own.route for own in self.robots], entry["waits"])
         self.changed.update(range(len(self.robots)))

@@ -1,9 +1,11 @@
-"""What people are told of robots: each kind of trouble once, until it has ended."""
+"""Sentences on robots for people: news, and each trouble of a robot when it begins and ends."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import islice
 
 from rightofway.control.journal import Entry
 from rightofway.control.messages import AUTOMATIC, Condition
@@ -11,17 +13,58 @@ from rightofway.errors import escape_text
 from rightofway.phrases import Phrase, to_parts
 from rightofway.report.driving import describe_robot
 
-__all__ = ["Notices", "make_notice"]
+__all__ = ["EVERY_KIND", "Notices", "make_notice"]
 
-QUIET = 600.0
-"""Seconds after which a kind of trouble that comes and goes is reported again."""
+BURST = 100
+"""Sentences on the trouble of a robot that are reported without a pause."""
+
+REFILL = 6.0
+"""Seconds after which one more sentence may be reported."""
 
 MAX_KINDS = 50
-"""Kinds of trouble of a robot that are reported: a robot may make up as many as it likes."""
+"""Kinds of trouble in one state of a robot that are reported: a robot may list any number."""
+
+EVERY_KIND = "*"
+"""In a notice that trouble is over: all trouble that was noticed until then."""
+
+MORE, FLOOD = "more", "flood"
+"""Kinds of trouble with the reports themselves."""
+
+
+@dataclass(slots=True)
+class _Told:
+    """The trouble of a robot, and the part of it that was reported.
+
+    Attributes
+    ----------
+    present
+        The sentence on the begin of each trouble that lasts, and on its end, by its kind.
+    reported
+        The sentence on the end of each trouble whose begin was reported and whose end was not.
+    left
+        Sentences that may still be reported.
+    since
+        When `left` was computed [s].
+    condition
+        The last condition.
+    listed
+        The kinds of trouble of that condition.
+    """
+
+    present: dict[str, tuple[str, str]] = field(default_factory=dict)
+    reported: dict[str, str] = field(default_factory=dict)
+    left: float = BURST
+    since: float = 0.0
+    condition: Condition = field(default_factory=Condition)
+    listed: frozenset[str] = frozenset()
 
 
 class Notices:
     """Sentences on robots.
+
+    The begin of each trouble is reported once, and its end. Trouble that comes and goes more often
+    than every few seconds is reported in part: `BURST` sentences, then one in `REFILL` seconds.
+    The last report on each kind is always that of its present state, after `settle` at the latest.
 
     Parameters
     ----------
@@ -32,7 +75,7 @@ class Notices:
     clock
         Returns seconds; no release depends on them.
     keep
-        Receives an entry for the journal with each sentence, and when a kind of trouble has ended.
+        Receives an entry for the journal with each sentence.
     """
 
     def __init__(
@@ -43,9 +86,7 @@ class Notices:
         keep: Callable[[Entry], None] = lambda _: None,
     ) -> None:
         self._names, self._report, self._clock, self._keep = names, report, clock, keep
-        self._last: list[dict[str, float]] = [{} for _ in names]
-        self._present: list[dict[str, str]] = [{} for _ in names]
-        self._conditions = [Condition()] * len(names)
+        self._told = [_Told(since=clock()) for _ in names]
 
     def report(self, text: str, kind: str = "", *, is_over: bool = False) -> None:
         """Report a sentence that is about no robot.
@@ -86,34 +127,38 @@ class Notices:
             self._report(text)
         self._keep(make_notice(to_parts(text), robot, kind, is_over=is_over))
 
-    def report_once(self, robot: int, kind: str, sentence: str) -> bool:
-        """Report a sentence unless one of its kind was reported lately; return whether it was.
+    def begin(self, robot: int, kind: str, sentence: str, end: str) -> None:
+        """Report that trouble begins, unless trouble of its kind lasts already.
 
         Parameters
         ----------
         robot
             The robot.
         kind
-            What counts as the same.
+            The kind of trouble.
         sentence
-            What it does or is, without its name.
+            What the robot does or is, without its name.
+        end
+            The sentence on its end.
         """
-        last, now = self._last[robot], self._clock()
-        if kind in last and now - last[kind] < QUIET:
-            return False
-        if kind not in last and len(last) >= MAX_KINDS:
-            if len(last) == MAX_KINDS:
-                last["more"] = now
-                self.report_on(
-                    robot, Phrase("reports further kinds of trouble, which are left out here")
-                )
-            return False
-        last[kind] = now
-        self.report_on(robot, sentence, kind)
-        return True
+        self._told[robot].present.setdefault(kind, (sentence, end))
+        self._settle(robot)
+
+    def end(self, robot: int, kind: str) -> None:
+        """Report that trouble of a kind has ended, if there was any.
+
+        Parameters
+        ----------
+        robot
+            The robot.
+        kind
+            The kind of trouble.
+        """
+        if self._told[robot].present.pop(kind, None) is not None:
+            self._settle(robot)
 
     def take(self, robot: int, condition: Condition) -> None:
-        """Report what is new in the condition of a robot, and what has ended.
+        """Report the trouble that begins or ends with a condition of a robot.
 
         Parameters
         ----------
@@ -122,23 +167,52 @@ class Notices:
         condition
             By its last state.
         """
-        if condition == self._conditions[robot]:
+        told = self._told[robot]
+        if condition == told.condition:
             return
-        self._conditions[robot] = condition
-        present, before = dict(_troubles(condition)), self._present[robot]
-        reported = {
-            kind: end
-            for kind, (sentence, end) in present.items()
-            if kind in before or self.report_once(robot, kind, sentence)
-        }
-        for kind, end in before.items():
-            if kind not in present:
-                self.report_on(robot, end, kind, is_over=True)
-        self._present[robot] = reported
+        listed = dict(islice(_list_troubles(condition), MAX_KINDS + 1))
+        if len(listed) > MAX_KINDS:
+            listed.popitem()
+            begin = Phrase("reports further kinds of trouble, which are left out here")
+            listed[MORE] = (begin, Phrase("reports no further kinds of trouble"))
+        for kind in told.listed - listed.keys():
+            del told.present[kind]
+        for kind, sentences in listed.items():
+            told.present.setdefault(kind, sentences)
+        told.condition, told.listed = condition, frozenset(listed)
+        self._settle(robot)
+
+    def settle(self) -> None:
+        """Report the present state of trouble that was left out; call it every second."""
+        for robot, told in enumerate(self._told):
+            if told.reported.keys() != told.present.keys():
+                self._settle(robot)
+
+    def _settle(self, robot: int) -> None:
+        """Report ends and begins of trouble, as many as may be reported now."""
+        told, now = self._told[robot], self._clock()
+        told.left = min(told.left + (now - told.since) / REFILL, BURST)
+        told.since = now
+        ended = [kind for kind in told.reported if kind not in {*told.present, FLOOD}]
+        begun = [kind for kind in told.present if kind not in told.reported]
+        for kind in ended[: int(told.left)]:
+            told.left -= 1
+            self.report_on(robot, told.reported.pop(kind), kind, is_over=True)
+        for kind in begun[: int(told.left)]:
+            told.left -= 1
+            sentence, told.reported[kind] = told.present[kind]
+            self.report_on(robot, sentence, kind)
+        is_whole = told.reported.keys() - {FLOOD} == told.present.keys()
+        if not is_whole and FLOOD not in told.reported:
+            begin = Phrase("has trouble that begins and ends too often: it is reported in part")
+            told.reported[FLOOD] = Phrase("has trouble less often: all of it is reported again")
+            self.report_on(robot, begin, FLOOD)
+        elif is_whole and FLOOD in told.reported and told.left >= BURST / 2:
+            self.report_on(robot, told.reported.pop(FLOOD), FLOOD, is_over=True)
 
 
 def make_notice(text: object, robot: int = -1, kind: str = "", *, is_over: bool = False) -> Entry:
-    """Return the entry of what people were told.
+    """Return the entry of a sentence for people.
 
     Parameters
     ----------
@@ -154,7 +228,7 @@ def make_notice(text: object, robot: int = -1, kind: str = "", *, is_over: bool 
     return {"kind": "notice", "robot": robot, "about": kind, "over": is_over, "text": text}
 
 
-def _troubles(condition: Condition) -> Iterator[tuple[str, tuple[str, str]]]:
+def _list_troubles(condition: Condition) -> Iterator[tuple[str, tuple[str, str]]]:
     """Yield kinds of trouble, each with a sentence on its begin, and on its end."""
     if condition.mode not in AUTOMATIC:
         begin = Phrase(
@@ -177,4 +251,5 @@ def _troubles(condition: Condition) -> Iterator[tuple[str, tuple[str, str]]]:
         if error.description:
             words = escape_text(error.description[:200])
             sentence = Phrase("{report}: {words}", report=sentence, words=words)
-        yield f"error {error.level[:40]} {error.kind[:60]}", (sentence, "")
+        end = Phrase("no longer reports {level} {error}", level=level, error=kind)
+        yield f"error {error.level[:40]} {error.kind[:60]}", (sentence, end)

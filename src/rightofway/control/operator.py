@@ -8,14 +8,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
-from fractions import Fraction
 from functools import partial
 from itertools import pairwise
 from typing import Any
 
-from rightofway.control.commands import Answer, Commands
+from rightofway.control.commands import (
+    Answer,
+    Commands,
+    read_command,
+    read_time,
+    refuse_nameless,
+)
 from rightofway.control.commitments import StopToMake, list_stops_to_make
 from rightofway.control.dispatcher import Dispatcher
+from rightofway.control.fleet_control import UNSOUND
 from rightofway.control.journal import Entry
 from rightofway.control.messages import Message
 from rightofway.control.names import (
@@ -29,7 +35,7 @@ from rightofway.control.names import (
 )
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import make_route_from
-from rightofway.errors import GaveUp, InputError, quote
+from rightofway.errors import GaveUp, InputError, describe_defect, quote
 from rightofway.search import Distances
 from rightofway.site import VertexId
 
@@ -82,34 +88,47 @@ class Operator:
         ledger = self._ledger
         messages: list[Message] = []
         answers: list[tuple[int, Answer]] = []
-        for number, command in commands.list_unanswered():
+        for number, text in commands.list_unanswered():
             if number <= ledger.commands:  # it was carried out before a start
                 is_last = number == ledger.commands
-                text = ledger.answer if is_last else "carried out before a start"
-                answers.append((number, {"done": True, "text": text}))
+                answer = ledger.answer if is_last else "carried out before a start"
+                answers.append((number, {"done": not (is_last and ledger.failed), "text": answer}))
                 continue
             self._number = number
             try:
-                more, answer = self._obey(command)
+                more, reply = self._obey(read_command(text))
             except (InputError, GaveUp) as error:
-                more, answer = [], {"done": False, "text": str(error)}
+                more, reply = [], {"done": False, "text": str(error)}
+            except UNSOUND:
+                raise
+            except Exception as error:  # noqa: BLE001 (the guard: no command ends the control)
+                more, reply = self._fail(number, text, error)
             self._number = None
-            answers.append((number, answer))
+            answers.append((number, reply))
             messages += more
         return messages, answers
 
+    def _fail(self, number: int, command: Any, error: Exception) -> tuple[list[Message], Answer]:
+        """Answer a command that has raised as failed; no start may carry it out again."""
+        text = f"{describe_defect(error)}, from the command {quote(command)}"
+        if number > self._ledger.commands:  # else it was committed before it has raised
+            self._number = number
+            self._dispatcher.control.commit(*self._answer(text, failed=True))
+        return [], {"done": False, "text": text}
+
     def _obey(self, command: Mapping[str, Any]) -> tuple[list[Message], Answer]:
         """Carry out a command; return what is to be sent, and the answer."""
+        refuse_nameless(command)
         ledger = self._ledger
-        kind, name, at = command["kind"], str(command.get("name")), command.get("at")
-        robot, lasts = command.get("robot"), command.get("work")
-        places = [str(command[key]) for key in ("name", "to") if key in command]
-        clock = self._scenario.problem.clock
-        ticks = None if lasts is None else clock.count_ticks(Fraction(lasts))
+        kind, lasts, clock = command["kind"], command.get("work"), self._scenario.problem.clock
+        texts = {key: str(value) for key, value in command.items() if value is not None}
+        name, at, robot = texts.get("name", ""), texts.get("at"), texts.get("robot")
+        places = [texts[key] for key in ("name", "to") if key in texts]
+        ticks = None if lasts is None else clock.count_ticks(read_time(lasts))
         if kind == "list":
             return [], {"done": True, "text": "", "jobs": list_jobs(ledger)}
         changes: dict[str, Callable[[], list[Message]]] = {
-            "add": lambda: self.add_job(str(at), int(ticks or 0), robot, command.get("after"))[1],
+            "add": lambda: self.add_job(at or "", int(ticks or 0), robot, texts.get("after"))[1],
             "change": lambda: self.change_job(name, at, ticks),
             "withdraw": lambda: self.withdraw_job(name),
             "again": lambda: self.retry_job(name),
@@ -119,7 +138,7 @@ class Operator:
             "place": lambda: self.place_robot(name, at),
             "replan": lambda: self._replan(self._dispatcher.list_stops(), text="replanned"),
         }
-        change = changes.get(kind) or partial(self.operate, kind, command.get("name"))
+        change = changes.get(kind) or partial(self.operate, kind, texts.get("name"))
         messages = change()
         return messages, {"done": True, "text": ledger.answer}
 
@@ -143,8 +162,7 @@ class Operator:
         ledger, entry = self._ledger, OPERATIONS.get(kind)
         if entry is None:
             raise InputError.at("command", f"{quote(kind)} is no command (see rightofway jobs)")
-        if name is None and kind not in {"hold", "go"}:
-            raise InputError.at("robot", f"{kind} needs the name of a robot (give one)")
+        refuse_nameless({"kind": kind, "name": name})
         robots = range(len(ledger.names)) if name is None else [find_robot(ledger, name)]
         text = f"{name or 'all robots'}: {kind}"
         return self._note(*({**entry, "robot": robot} for robot in robots), text=text)
@@ -439,9 +457,9 @@ class Operator:
         notes = self._answer(text)
         return self._dispatcher.replan(stops, withdrawn=withdrawn, placed=placed, notes=notes)
 
-    def _answer(self, text: str) -> list[Entry]:
+    def _answer(self, text: str, *, failed: bool = False) -> list[Entry]:
         """Return the entry of the command that is under way, with its answer."""
         if self._number is None:
             return []
         number, self._number = self._number, None
-        return [{"kind": "command", "number": number, "answer": text}]
+        return [{"kind": "command", "number": number, "answer": text, "failed": failed}]

@@ -128,8 +128,8 @@ def _find_fault_of_order(ledger: Ledger, robot: int, state: RobotState) -> str |
     if not ledger.owns(robot, state.order_id):
         order = escape_text(state.order_id[:80])
         return Phrase("it has order {order}, which is not ours", order=order)
-    number = int(state.order_id.rpartition("-")[2])
-    if number < ledger.robots[robot].first_order and state.nodes:
+    number = ledger.find_number(robot, state.order_id)
+    if number is not None and number < ledger.robots[robot].first_order and state.nodes:
         return Phrase("it still has an order from before it was placed")
     return None
 

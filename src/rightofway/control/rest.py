@@ -165,13 +165,17 @@ class RestPlanner:
             for robot, own_commitment in commitments.items()
         ]
         whole = replace(self._scenario, robots=tuple(fleet))
+        try:
+            itineraries = whole.problem.itineraries
+        except InputError:  # robots that are stuck would be busy for longer than a problem may last
+            return None
         visited = [
             make_route_through(
                 whole.roadmap,
                 itinerary,
                 [whole.roadmap.get_vertex(place) for place in routes[robot].places],
             )
-            for robot, itinerary in zip(moving, whole.problem.itineraries, strict=True)
+            for robot, itinerary in zip(moving, itineraries, strict=True)
         ]
         times = [
             [

@@ -141,8 +141,7 @@ def _model_of(request: Request, body: Any) -> Any:
     wanted = parameters[0].field_info.annotation if parameters else None
     if wanted is not None and hasattr(wanted, "model_fields"):
         return wanted
-    for kind in get_args(wanted):  # each is annotated with the kind that it is for
-        model, tag = get_args(kind)
-        if tag.tag == get_kind(body):
-            return model
+    for kind in map(get_args, get_args(wanted)):  # each is annotated with the kind that it is for
+        if kind and kind[1].tag == get_kind(body):
+            return kind[0]
     return None

@@ -24,6 +24,7 @@ from urllib.parse import parse_qs, unquote_to_bytes, urlencode
 
 from starlette.exceptions import HTTPException
 
+from rightofway.errors import describe_defect
 from rightofway.studio.errors import Refused, StudioError
 from rightofway.studio.workspace import CLIMBS
 
@@ -182,9 +183,9 @@ class Guard:
         except StudioError as refused:
             await answer.refuse(refused.status, refused.error)
         except Exception as error:  # noqa: BLE001 (a defect of ours: one line, and the server goes on)
-            summary = " ".join([f"{type(error).__name__}:", *str(error).split()])[:500]
-            print(f"unexpected {summary} (please report it)", file=sys.stderr)  # noqa: T201 (a server's log)
-            await answer.refuse(500, {"kind": "defect", "message": f"unexpected {summary}"})
+            message = describe_defect(error)
+            print(message, file=sys.stderr)  # noqa: T201 (a server's log)
+            await answer.refuse(500, {"kind": "defect", "message": message})
 
     def _judge(self, request: _Request) -> None:
         """Refuse what is not a request of our own page, of a program here, or of an address bar."""

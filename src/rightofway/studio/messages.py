@@ -13,7 +13,7 @@ import struct
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from rightofway.errors import GaveUp, InputError, InputFault, NoPlanExists
+from rightofway.errors import GaveUp, InputError, InputFault, NoPlanExists, describe_defect
 
 LENGTH = struct.Struct(">Q")
 """How the length of a message is written."""
@@ -51,8 +51,7 @@ def as_error(error: BaseException) -> dict[str, Any]:
             message = "this needs more memory than a worker may take (give a smaller problem)"
             return {"kind": "memory", "message": message}
         case _:
-            summary = " ".join([f"{type(error).__name__}:", *str(error).split()])
-            return {"kind": "defect", "message": f"unexpected {summary} (please report it)"}
+            return {"kind": "defect", "message": describe_defect(error)}
 
 
 def as_fault_data(fault: InputFault) -> dict[str, Any]:
