@@ -129,9 +129,9 @@ class Command:
         self._process.kill()
         self._process.wait()
 
-    def interrupt(self) -> int:
-        """End it as Ctrl-C does; return its exit code."""
-        self._process.send_signal(signal.SIGINT)
+    def interrupt(self, number: int = signal.SIGINT) -> int:
+        """End it as Ctrl-C does, or by another signal; return its exit code."""
+        self._process.send_signal(number)
         return self._process.wait(20)
 
     @property

@@ -8,6 +8,7 @@ import json
 import random
 import re
 import shutil
+import signal
 import subprocess
 from collections.abc import Iterator
 from functools import partial
@@ -85,6 +86,57 @@ def test_the_door_is_driven_by_three_commands(
     assert "all robots are at the end of their way" in drive.log
     assert len(observer.finished) == 2
     observer.close()
+
+
+def test_the_end_of_a_run_is_reported_for_people_and_programs_and_as_a_page(
+    tmp_path: Path, broker: Mosquitto
+) -> None:
+    """The report goes to standard output; robots have done a job each, and have come home."""
+    with robots_of(door(), tmp_path, broker.url):
+        wait_for((tmp_path / "robots.yaml").exists, 60, "the file of identities")
+        options = ("plan.json", "--broker", broker.url, "--identities", "robots.yaml")
+        with Command(
+            tmp_path, "drive", *options, "--json", "--page", "x.html", "-q"
+        ).running() as ran:
+            assert ran.wait(60) == 0, ran.log
+    data = json.loads(ran.log)
+    assert (data["jobs"], data["tick"]) == (2, 1)
+    assert [(robot["name"], robot["jobs"]) for robot in data["robots"]] == [("R1", 1), ("R2", 1)]
+    assert [robot["planned"] for robot in data["robots"]] == [10, 9]
+    assert all(robot["completion"] is not None for robot in data["robots"])
+    assert {"order", "instantActions", "state"} <= set(data["messages"])
+    assert (tmp_path / "x.html").stat().st_size > 10_000
+
+
+@pytest.mark.parametrize("laps", [(), ("--laps", "inf")], ids=["once", "laps"])
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_a_run_that_is_interrupted_is_reported_and_goes_on_at_the_next_start(
+    number: int, code: int, laps: tuple[str, ...], tmp_path: Path, broker: Mosquitto
+) -> None:
+    with robots_of(door(), tmp_path, broker.url, "--time-scale", "4"):
+        wait_for((tmp_path / "robots.yaml").exists, 60, "the file of identities")
+        options = ("plan.json", "--broker", broker.url, "--identities", "robots.yaml", *laps)
+        with Command(tmp_path, "drive", *options).running() as drive:
+            wait_for(lambda: "R2 sets out" in drive.log, 60, "the first order")
+            assert drive.interrupt(number) == code, drive.log
+            report = drive.log.partition("interrupted\n")[2]
+            assert re.match(r"jobs +[01] done\n", report), drive.log
+            assert "Traceback" not in drive.log
+            drive.start()
+            wait_for(lambda: drive.log.count("has done its work") >= 2, 60, "the work")
+
+
+def test_a_run_without_a_connection_is_reported_when_it_is_terminated(tmp_path: Path) -> None:
+    write_plan(door(), tmp_path / "plan.json")
+    names = [robot.name for robot in door().scenario.robots]
+    text = format_identities(names, make_simulated_identities(names))
+    (tmp_path / "robots.yaml").write_text(text, encoding="utf-8")
+    nowhere = f"mqtt://localhost:{free_port()}"
+    options = ("plan.json", "--broker", nowhere, "--identities", "robots.yaml")
+    with Command(tmp_path, "drive", *options).running() as drive:
+        wait_for(lambda: "no connection to" in drive.log, 60, "a try to connect")
+        assert drive.interrupt(signal.SIGTERM) == 143, drive.log
+        assert "ended     0 of 2 robots at the end of their way" in drive.log
 
 
 def test_twenty_robots_in_a_warehouse_with_trouble(tmp_path: Path, broker: Mosquitto) -> None:

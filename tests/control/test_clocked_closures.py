@@ -12,7 +12,8 @@ import pytest
 
 import rightofway
 from rightofway.control import SimulatedRobot, SqliteJournal
-from rightofway.control.demo import DemoResult, drive_demo
+from rightofway.control.demo import drive_demo
+from rightofway.control.drive_result import DriveResult
 from rightofway.control.driver import Driver
 from rightofway.control.endpoints import RobotEnd
 from rightofway.control.identities import make_simulated_identities
@@ -40,14 +41,14 @@ def lane(*closures: dict[str, object]) -> Plan:
     return rightofway.solve(parse_scenario(document), "prioritized")
 
 
-def driven(plan: Plan, delays: str | tuple[()] = ()) -> tuple[DemoResult, list[str]]:
+def driven(plan: Plan, delays: str | tuple[()] = ()) -> tuple[DriveResult, list[str]]:
     """Return how a plan was driven, and what was said."""
     lines = list[str]()
     result = drive_demo(plan, delays, report=lambda _, sentence: lines.append(sentence))
     return result, lines
 
 
-def find_entries(result: DemoResult, place: str) -> list[Fraction]:
+def find_entries(result: DriveResult, place: str) -> list[Fraction]:
     """Return when the robot begins to drive to a place [s]."""
     assert result.trace is not None
     [track], [drive] = result.trace.tracks, result.trace.drive
@@ -132,7 +133,7 @@ def test_nobody_drives_into_what_is_closed_however_late_it_is(
     assert list(list_entries_into_closed(result)) == []
 
 
-def list_entries_into_closed(result: DemoResult) -> Iterator[str]:
+def list_entries_into_closed(result: DriveResult) -> Iterator[str]:
     """Yield where a robot begins to drive into an edge or a vertex that is closed for it."""
     assert result.trace is not None
     scenario, closures = result.plan.scenario, result.plan.scenario.problem.closures

@@ -14,7 +14,8 @@ import pytest
 
 import rightofway
 from rightofway.control.commands import Commands
-from rightofway.control.demo import DemoResult, drive_demo, make_pause
+from rightofway.control.demo import drive_demo, make_pause
+from rightofway.control.drive_result import DriveResult
 from rightofway.control.endpoints import Letter
 from rightofway.control.identities import VERSIONS
 from rightofway.control.journal import SqliteJournal
@@ -44,7 +45,7 @@ TIMELY = """\
 12 R1 is at the end of its way, N0"""
 
 
-def story_of(delays: str | tuple[()] = (), seed: int = 0) -> tuple[DemoResult, str]:
+def story_of(delays: str | tuple[()] = (), seed: int = 0) -> tuple[DriveResult, str]:
     """Return how the door was driven, and the story."""
     lines = list[str]()
 
@@ -83,7 +84,7 @@ def test_a_stop_of_one_robot_holds_the_other_one_and_no_longer() -> None:
     assert late == [10, 10]
 
 
-def _completions(*results: DemoResult) -> list[tuple[Tick | None, ...]]:
+def _completions(*results: DriveResult) -> list[tuple[Tick | None, ...]]:
     return [result.trace.completion for result in results if result.trace]
 
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 import asyncio
 import gc
 import math
-from collections.abc import Iterator
+import signal
+from collections.abc import Coroutine, Iterator
 from contextlib import ExitStack, closing, contextmanager
+from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -30,17 +32,26 @@ from rightofway.cli.options import (
     ticks_option,
 )
 from rightofway.cli.outputs import make_page_option, put_page
-from rightofway.cli.terminal import get_language, make_title, put_json, put_report, say, say_written
+from rightofway.cli.terminal import (
+    get_language,
+    make_title,
+    put_json,
+    put_report,
+    say,
+    say_written,
+)
 from rightofway.cli.watch import WatchPage, add_page_options
 from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
     from rightofway.control.broker import Broker
-    from rightofway.control.demo import DemoResult
+    from rightofway.control.drive_result import DriveResult
     from rightofway.control.endpoints import Letter
     from rightofway.control.identities import Identity
-    from rightofway.model import Plan
     from rightofway.quantities import Quantities
+
+INTERRUPTED, TERMINATED = 130, 143
+"""Exit codes of robots at a broker after Ctrl-C, and after SIGTERM."""
 
 EXAMPLES = """\b
 Examples:
@@ -112,7 +123,9 @@ def _count(_context: click.Context, _parameter: click.Parameter, given: str | No
 @click.option("--switch", is_flag=True,
               help="Switch rights of way where robots have come so far that another order is"
               " better.")  # fmt: skip
-@make_page_option("what robots of a demo did beside the plan, or with --replay what a journal has")
+@make_page_option(
+    "what robots of a demo did beside the plan, or with --broker and --replay what a journal has"
+)
 @ticks_option
 @as_json_option("outcome")
 def drive(
@@ -165,69 +178,98 @@ def drive(
     journal_file = Path(journal) if journal else Path(plan).with_suffix(".journal")
 
     shown = WatchPage(plan=opened, title=make_title(plan), host=host, port=port)
-    if replay and page:
-        shown.write(journal_file, page)
-        say_written(page)
-        return 0
+    output = _Output(
+        page=page,
+        shown=shown,
+        is_live=live,
+        quantities=choose_quantities(opened.scenario, in_ticks=in_ticks),
+        as_json=as_json,
+    )
     if replay:
-        with shown.serve(journal_file, takes_orders=False):
-            shown.wait_for_interrupt()
-        return 0
+        return _replay(journal_file, output)
     if broker is not None:
         from rightofway.control.broker import Broker
 
         address = Broker.of(broker, password_file=password_file, ca_file=ca_file)
-        _drive_at(
-            address, opened, known, journal_file, shown if live else None,
+        return _drive_at(
+            address, known, journal_file, output,
             laps=laps, switch=switch, metrics=metrics, stays=stay,
         )  # fmt: skip
-        return 0
     if dry_run:
         from rightofway.control.demo import drive_demo
 
         drive_demo(opened, identities=known, watch=_show)
         return 0
-    quantities = choose_quantities(opened.scenario, in_ticks=in_ticks)
+    _drive_demo(
+        known, journal, output, time_scale,
+        delays=delay_texts(delays), seed=seed, laps=laps, switch=switch, stays=stay,
+    )  # fmt: skip
+    return 0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Output:
+    """Where the report of a run goes, and its page."""
+
+    page: str | None
+    shown: WatchPage
+    is_live: bool
+    quantities: Quantities
+    as_json: bool
+
+    def report(self, result: DriveResult, **details: int) -> None:
+        """Print what robots have done; details are for programs."""
+        if self.as_json:
+            from rightofway.report.plan_data import describe_measures
+
+            put_json({**describe_measures(result.plan.scenario), **details, **result.as_dict()})
+        else:
+            from rightofway.control.report import report
+
+            put_report(report(result, self.quantities, get_language()))
+
+
+def _replay(journal: Path, output: _Output) -> int:
+    """Write the page of a journal, or serve it until Ctrl-C."""
+    if output.page:
+        output.shown.write(journal, output.page)
+        say_written(output.page)
+        return 0
+    with output.shown.serve(journal, takes_orders=False):
+        output.shown.wait_for_interrupt()
+    return 0
+
+
+def _drive_demo(
+    identities: list[Identity],
+    journal: str | None,
+    output: _Output,
+    time_scale: float,
+    **options: Any,
+) -> None:
+    """Drive a plan with simulated robots; the options are those of `drive_demo`."""
+    from rightofway.control.demo import drive_demo, make_pause
+
+    shown, quantities = output.shown, output.quantities
 
     def narrate(tick: int, sentence: str) -> None:
         say(Phrase("{time}  {text}", time=f"{quantities.format_cell(tick):>8}", text=sentence))
 
-    from rightofway.control.demo import drive_demo, make_pause
-
-    with _kept_demo(shown if live else None, journal) as file:
+    with _kept_demo(shown if output.is_live else None, journal) as file:
         outcome = drive_demo(
-            opened,
-            delay_texts(delays),
-            seed,
-            laps=laps,
-            switch=switch,
-            identities=known,
+            shown.plan,
+            identities=identities,
             report=narrate,
-            wait_until=make_pause(opened, time_scale),
+            wait_until=make_pause(shown.plan, time_scale),
             journal=file,
             pace=None if math.isinf(time_scale) else time_scale,
-            stays=stay,
+            **options,
         )
-        _report_demo(opened, outcome, quantities, seed, as_json=as_json)
-        if page:
-            put_page(opened, page, actual=outcome.trace, title=make_title(plan))
-        if live:
+        output.report(outcome, seed=options["seed"])
+        if output.page:
+            put_page(shown.plan, output.page, actual=outcome.trace, title=shown.title)
+        if output.is_live:
             shown.wait_for_interrupt()
-    return 0
-
-
-def _report_demo(
-    plan: Plan, outcome: DemoResult, quantities: Quantities, seed: int, *, as_json: bool
-) -> None:
-    """Print what robots of a demo have done."""
-    if as_json:
-        from rightofway.report.plan_data import describe_measures
-
-        put_json({**describe_measures(plan.scenario), "seed": seed, **outcome.as_dict()})
-    else:
-        from rightofway.control.report import report
-
-        put_report(report(outcome, quantities, get_language()))
 
 
 def _refuse_combinations(
@@ -275,22 +317,23 @@ def _narrate(sentence: str) -> None:
 
 def _drive_at(
     broker: Broker,
-    plan: Plan,
     identities: list[Identity],
     journal: Path,
-    page: WatchPage | None,
+    output: _Output,
     *,
     laps: int | None,
     metrics: int | None,
     switch: bool,
     stays: bool,
-) -> None:
-    """Drive a plan with robots at a broker."""
+) -> int:
+    """Drive a plan with robots at a broker, and report; return the exit code."""
     from rightofway.control.commands import Commands
     from rightofway.control.driver import Driver
     from rightofway.control.journal import SqliteJournal
 
-    counted = None
+    shown, plan, counted = output.shown, output.shown.plan, None
+    if output.page:
+        shown.require_packages("--page")
     if metrics is not None:
         from rightofway.control.metrics import FleetMetrics
 
@@ -309,10 +352,34 @@ def _drive_at(
                 metrics=counted,
                 began=opened.read_begin(),
             )
-            if page is not None:
-                stack.enter_context(page.serve(journal, takes_orders=True))
+            if output.is_live:
+                stack.enter_context(shown.serve(journal, takes_orders=True))
             gc.freeze()  # what lives as long as the control: a look through it takes 100 ms
-            asyncio.run(driver.run(broker, stays=stays))
-        _narrate(Phrase("all robots are at the end of their way"))
-        if page is not None:
-            page.wait_for_interrupt()
+            code = _run(driver.run(broker, stays=stays))
+        ending = Phrase("interrupted") if code else Phrase("all robots are at the end of their way")
+        _narrate(ending)
+        output.report(driver.result)
+        if output.page:
+            shown.write(journal, output.page)
+            say_written(output.page)
+        if output.is_live and not code:
+            shown.wait_for_interrupt()
+    return code
+
+
+def _run(work: Coroutine[Any, Any, None]) -> int:
+    """Do work until it ends, or until Ctrl-C or SIGTERM; return the exit code."""
+    received = list[int]()
+
+    def interrupt(number: int, _frame: object) -> None:
+        received.append(number)
+        signal.raise_signal(signal.SIGINT)
+
+    before = signal.signal(signal.SIGTERM, interrupt)
+    try:
+        asyncio.run(work)
+    except KeyboardInterrupt:
+        return TERMINATED if received else INTERRUPTED
+    finally:
+        signal.signal(signal.SIGTERM, before)
+    return 0

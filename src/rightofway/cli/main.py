@@ -8,6 +8,7 @@
 70     a defect of ours
 130    interrupted
 141    the program that read the output has ended
+143    terminated (SIGTERM) while robots at a broker were driven
 =====  ===================================================================
 """
 

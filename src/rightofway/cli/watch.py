@@ -59,7 +59,7 @@ class WatchPage:
     @contextmanager
     def serve(self, journal: Path, *, takes_orders: bool) -> Iterator[None]:
         """Serve the page of a journal as long as the context lasts."""
-        self._need_packages("--live" if takes_orders else "--replay")
+        self.require_packages("--live" if takes_orders else "--replay")
         from rightofway.studio.serve import serve_watch
         from rightofway.studio.watching import Watched
 
@@ -71,14 +71,15 @@ class WatchPage:
 
     def write(self, journal: Path, path: str) -> None:
         """Write the page of all that a journal has, as one file."""
-        self._need_packages("--replay")
+        self.require_packages("--replay")
         from rightofway.studio.watching import Watched
 
         watched = Watched(self.plan, journal, title=self.title, takes_orders=False)
         write_whole(path, watched.make_page(is_whole=True))
 
     @staticmethod
-    def _need_packages(option: str) -> None:
+    def require_packages(option: str) -> None:
+        """Refuse an option whose packages are not installed."""
         if not (find_spec("fastapi") and find_spec("uvicorn")):
             message = "needs packages that are not installed (pip install 'rightofway[studio]')"
             raise InputError.at(option, message)

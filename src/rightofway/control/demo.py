@@ -11,18 +11,17 @@ import math
 import time
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from rightofway.check import check
 from rightofway.control.demo_record import DemoRecord, NothingKept, SimulatedClock
 from rightofway.control.dispatcher import Dispatcher
+from rightofway.control.drive_result import DriveResult
 from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd, format_timestamp
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.identities import Identity, make_simulated_identities
@@ -36,59 +35,9 @@ from rightofway.control.timed_robot import Durations, TimedRobot
 from rightofway.errors import InputError
 from rightofway.model import ExecutionTrace, Plan, Tick, Track
 
-__all__ = ["DemoResult", "drive_demo", "make_pause"]
+__all__ = ["drive_demo", "make_pause"]
 
 Report = Callable[[Tick, str], None]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class DemoResult:
-    """What happened when simulated robots drove a plan.
-
-    Attributes
-    ----------
-    plan
-        The plan.
-    trace
-        Where robots were, and how long each visit and drive took; None of laps, and where people
-        have changed what robots were to do.
-    jobs
-        How many jobs each robot has done.
-    laps
-        How many laps each robot has made.
-    now
-        When the run ended [ticks].
-    waits
-        How often each robot stood at the end of what was released to it, until others had left.
-    messages
-        How many messages were sent, by the last part of their topic.
-    """
-
-    plan: Plan
-    trace: ExecutionTrace | None
-    jobs: tuple[int, ...]
-    laps: tuple[int, ...]
-    now: Tick
-    waits: tuple[int, ...]
-    messages: dict[str, int]
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return the result as JSON has it, times in ticks."""
-        names = [robot.name for robot in self.plan.scenario.robots]
-        robots: list[dict[str, Any]] = [
-            {"name": name, "jobs": jobs, "waits": waits}
-            for name, jobs, waits in zip(names, self.jobs, self.waits, strict=True)
-        ]
-        if self.trace is None:
-            for row, laps in zip(robots, self.laps, strict=True):
-                row["laps"] = laps
-        else:
-            times = zip(robots, self.plan.completions, self.trace.completion, strict=True)
-            for row, planned, completion in times:
-                row |= {"planned": int(planned), "completion": completion}
-        totals = {"jobs": sum(self.jobs), "messages": self.messages}
-        duration = {"ticks": int(self.now)} if self.trace is None else {}
-        return {"robots": robots, **totals, **duration}
 
 
 def drive_demo(
@@ -106,7 +55,7 @@ def drive_demo(
     journal: Path | None = None,
     pace: float | None = None,
     stays: bool = False,
-) -> DemoResult:
+) -> DriveResult:
     """Have simulated robots drive a plan by right of way, until all jobs are done.
 
     Parameters
@@ -259,7 +208,7 @@ class _Demo:
             self._stamp = (self._now, format_timestamp(moment))
         return self._stamp[1]
 
-    def run(self, wait_until: Callable[[Fraction], None], laps: int | None) -> DemoResult:
+    def run(self, wait_until: Callable[[Fraction], None], laps: int | None) -> DriveResult:
         """Go from step to step until no robot has anything to do."""
         try:
             self._take_steps(wait_until)
@@ -364,11 +313,13 @@ class _Demo:
                 self._robots[number].end.receive(letter)
                 queue.append(self._robots[number].end.report_state())
 
-    def _result(self, *, is_endless: bool) -> DemoResult:
+    def _result(self, *, is_endless: bool) -> DriveResult:
         robots = self._control.ledger.robots
-        return DemoResult(
+        trace = None if is_endless or not self._is_as_planned else self._trace()
+        return DriveResult(
             plan=self._plan,
-            trace=None if is_endless or not self._is_as_planned else self._trace(),
+            trace=trace,
+            completion=None if trace is None else tuple(trace.completion),
             jobs=tuple(own.jobs_done for own in robots),
             laps=tuple(own.laps_done for own in robots),
             now=Tick(self._now),

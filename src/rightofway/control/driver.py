@@ -11,12 +11,14 @@ import hashlib
 import json
 import secrets
 import time
+from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from rightofway.control.broker import Broker, check_cancellation
 from rightofway.control.commands import Commands
 from rightofway.control.dispatcher import Dispatcher
+from rightofway.control.drive_result import DriveResult
 from rightofway.control.endpoints import ControlEnd, Letter, make_timestamp
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.identities import Identity
@@ -29,7 +31,7 @@ from rightofway.control.story import Story
 from rightofway.control.supervisor import Supervisor
 from rightofway.errors import InputError
 from rightofway.io import format_plan
-from rightofway.model import Plan
+from rightofway.model import Plan, Tick
 from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
@@ -107,10 +109,8 @@ class Driver:
         repeated = None if laps is None else LapsToDrive(plan, laps)
         self._dispatcher = dispatcher = Dispatcher(self.control, plan, repeated)
         self._began = time.time() if began is None else began
-        tick = float(plan.scenario.problem.clock.tick * (plan.scenario.units.seconds or 1))
-        self._supervisor = Supervisor(
-            dispatcher, notices, lambda: int((time.time() - self._began) / tick), commands
-        )
+        self._tick = float(plan.scenario.problem.clock.tick * (plan.scenario.units.seconds or 1))
+        self._supervisor = Supervisor(dispatcher, notices, self._read_ticks, commands)
         self.operator, self._switches = self._supervisor.operator, switch
         ledger, digest = self.control.ledger, _digest(plan, maps)
         if not ledger.run:
@@ -126,6 +126,9 @@ class Driver:
         self._outbox: list[Letter] = []
         self._news = asyncio.Event()
         self._fails = False
+        self._sent = Counter[str]()  # messages of both sides
+        self._ends: dict[int, Tick] = {}  # when robots came to the end of their routes
+        self._plan, self._is_endless = plan, laps is not None
 
     def _keep(self, entry: Entry) -> None:
         """Write into the journal what people were told."""
@@ -172,6 +175,26 @@ class Driver:
     def is_done(self) -> bool:
         """Whether robots have come to the end of their way, or of all laps that are wanted."""
         return self.control.is_done
+
+    def _read_ticks(self) -> Tick:
+        """Return the time since the run began."""
+        return Tick(int((time.time() - self._began) / self._tick))
+
+    @property
+    def result(self) -> DriveResult:
+        """What has happened until now; messages and ends are those since the start."""
+        robots, now = self.control.ledger.robots, self._read_ticks()
+        ends = tuple(map(self._ends.get, range(len(robots))))
+        return DriveResult(
+            plan=self._plan,
+            trace=None,
+            completion=None if self._is_endless else ends,
+            jobs=tuple(own.jobs_done for own in robots),
+            laps=tuple(own.laps_done for own in robots),
+            now=now,
+            waits=tuple(self._story.waits),
+            messages=dict(sorted(self._sent.items())),
+        )
 
     def send(self, messages: Iterable[Message]) -> None:
         """Send messages of the control in the next turn.
@@ -255,8 +278,13 @@ class Driver:
             *(client.publish(letter.topic, letter.payload, qos=0) for letter in sent)
         )
         check_cancellation()
+        self._sent.update(letter.name for letter in (*(row[1] for row in inbox), *sent))
         for happening in self._story.go_on():
             self._report(happening.text)
+            if happening.kind == "end":
+                self._ends[happening.robot] = self._read_ticks()
+            else:
+                self._ends.pop(happening.robot, None)  # it was given more to do
         if self._metrics is not None:
             self._metrics.turn(inbox, sent, self._story.waits)
 

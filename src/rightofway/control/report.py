@@ -1,10 +1,10 @@
-"""The report on a plan that simulated robots have driven."""
+"""The report on a plan that robots have driven."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from rightofway.control.demo import DemoResult
+from rightofway.control.drive_result import DriveResult
 from rightofway.languages import ENGLISH
 from rightofway.phrases import Phrase, chain_items, say_count
 from rightofway.quantities import Quantities
@@ -16,7 +16,7 @@ MAX_ROBOTS = 20
 """Robots in the report; --json has them all."""
 
 
-def report(result: DemoResult, quantities: Quantities, language: str = ENGLISH) -> str:
+def report(result: DriveResult, quantities: Quantities, language: str = ENGLISH) -> str:
     """Return what was done, how much later than planned, and by how many messages.
 
     Parameters
@@ -32,13 +32,24 @@ def report(result: DemoResult, quantities: Quantities, language: str = ENGLISH) 
     return lay_out([facts, "", *_robots(result, quantities)], language)
 
 
-def _totals(result: DemoResult, quantities: Quantities) -> Iterator[tuple[str, str]]:
+def _totals(result: DriveResult, quantities: Quantities) -> Iterator[tuple[str, str]]:
     yield Phrase("jobs"), Phrase("{number} done", number=str(sum(result.jobs)))
-    if result.trace is None:
+    if result.completion is None:
         time = quantities.format_duration(result.now)
         yield Phrase("laps"), Phrase("{number} in {time}", number=str(sum(result.laps)), time=time)
+    elif None in result.completion:
+        ended = sum(completion is not None for completion in result.completion)
+        yield (
+            Phrase("ended"),
+            Phrase(
+                "{ended} of {robots} at the end of their way after {time}",
+                ended=str(ended),
+                robots=say_count(len(result.completion), "robot", "robots"),
+                time=quantities.format_duration(result.now),
+            ),
+        )
     else:
-        makespan = max(completion or 0 for completion in result.trace.completion)
+        makespan = max(completion or 0 for completion in result.completion)
         text = Phrase(
             "{makespan}; planned {planned}",
             makespan=quantities.format_duration(makespan),
@@ -47,16 +58,16 @@ def _totals(result: DemoResult, quantities: Quantities) -> Iterator[tuple[str, s
         yield Phrase("makespan"), text
     sent = result.messages
     messages = (
-        say_count(sent["order"], "order", "orders"),
+        say_count(sent.get("order", 0), "order", "orders"),
         say_count(sent.get("instantActions", 0), "instant action", "instant actions"),
-        say_count(sent["state"], "state", "states"),
+        say_count(sent.get("state", 0), "state", "states"),
     )
     yield Phrase("messages"), chain_items(messages)
 
 
-def _robots(result: DemoResult, quantities: Quantities) -> Iterator[Part]:
+def _robots(result: DriveResult, quantities: Quantities) -> Iterator[Part]:
     robots = result.plan.scenario.robots
-    if result.trace is None:
+    if result.completion is None:
         yield Phrase("laps of each robot")
         headings = (Phrase("laps"), Phrase("mean lap"))
         times = [
@@ -66,9 +77,12 @@ def _robots(result: DemoResult, quantities: Quantities) -> Iterator[Part]:
     else:
         yield quantities.format_heading(Phrase("completion of each robot"))
         headings = (Phrase("planned"), Phrase("actual"))
-        pairs = zip(result.plan.completions, result.trace.completion, strict=True)
+        pairs = zip(result.plan.completions, result.completion, strict=True)
         times = [
-            (quantities.format_cell(planned), quantities.format_cell(actual or 0))
+            (
+                quantities.format_cell(planned),
+                "-" if actual is None else quantities.format_cell(actual),
+            )
             for planned, actual in pairs
         ]
     rows = [
