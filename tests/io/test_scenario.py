@@ -237,6 +237,21 @@ def test_lanes_that_cross_where_no_vertex_is_are_noted(tmp_path: Path) -> None:
     assert not any("without a radius" in note for note in load_with_notes(path).notes)
 
 
+@pytest.mark.parametrize(
+    ("end", "crosses"), [(["1/3", "1/7"], False), (["1/3", "1000000000001/7000000000000"], True)]
+)
+def test_a_lane_that_ends_on_another_one_does_not_cross_it(
+    end: list[str], crosses: bool, tmp_path: Path
+) -> None:
+    """The lane from A to B goes through (1/3, 1/7), and the one from C comes from below."""
+    at = {"A": [0, 0], "B": [1, "3/7"], "C": ["1/3", -2], "D": end}
+    roadmap = {"vertices": at, "edges": [["A", "B"], ["C", "D"]]}
+    robots = [{"name": "R1", "home": "A", "target": "B"}]
+    path = tmp_path / "x.json"
+    path.write_text(json.dumps(document(map={"roadmap": roadmap}, robots=robots)), "utf-8")
+    assert any("cross" in note for note in load_with_notes(path).notes) == crosses
+
+
 def test_at_most_fifty_problems_are_told() -> None:
     robots = [{"name": "R", "home": "N0", "target": "N6", "speed": 0}] * 60
     with pytest.raises(InputError) as caught:
