@@ -76,6 +76,13 @@ def test_json_words_for_no_number_stay_words() -> None:
             "line 2: Expecting property name enclosed in double quotes (check the JSON there)",
         ),
         ("[1] 2", "line 1: Extra data (check the JSON there)"),
+        (  # the fault is behind 10 * 9 characters
+            "[\n" + '{"a": 1},' * 10 + "{,}\n]",
+            (
+                "line 2: Expecting property name enclosed in double quotes at column 92,"
+                """ in '": 1},{"a": 1},{"a": 1},{,}' (check the JSON there)"""
+            ),
+        ),
         pytest.param("[" * 100_000, "values are nested more than 64 deep", id="open"),
         pytest.param("[" * 65 + "]" * 65, "values are nested more than 64 deep", id="closed"),
     ],

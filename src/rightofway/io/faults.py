@@ -17,6 +17,7 @@ MAX_FAULTS = 50
 
 
 T = TypeVar("T")
+U = TypeVar("U")
 M = TypeVar("M", bound="BaseModel")
 
 
@@ -33,6 +34,9 @@ class Faults:
         except InputError as error:
             self._faults += [fault.nest(where) for fault in error.faults]
             return None
+
+    def __len__(self) -> int:
+        return len(self._faults)
 
     def read_part(
         self, document: Mapping[str, Any], key: str, read: Callable[..., T], *arguments: Any
@@ -62,6 +66,15 @@ class Faults:
         left = len(faults) - MAX_FAULTS
         more = [InputFault("", f"and {left} more (mend these first)")] if left > 0 else []
         raise InputError([*faults[:MAX_FAULTS], *more])
+
+
+def read_both(first: Callable[[], T], second: Callable[[], U]) -> tuple[T, U]:
+    """Return what two functions read, or raise the faults of both."""
+    faults, values = Faults(), list[Any]()
+    for read in (first, second):
+        values.append(faults.attempt("", read))
+    faults.stop()
+    return values[0], values[1]
 
 
 def _rank(fault: InputFault, ranks: dict[str, int]) -> tuple[int, int]:

@@ -20,6 +20,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from decimal import Decimal
+from io import StringIO
+from itertools import islice
 from pathlib import Path
 from typing import Any, BinaryIO
 from weakref import WeakKeyDictionary
@@ -202,6 +204,13 @@ def _too_long(most: int) -> InputError:
     return InputError.at("", f"the file is longer than {most} bytes (is it the right one?)")
 
 
+SHORT_LINE = 80
+"""Characters of a line in which a fault is found by eye."""
+
+EXCERPT = 25
+"""Characters before and after a fault that a message shows of a longer line."""
+
+
 def choose_limit() -> int:
     """Return how long a layout may be: a limit on the memory that reading it takes."""
     given = os.environ.get(LIMIT)
@@ -310,7 +319,8 @@ def parse_json(text: str) -> Any:
             parse_constant=str,  # NaN and Infinity: words, and refused as words
         )
     except json.JSONDecodeError as error:
-        raise _fault(error.lineno, f"{error.msg} (check the JSON there)") from None
+        column = describe_column(text, error.lineno, error.colno)
+        raise _fault(error.lineno, f"{error.msg}{column} (check the JSON there)") from None
     except RecursionError:
         raise _too_deep() from None
     check_depth(data)
@@ -323,6 +333,18 @@ def parse_json(text: str) -> Any:
             for mapping, key in doubled
         )
     return data
+
+
+def describe_column(text: str, line: int, column: int) -> str:
+    """Return the column of a fault with the text around it; nothing where the line is short.
+
+    Line and column count from 1.
+    """
+    written = next(islice(StringIO(text), line - 1, None), "").rstrip("\n")
+    if len(written) <= SHORT_LINE:
+        return ""
+    around = written[max(column - 1 - EXCERPT, 0) : column - 1 + EXCERPT]
+    return f" at column {column}, in {quote(around)}"
 
 
 def _path_to(target: dict[str, Any], data: Any) -> tuple[str | int, ...]:
@@ -400,7 +422,8 @@ def parse_yaml(text: str, *, number_keys: bool = False) -> Any:
         problem = str(error.problem)
         if begin and begin.line + 1 < line:
             problem += f" for what begins in line {begin.line + 1}"
-        raise _fault(line, f"{problem} (check the YAML there)") from None
+        column = describe_column(text, line, mark.column + 1) if mark else ""
+        raise _fault(line, f"{problem}{column} (check the YAML there)") from None
     except (yaml.YAMLError, ValueError, OverflowError) as error:
         reason = getattr(error, "reason", None) or "characters that no YAML file may hold"
         raise InputError.at("", f"{reason} (save the file as plain text)") from None

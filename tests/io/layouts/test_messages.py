@@ -1,5 +1,6 @@
 """What a user is told about layouts: what a file is, what is missing, what to write."""
 
+import json
 import re
 import time
 from pathlib import Path
@@ -10,7 +11,7 @@ import pytest
 from rightofway.errors import InputError
 from rightofway.io import load, load_either, parse_scenario, read_layout
 from rightofway.io.layouts.xml_tree import parse_xml
-from rightofway.io.text import LIMIT
+from rightofway.io.text import LIMIT, parse_yaml
 from rightofway.site.layout import Layout
 
 HERE = Path(__file__).parents[2] / "data" / "layouts"
@@ -131,6 +132,16 @@ def test_what_does_not_fit_is_told_with_place_and_remedy(
             "the GraphML graph has no vertex",
         ),
         ("a.xml", "<graphml><graph>", "a.xml:1: this is no XML: no element found"),
+        (
+            "a.xml",
+            "<graphml>" + "<a/>" * 30 + "<b>" + "</graphml>",
+            "no XML: mismatched tag at column 135, in '<a/><a/><a/><a/><a/><b></graphml>' (check",
+        ),
+        (
+            "a.yaml",
+            "levels: {L1: {vertices: [" + "[0, 0], " * 20 + "}}",
+            "did not find expected node content at column 186, in ' [0, 0], [0, 0], [0, 0], }}'",
+        ),
         ("a.xml", "<" + "a><" * 200 + "a>", "its elements are more than 64 deep"),
         (
             "a.xml",
@@ -257,6 +268,143 @@ def test_a_lane_to_a_vertex_with_a_fault_is_no_further_fault(tmp_path: Path) -> 
     assert [fault.message for fault in caught.value.faults] == [
         "'here' is not a number (write it like 3, 0.5 or 1/3)"
     ]
+
+
+AT = {"type": "Point", "coordinates": [0, 0]}
+LINE = {"type": "LineString"}
+
+
+def nav2(*features: tuple[dict[str, Any], dict[str, Any]]) -> str:
+    return json.dumps(
+        {"features": [{"properties": own, "geometry": geometry} for own, geometry in features]}
+    )
+
+
+def lif(nodes: Any, edges: Any) -> str:
+    return json.dumps({"layouts": [{"nodes": nodes, "edges": edges, "stations": []}]})
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "faults"),
+    [
+        (
+            "route.geojson",
+            nav2(
+                ({"id": 0}, AT),
+                ({"id": 0}, AT),
+                ({"id": 1}, {"type": "Point", "coordinates": ["east", "north"]}),
+                ({"id": 8, "startid": 0, "endid": 1}, LINE),
+                ({"id": 9, "startid": 7, "endid": 8}, LINE),
+                ({"id": 10, "startid": 0}, LINE),
+            ),
+            {
+                "features[1]": ["a vertex is named '0' already"],
+                "features[2].geometry.coordinates[0]": ["'east' is not a number"],
+                "features[2].geometry.coordinates[1]": ["'north' is not a number"],
+                "features[4]": ["no vertex is named '7'", "no vertex is named '8'"],
+                "features[5].properties.endid": ["is missing"],
+            },
+        ),
+        (
+            "hall.lif.json",
+            lif(
+                [
+                    {"nodeId": "A", "nodePosition": {"x": 0, "y": 0}},
+                    {"nodeId": "A", "nodePosition": {"x": 1, "y": 0}},
+                    {"nodeId": "B", "nodePosition": {}},
+                ],
+                [
+                    {"startNodeId": "A", "endNodeId": "B"},
+                    {"startNodeId": "Y", "endNodeId": "Z"},
+                    {},
+                ],
+            ),
+            {
+                "layouts[0].nodes[1]": ["a vertex is named 'A' already"],
+                "layouts[0].nodes[2].nodePosition.x": ["is missing"],
+                "layouts[0].nodes[2].nodePosition.y": ["is missing"],
+                "layouts[0].edges[1]": ["no vertex is named 'Y'", "no vertex is named 'Z'"],
+                "layouts[0].edges[2].startNodeId": ["is missing"],
+                "layouts[0].edges[2].endNodeId": ["is missing"],
+            },
+        ),
+        (
+            "hall.lif.json",
+            lif("none", {"A": "B"}),
+            {
+                "layouts[0].nodes": ["'none' is not a list"],
+                "layouts[0].edges": ["a mapping of 1 is not a list"],
+            },
+        ),
+        (
+            "hall.lif.json",
+            lif([{"nodePosition": {"x": 0, "y": 0}}], [{"startNodeId": "A", "endNodeId": "B"}]),
+            {"layouts[0].nodes[0].nodeId": ["is missing"]},  # which may be A or B
+        ),
+        (
+            "0.yaml",
+            (
+                "levels:\n  L1: {vertices: [[0, x], [a, b]], lanes: [[0, 7], [8, 9]]}\n"
+                "  L2: {vertices: 3}"
+            ),
+            {
+                "levels.L1.vertices[0][1]": ["'x' is not a number"],
+                "levels.L1.vertices[1][0]": ["'a' is not a number"],
+                "levels.L1.vertices[1][1]": ["'b' is not a number"],
+                "levels.L1.lanes[0][1]": ["7 is no vertex"],
+                "levels.L1.lanes[1][0]": ["8 is no vertex"],
+                "levels.L1.lanes[1][1]": ["9 is no vertex"],
+                "levels.L2.vertices": ["3 is not a list"],
+            },
+        ),
+    ],
+)  # fmt: skip
+def test_all_faults_of_a_layout_are_told(
+    name: str, text: str, faults: dict[str, list[str]], tmp_path: Path
+) -> None:
+    (tmp_path / name).write_text(text, "utf-8")
+    with pytest.raises(InputError) as caught:
+        read_layout(tmp_path / name)
+    told = [(fault.place, fault.message.partition(" (")[0]) for fault in caught.value.faults]
+    assert sorted(told) == sorted((at, what) for at, each in faults.items() for what in each)
+
+
+def test_all_faults_of_an_xml_file_are_told(tmp_path: Path) -> None:
+    path = tmp_path / "plant.xml"
+    path.write_text(
+        """<model version="7.0.0">
+<point name="A" positionX="0" positionY="0"/>
+<point name="A" positionX="1" positionY="0"/>
+<point name="B" positionX="east" positionY="north"/>
+<path name="p" maxVelocity="1" maxReverseVelocity="0"/>
+<path name="q" sourcePoint="B" destinationPoint="Z" maxVelocity="1" maxReverseVelocity="0"/>
+<locationType><allowedOperation/></locationType>
+</model>"""
+    )
+    with pytest.raises(InputError) as caught:
+        read_layout(path)
+    told = [(fault.line, fault.message.partition(" (")[0]) for fault in caught.value.faults]
+    assert told == [
+        (3, "a vertex is named 'A' already"),
+        (4, "'east' is not a number"),
+        (4, "'north' is not a number"),
+        (5, "is missing"),
+        (5, "is missing"),
+        (6, "no vertex is named 'Z'"),
+    ]
+
+
+def test_a_building_whose_vertices_are_on_no_lane_says_so(tmp_path: Path) -> None:
+    text = (HERE / "hall.building.yaml").read_text("utf-8")
+    building = parse_yaml(text, number_keys=True)
+    path = tmp_path / "hall.building.yaml"
+    for level in building["levels"].values():
+        level["lanes"] = []
+    count = sum(len(level["vertices"]) for level in building["levels"].values())
+    path.write_text(json.dumps(building, default=str), "utf-8")
+    message = f"the Open-RMF building has {count} vertices, and none is on a lane"
+    with pytest.raises(InputError, match=f"{message} \\(add lanes between them\\)"):
+        read_layout(path)
 
 
 def test_a_layout_that_is_too_long_says_which_variable_lets_it_be_read(

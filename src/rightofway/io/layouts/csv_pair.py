@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from rightofway.errors import InputError, Location
+from rightofway.io.faults import read_both
 from rightofway.io.layouts.attributes import (
     BOTH_WAYS,
     HEADS,
@@ -18,7 +19,7 @@ from rightofway.io.layouts.attributes import (
     add_lanes,
     add_vertex,
 )
-from rightofway.io.layouts.draft import LayoutDraft
+from rightofway.io.layouts.draft import LayoutDraft, find_name
 from rightofway.io.source import Source
 from rightofway.io.text import is_regular, read_text
 from rightofway.site.layout import Layout
@@ -57,7 +58,7 @@ def read(text: str, path: Path) -> Layout:
     draft = LayoutDraft("CSV pair")
     reading = Reading(draft.begin_level(), draft)
     for row in _rows(nodes):
-        draft.faults.attempt("", _add_node, reading, row)
+        draft.attempt_vertex(find_name(row, *NAMES), _add_node, reading, row)
     for row in _rows(edges):
         draft.faults.attempt("", _add_edge, reading, row)
     return draft.make_layout()
@@ -100,11 +101,11 @@ def _rows(text: str) -> Iterator[Source]:
 
 
 def _add_node(reading: Reading, row: Source) -> None:
-    at = row.need("x").number(), row.need("y").number()
+    at = read_both(lambda: row.need("x").number(), lambda: row.need("y").number())
     add_vertex(reading, row, row.need(*NAMES).read_text(), at)
 
 
 def _add_edge(reading: Reading, row: Source) -> None:
     both = row.get(*BOTH_WAYS)
-    ends = row.need(*TAILS).read_text(), row.need(*HEADS).read_text()
+    ends = read_both(lambda: row.need(*TAILS).read_text(), lambda: row.need(*HEADS).read_text())
     add_lanes(reading, row, *ends, both is not None and both.read_flag())

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import groupby, pairwise
 from math import ceil, isqrt
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +28,8 @@ from rightofway.site.geometry import (
 from rightofway.site.lane_table import BILLION, LaneKind, LaneShape, LaneTable
 from rightofway.site.layout import Layout, LayoutVertex, Level, Station, name_lanes
 from rightofway.site.zones import NamedZone
+
+T = TypeVar("T")
 
 MAX_VERTICES, MAX_EDGES = 200_000, 1_000_000
 """The most vertices and lanes of a layout."""
@@ -120,6 +122,7 @@ class LevelDraft:
     stations: list[Station] = field(default_factory=list)
     zones: list[NamedZone] = field(default_factory=list)
     picture: Picture | None = None
+    unused: int = 0  # vertices that are drawn and on no lane, of a format that has other ones, too
 
     def add(self, vertex: LayoutVertex, source: Source) -> None:
         """Take a vertex; InputError if its name is taken, or there are too many."""
@@ -179,6 +182,7 @@ class LayoutDraft:
         self.faults = Faults()
         self.levels: list[LevelDraft] = []
         self.repairs: dict[Phrase, list[str]] = {}
+        self.failed: set[str | None] = set()
 
     def begin_level(self, name: str = "") -> LevelDraft:
         """Begin a level; InputError for a name that cannot be shown."""
@@ -190,6 +194,17 @@ class LayoutDraft:
     def repair(self, mending: Phrase, *pieces: str) -> None:
         """Note that pieces were mended or left out, by their names; equal notes become one."""
         self.repairs.setdefault(mending, []).extend(pieces)
+
+    def attempt_vertex(self, name: str | None, read: Callable[..., T], *arguments: Any) -> T | None:
+        """Return ``read(*arguments)``, or None after noting its faults and the name of the vertex.
+
+        Lanes to a vertex with a fault are no further faults. None: the name is not known.
+        """
+        before = len(self.faults)
+        value = self.faults.attempt("", read, *arguments)
+        if len(self.faults) > before:
+            self.failed.add(name)
+        return value
 
     def note_unused(self, source: Source, name: str, used: Collection[str]) -> None:
         """Note the keys of a piece that have no effect on plans, apart from those that are used.
@@ -218,15 +233,30 @@ class LayoutDraft:
             With all faults noted so far, and lanes that begin or end nowhere.
         """
         elsewhere = {name for level in self.levels for name in level.vertices}
-        if self.faults.found:  # lanes to vertices with a fault are no further faults
+        elsewhere.update(name for name in self.failed if name is not None)
+        if None in self.failed:  # lanes to vertices with a fault are no further faults
             for level in self.levels:
                 elsewhere.update(level.lanes.tails, level.lanes.heads)
         levels = [self._finish(level, elsewhere) for level in self.levels if level.vertices]
         self.faults.stop()
         if not levels:
-            raise InputError.at("", f"the {self.kind} has no vertex (give at least one)")
+            raise self._make_fault_of_none()
+        for level in self.levels:
+            if not level.vertices:
+                self.repair(Phrase("a level without a vertex on a lane is left out"), level.name)
         notes = (_name_pieces(mending, pieces) for mending, pieces in self.repairs.items())
         return Layout(kind=self.kind, levels=tuple(levels), notes=tuple(notes))
+
+    def _make_fault_of_none(self) -> InputError:
+        """Return the fault of a layout without a vertex that robots could be at."""
+        unused = sum(level.unused for level in self.levels)
+        fault, remedy = "has no vertex", "give at least one"
+        if unused:
+            fault, remedy = (
+                f"has {unused} vertices, and none is on a lane",
+                "add lanes between them",
+            )
+        return InputError.at("", f"the {self.kind} {fault} ({remedy})")
 
     def _finish(self, level: LevelDraft, elsewhere: set[str]) -> Level:
         edges, links = _LaneFinisher(self, level).finish(elsewhere)
@@ -279,13 +309,18 @@ class LayoutDraft:
         return list(zones.values())
 
 
-def name_piece(source: Source, *keys: str) -> str:
-    """Return what a piece is called: the value of the first key that names it, or its place."""
+def find_name(source: Source, *keys: str) -> str | None:
+    """Return the value of the first key that names a piece; None without one."""
     names = (source.value.get(key) for key in keys) if isinstance(source.value, dict) else ()
     for name in names:
         if type(name) in {int, str} and is_printable(str(name)):
             return str(name)[:LONGEST_NAME]
-    return str(source.location)
+    return None
+
+
+def name_piece(source: Source, *keys: str) -> str:
+    """Return what a piece is called: the value of the first key that names it, or its place."""
+    return find_name(source, *keys) or str(source.location)
 
 
 def _name_pieces(mending: Phrase, pieces: Sequence[str]) -> Phrase:
@@ -359,13 +394,16 @@ class _LaneFinisher:
             is_kept &= ~is_slow[kinds]
         for lane in np.flatnonzero(~is_kept).tolist():
             ends = (lanes.tails[lane], lanes.heads[lane])
-            missing = [end for end in ends if end not in vertices]
-            if any(end not in elsewhere for end in missing):
-                near = find_nearest(missing[0], vertices)
+            missing = [end for end in dict.fromkeys(ends) if end not in vertices]
+            unknown = [end for end in missing if end not in elsewhere]
+            for end in unknown:
+                near = find_nearest(end, vertices)
                 hint = f"did you mean {near!r}?" if near else "name one that the file has"
-                message = f"no vertex is named {quote(missing[0])} ({hint})"
+                message = f"no vertex is named {quote(end)} ({hint})"
                 self.draft.faults.note(lanes.sources[lane].location, message)
-            elif missing:
+            if unknown:
+                continue
+            if missing:
                 links.append(ends)
             elif not is_loop[lane]:
                 message = f"speed limit {limits[kinds[lane]]} is not positive (give m/s)"

@@ -45,7 +45,8 @@ def make_layout_of_graph(graph: Any) -> Layout:
     reading, both_ways = Reading(draft.begin_level(), draft), not graph.is_directed()
     for node, data in graph.nodes(data=True):
         name = f"node {quote(str(node))}"
-        draft.faults.attempt("", _add_node, reading, node, Source(dict(data), (name,)))
+        own = Source(dict(data), (name,))
+        draft.attempt_vertex(str(node), _add_node, reading, node, own)
     for tail, head, data in graph.edges(data=True):
         name = f"edge {quote(str(tail))} to {quote(str(head))}"
         own, ends = Source(dict(data), (name,)), (str(tail), str(head))

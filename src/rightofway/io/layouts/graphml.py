@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 
 from rightofway.errors import quote
+from rightofway.io.faults import read_both
 from rightofway.io.layouts.attributes import PAIRS, Reading, add_lanes, add_vertex
-from rightofway.io.layouts.draft import LayoutDraft
+from rightofway.io.layouts.draft import LayoutDraft, find_name
 from rightofway.io.layouts.xml_tree import Element
 from rightofway.io.source import Source
 from rightofway.phrases import Phrase
@@ -34,7 +35,7 @@ def read(root: Element) -> Layout:
     for graph in root.list_all("graph"):
         is_directed = graph.value.get("edgedefault") != "undirected"
         for node in graph.list_descendants("node"):
-            draft.faults.attempt("", _add_node, reading, node, keys)
+            draft.attempt_vertex(find_name(node, "id"), _add_node, reading, node, keys)
         for edge in graph.list_descendants("edge"):
             draft.faults.attempt("", _add_edge, reading, edge, keys, is_directed)
     return draft.make_layout()
@@ -53,7 +54,7 @@ def _add_node(reading: Reading, node: Element, keys: dict[str, str]) -> None:
     own, name = _attributes(node, keys), node.need("id").read_text()
     drawn, pair = next(node.list_descendants("Geometry"), None), own.get(*PAIRS)
     if own.get("x") and own.get("y"):
-        at = own.need("x").number(), own.need("y").number()
+        at = read_both(own.need("x").number, own.need("y").number)
     elif pair is not None:
         at = _pair(pair)
     elif drawn is not None:

@@ -19,7 +19,8 @@ from typing import Any
 import numpy as np
 
 from rightofway.errors import InputError, join_names
-from rightofway.io.layouts.draft import MICRO, Curve, LayoutDraft, LevelDraft, name_piece
+from rightofway.io.faults import read_both
+from rightofway.io.layouts.draft import MICRO, Curve, LayoutDraft, LevelDraft, find_name, name_piece
 from rightofway.io.layouts.nurbs import CHORD_ERROR, Nurbs
 from rightofway.io.source import Source
 from rightofway.phrases import Phrase
@@ -81,16 +82,20 @@ def read(document: Any) -> Layout:
     origins = [root] if root.get("origins") is None else root.need("origins").read_items()
     layouts = [layout for origin in origins for layout in origin.need("layouts").read_items()]
     for part, name in zip(layouts, _level_names(layouts), strict=True):
-        level = draft.begin_level(name)
-        for node in part.need("nodes").read_items():
-            draft.faults.attempt("", _add_node, level, node, draft)
-        for edge in _items(part, "edges", draft):
-            draft.faults.attempt("", _add_edge, level, edge, draft)
-        for station in _items(part, "stations", draft):
-            draft.faults.attempt("", _add_station, level, station, draft)
-        if not draft.faults.found:
-            _note_headings(part.read_items_under("stations"), draft)
+        draft.faults.attempt("", _read_layout, part, name, draft)
     return draft.make_layout()
+
+
+def _read_layout(part: Source, name: str, draft: LayoutDraft) -> None:
+    level = draft.begin_level(name)
+    for node in draft.attempt_vertex(None, lambda: part.need("nodes").read_items()) or []:
+        draft.attempt_vertex(find_name(node, "nodeId"), _add_node, level, node, draft)
+    for edge in draft.faults.attempt("", _items, part, "edges", draft) or []:
+        draft.faults.attempt("", _add_edge, level, edge, draft)
+    for station in draft.faults.attempt("", _items, part, "stations", draft) or []:
+        draft.faults.attempt("", _add_station, level, station, draft)
+    if not draft.faults.found:
+        _note_headings(part.read_items_under("stations"), draft)
 
 
 def _level_names(layouts: list[Source]) -> list[str]:
@@ -132,7 +137,7 @@ def _add_node(level: LevelDraft, node: Source, draft: LayoutDraft) -> None:
     level.add(
         LayoutVertex(
             name=name,
-            at=(at.need("x").number(), at.need("y").number()),
+            at=read_both(lambda: at.need("x").number(), lambda: at.need("y").number()),
             is_charging=any(
                 action.value.get("actionType") == CHARGING[0]
                 for own in node.read_items_under(*NODE_PROPERTIES)
@@ -145,7 +150,9 @@ def _add_node(level: LevelDraft, node: Source, draft: LayoutDraft) -> None:
 
 
 def _add_edge(level: LevelDraft, edge: Source, draft: LayoutDraft) -> None:
-    tail, head = edge.need("startNodeId").read_text(), edge.need("endNodeId").read_text()
+    tail, head = read_both(
+        lambda: edge.need("startNodeId").read_text(), lambda: edge.need("endNodeId").read_text()
+    )
     own, name = edge.read_items_under(*EDGE_PROPERTIES), name_piece(edge, "edgeId")
     draft.note_unused(edge, name, EDGE_KEYS)
     for properties in own:

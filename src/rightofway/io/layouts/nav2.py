@@ -9,7 +9,8 @@ from collections.abc import Collection
 from typing import Any
 
 from rightofway.errors import InputError, quote
-from rightofway.io.layouts.draft import LayoutDraft, LevelDraft, name_piece
+from rightofway.io.faults import read_both
+from rightofway.io.layouts.draft import LayoutDraft, LevelDraft, find_name, name_piece
 from rightofway.io.source import Source
 from rightofway.phrases import Phrase
 from rightofway.site.geometry import Point
@@ -44,7 +45,11 @@ def read(document: Any) -> Layout:
     draft = LayoutDraft("Nav2 route graph")
     level = draft.begin_level()
     for feature in Source(document).need("features").read_items():
-        draft.faults.attempt("", _add, level, feature, draft)
+        properties = feature.value.get("properties") if isinstance(feature.value, dict) else None
+        if isinstance(properties, dict) and {"startid", "endid"} & set(properties):
+            draft.faults.attempt("", _add, level, feature, draft)
+        else:
+            draft.attempt_vertex(find_name(Source(properties), "id"), _add, level, feature, draft)
     return draft.make_layout()
 
 
@@ -87,10 +92,13 @@ def _add_edge(level: LevelDraft, feature: Source, draft: LayoutDraft) -> None:
         draft.repair(
             Phrase("a speed_limit counts as m/s; Nav2 may be set to read it as a percentage"), name
         )
+    tail, head = read_both(
+        lambda: own.need("startid").read_text(), lambda: own.need("endid").read_text()
+    )
     level.connect(
         feature,
-        own.need("startid").read_text(),
-        own.need("endid").read_text(),
+        tail,
+        head,
         max_speed=max_speed,
         shape=_shape(feature.need("geometry"), draft, name),
     )
@@ -115,4 +123,4 @@ def _point(part: Source) -> Point:
     numbers = part.read_items()
     if len(numbers) not in {2, 3}:
         raise part.make_fault(f"{quote(part.value)} is no point (give [x, y])")
-    return numbers[0].number(), numbers[1].number()
+    return read_both(numbers[0].number, numbers[1].number)

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import partial
 from itertools import combinations
 from math import atan2, hypot
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from rightofway.errors import InputError, join_names, quote
+from rightofway.io.faults import read_both
 from rightofway.io.layouts.draft import LayoutDraft, LevelDraft, name_piece
 from rightofway.io.source import Source
 from rightofway.phrases import Phrase
@@ -57,21 +59,26 @@ def read(document: Any, path: Path) -> Layout:
     """
     root = Source(document)
     is_building = any(
-        len(vertex.value) > 2 and not isinstance(vertex.value[2], dict)  # noqa: PLR2004 - x, y
-        for _, level in root.need("levels").read_entries()
-        for vertex in level.read_items_under("vertices")[:1]
-        if isinstance(vertex.value, list)
+        _is_of_building(level.value) for _, level in root.need("levels").read_entries()
     )
     draft = LayoutDraft("Open-RMF building" if is_building else "Open-RMF navigation graph")
     transforms = _transforms(root, draft) if is_building else {}
     for name, part in root.need("levels").read_entries():
         level = draft.begin_level(name)
-        _read_level(level, part, transforms.get(name), draft)
+        draft.faults.attempt("", _read_level, level, part, transforms.get(name), draft)
         if is_building and root.value.get("coordinate_system") in IN_PIXELS:
             level.picture = _picture(part, transforms[name], path.parent, draft)
     _note_doors(root, draft)
     _note_lifts(root, draft)
     return draft.make_layout()
+
+
+def _is_of_building(level: Any) -> bool:
+    """Return whether the first vertex of a level has a height beside x and y."""
+    match level:
+        case {"vertices": [[_, _, height, *_], *_]}:
+            return not isinstance(height, dict)
+    return False
 
 
 def _note_doors(root: Source, draft: LayoutDraft) -> None:
@@ -161,7 +168,9 @@ def _read_level(
         draft.faults.attempt("", _add_lane, reading, lane, names, has_graphs)
     if transform is not None:  # corners of walls and floors are no vertices of the graph
         ends = {*level.lanes.tails, *level.lanes.heads}
+        drawn = len(level.vertices)
         level.vertices = {name: vertex for name, vertex in level.vertices.items() if name in ends}
+        level.unused = drawn - len(level.vertices)
     for name, (vertices, edges) in reading.groups.items():
         level.zones.append(NamedZone(name=name, vertices=tuple(vertices), edges=tuple(edges)))
 
@@ -188,7 +197,7 @@ def _add_vertex(reading: _Reading, vertex: Source, index: int, transform: Transf
     items = vertex.read_items()
     if len(items) < 2:  # noqa: PLR2004 - x and y
         raise vertex.make_fault("is no vertex (give [x, y, {name: …}])")
-    at = items[0].number(), items[1].number()
+    at = read_both(items[0].number, items[1].number)
     if transform is None:
         own = _own(vertex, 2)
         given = own.get("name")
@@ -219,7 +228,7 @@ def _add_lane(reading: _Reading, lane: Source, names: list[str | None], has_grap
     items = lane.read_items()
     if len(items) < 2:  # noqa: PLR2004 - from and to
         raise lane.make_fault("is no lane (give [from, to, {…}])")
-    tail, head = (_vertex(item, names) for item in items[:2])
+    tail, head = read_both(*(partial(_vertex, item, names) for item in items[:2]))
     if tail is None or head is None:
         return  # the vertex has a fault of its own
     own = _own(lane, 2)

@@ -10,7 +10,8 @@ from dataclasses import replace
 from fractions import Fraction
 
 from rightofway.errors import quote
-from rightofway.io.layouts.draft import LayoutDraft, LevelDraft, name_piece
+from rightofway.io.faults import read_both
+from rightofway.io.layouts.draft import LayoutDraft, LevelDraft, find_name, name_piece
 from rightofway.io.layouts.xml_tree import Element
 from rightofway.io.source import Source
 from rightofway.phrases import Phrase
@@ -51,14 +52,14 @@ def read(root: Element) -> Layout:
     level = draft.begin_level()
     paths: dict[str, list[tuple[str, str]]] = {}
     for point in root.list_all("point"):
-        draft.faults.attempt("", _add_point, level, point, draft)
+        draft.attempt_vertex(find_name(point, "name"), _add_point, level, point, draft)
     for path in root.list_all("path"):
         draft.faults.attempt("", _add_path, level, path, paths, draft)
     chargers = {
         kind.value.get("name")
         for kind in root.list_all("locationType")
         for operation in kind.list_all("allowedOperation")
-        if "charge" in operation.need("name").value.lower()
+        if "charge" in operation.value.get("name", "").lower()
     }
     charging: set[str] = set()
     for location in root.list_all("location"):
@@ -108,7 +109,7 @@ def _is_locked(element: Element) -> bool:
 
 
 def _add_point(level: LevelDraft, point: Element, draft: LayoutDraft) -> None:
-    x, y = (point.need(*keys).number() for keys in (X, Y))
+    x, y = read_both(lambda: point.need(*X).number(), lambda: point.need(*Y).number())
     level.add(
         LayoutVertex(
             name=point.need("name").read_text(),
@@ -123,7 +124,10 @@ def _add_point(level: LevelDraft, point: Element, draft: LayoutDraft) -> None:
 def _add_path(
     level: LevelDraft, path: Element, paths: dict[str, list[tuple[str, str]]], draft: LayoutDraft
 ) -> None:
-    tail, head = path.need("sourcePoint").read_text(), path.need("destinationPoint").read_text()
+    tail, head = read_both(
+        lambda: path.need("sourcePoint").read_text(),
+        lambda: path.need("destinationPoint").read_text(),
+    )
     lanes = paths.setdefault(path.need("name").read_text(), [])
     _note_unused(path, draft)
     if _is_locked(path):

@@ -14,7 +14,7 @@ from xml.parsers import expat
 from rightofway.deadline import READING, STEPS_BETWEEN_LOOKS, check_work
 from rightofway.errors import InputError, Location, quote
 from rightofway.io.source import Source
-from rightofway.io.text import LIMIT, choose_limit
+from rightofway.io.text import LIMIT, choose_limit, describe_column
 
 MAX_DEPTH = 64
 """Elements inside each other, at most."""
@@ -116,6 +116,7 @@ def parse_xml(text: str) -> Element:
         parser.Parse(text.encode(), True)
     except expat.ExpatError as error:
         reason = expat.ErrorString(error.code)
-        message = f"this is no XML: {reason} (check it there)"
+        column = describe_column(text, error.lineno, error.offset + 1)
+        message = f"this is no XML: {reason}{column} (check it there)"
         raise InputError.at(Location(line=error.lineno), message) from None
     return document.children[0]
