@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists, RightOfWayError
 from rightofway.figures import PackageFigures as _PackageFigures
+from rightofway.figures import PackageTeller as _PackageTeller
 from rightofway.provision import provided as _provided
 
 if _TYPE_CHECKING:
@@ -116,6 +117,7 @@ if _TYPE_CHECKING:
 __version__ = "0.9.0"
 
 _provided["figures"] = _PackageFigures()
+_provided["teller"] = _PackageTeller()
 
 _ROOMS = {
     "check": (

@@ -1,4 +1,4 @@
-"""The answers of plans and scenarios that rooms above the model give; provided by the package.
+"""Answers that rooms above the model give to objects of the rooms below.
 
 Rooms are imported at the first answer, so that ``import rightofway`` stays fast.
 """
@@ -8,6 +8,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from rightofway.check import Fault, Report
+    from rightofway.facts import Fact
     from rightofway.model import LostTime, Plan, Scenario, Tick, Wait
 
 
@@ -55,3 +57,31 @@ class PackageFigures:
         from rightofway.viz import make_scenario_html
 
         return make_scenario_html(scenario)
+
+
+class PackageTeller:
+    """`rightofway.facts.Teller` by `rightofway.report`, in English."""
+
+    def tell_fact(self, fact: Fact | Fault | Report) -> str:
+        """Return a fact, a fault or a report of the judge as sentences."""
+        from rightofway.check import Fault, Report
+        from rightofway.report.facts import FactWriter
+        from rightofway.report.judgement import list_report_sentences, write_fault
+
+        if isinstance(fact, Fault):
+            return str(write_fault(fact))
+        if isinstance(fact, Report):
+            return "\n".join(list_report_sentences(fact))
+        return str(FactWriter(fact.about).write(fact))
+
+    def summarize_report(self, report: Report) -> str:
+        """Return the number of faults of each kind."""
+        from rightofway.report.judgement import summarize_report
+
+        return str(summarize_report(report))
+
+    def write_message(self, fault: Fault) -> str:
+        """Return the reason of a fault and its remedy."""
+        from rightofway.report.judgement import write_fault_message
+
+        return str(write_fault_message(fault))

@@ -27,6 +27,7 @@ def find_languages() -> Mapping[str, Mapping[str, Any]]:
 
     folder = files("rightofway").joinpath("texts")
     names = sorted(file.name for file in folder.iterdir() if file.name.endswith(".json"))
+    names.remove("en.json")  # the templates of facts
     return {
         name.removesuffix(".json"): json.loads(folder.joinpath(name).read_text("utf-8"))
         for name in names

@@ -12,6 +12,7 @@ import pytest
 from rightofway.check import Report, check
 from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track
 from rightofway.quantities import Units
+from rightofway.report.judgement import write_fault
 from rightofway.site import Edge, VertexId, make_roadmap
 from tests.builders.fleets import grid_fleet
 
@@ -320,5 +321,6 @@ def test_faults_are_in_the_units_of_the_scenario_or_in_ticks_on_request() -> Non
     fault = check(plan).faults[0]
     assert str(fault).startswith("1 s: vertex conflict: R1 books N1 from 0.5 s to 1.5 s and R2")
     ticks = replace(scenario.quantities, in_ticks=True)
-    (fault, *_) = check(plan, quantities=ticks).faults
-    assert str(fault).startswith("tick 2: vertex conflict: R1 books N1 from tick 1 to 3 and R2")
+    assert write_fault(fault, ticks).startswith(
+        "tick 2: vertex conflict: R1 books N1 from tick 1 to 3 and R2"
+    )

@@ -1,4 +1,4 @@
-"""The judge: says of any plan whether it keeps the rules and, where not, who, where and when.
+"""The judge: the faults of any plan, each with robots, place and time.
 
 It reads the scenario in ticks and the tracks, nothing else: no planner, no search, no native core.
 """
@@ -7,20 +7,18 @@ from __future__ import annotations
 
 from rightofway.check.closures import judge_barred, judge_closures
 from rightofway.check.conflicts import judge_bookings, judge_rotations, judge_swaps
-from rightofway.check.faults import Fault, FaultCollector, FaultKind, Names, Report
+from rightofway.check.faults import Fault, FaultCollector, FaultKind, Report
 from rightofway.check.space import judge_space
 from rightofway.check.tracks import judge_drives, judge_trips, judge_turns
 from rightofway.check.visits import lay_out_visits
 from rightofway.check.zones import judge_zones
 from rightofway.model import Plan
 from rightofway.model.given import require_number, require_plan
-from rightofway.quantities import Quantities
-from rightofway.values import make_class_reader, read_at
 
 __all__ = ["Fault", "FaultKind", "Report", "check"]
 
 
-def check(plan: Plan, *, limit: int = 1000, quantities: Quantities | None = None) -> Report:
+def check(plan: Plan, *, limit: int = 1000) -> Report:
     """Judge a plan.
 
     Parameters
@@ -29,8 +27,6 @@ def check(plan: Plan, *, limit: int = 1000, quantities: Quantities | None = None
         Any plan; however wrong it is, it is judged and not refused.
     limit
         How many faults to list, the earliest first; all are counted.
-    quantities
-        How messages write times and lengths; None for the units of the scenario.
 
     Returns
     -------
@@ -57,20 +53,16 @@ def check(plan: Plan, *, limit: int = 1000, quantities: Quantities | None = None
     """
     visits = lay_out_visits(require_plan(plan))
     limit = require_number("limit", limit, 0, 2**31 - 1)
-    if quantities is not None:
-        read = make_class_reader(Quantities, "no quantities", "give Quantities, or None")
-        read_at("quantities", read, quantities)
-    names = Names(plan.scenario, quantities or plan.scenario.quantities)
-    collector = FaultCollector(limit, names)
-    judge_drives(visits, names, collector)
-    judge_turns(visits, names, collector)
-    judge_trips(plan, visits, names, collector)
-    judge_bookings(plan, visits, names, collector)
-    judge_swaps(visits, names, collector)
+    scenario, collector = plan.scenario, FaultCollector(limit)
+    judge_drives(visits, scenario, collector)
+    judge_turns(visits, scenario, collector)
+    judge_trips(plan, visits, scenario, collector)
+    judge_bookings(plan, visits, scenario, collector)
+    judge_swaps(visits, scenario, collector)
     if not plan.scenario.rules.rotations:
-        judge_rotations(visits, names, collector)
-    judge_space(plan, visits, names, collector)
-    judge_zones(plan, visits, names, collector)
-    judge_barred(visits, names, collector)
-    judge_closures(plan, visits, names, collector)
+        judge_rotations(visits, scenario, collector)
+    judge_space(plan, visits, scenario, collector)
+    judge_zones(plan, visits, scenario, collector)
+    judge_barred(visits, scenario, collector)
+    judge_closures(plan, visits, scenario, collector)
     return collector.report()

@@ -16,10 +16,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.check.faults import Fault, FaultCollector, Names
+from rightofway.check.faults import Fault, FaultCollector
 from rightofway.check.visits import Visits
-from rightofway.model import NEVER, Closure, Plan, Tick
-from rightofway.phrases import Phrase
+from rightofway.model import NEVER, Closure, Plan, Scenario, Tick
 from rightofway.site import Roadmap, VertexId
 
 Place = tuple[int, int]
@@ -28,37 +27,31 @@ Place = tuple[int, int]
 Vector = tuple[Fraction, Fraction]
 
 
-def judge_barred(visits: Visits, names: Names, collector: FaultCollector) -> None:
+def judge_barred(visits: Visits, scenario: Scenario, collector: FaultCollector) -> None:
     """Find drives along edges that are barred for the robot's type, or too near to a wall."""
-    roadmap, following = names.scenario.roadmap, np.roll(visits.vertex, -1)
+    roadmap, following = scenario.roadmap, np.roll(visits.vertex, -1)
     for visit in np.flatnonzero(visits.barred).tolist():
         robot, tail, head = (
             int(value) for value in (visits.robot[visit], visits.vertex[visit], following[visit])
         )
-        robot_type = names.scenario.robots[robot].type
+        robot_type = scenario.robots[robot].type
         edge = roadmap.find_edge(tail, head)
-        why = Phrase("is barred for type {type}", type=str(robot_type))
-        if edge is None or robot_type not in roadmap.get_edge_class(edge).barred:
-            why = Phrase("is nearer to a wall than the robot's radius")
+        is_barred = edge is not None and robot_type in roadmap.get_edge_class(edge).barred
         collector.add(
             Fault(
                 kind="barred",
                 robots=(robot,),
                 vertices=(VertexId(tail), VertexId(head)),
                 tick=Tick(int(visits.leave[visit])),
-                reason=Phrase(
-                    "{robot} drives from {tail} to {head}, which {why}",
-                    robot=names.name_robot(robot),
-                    tail=names.name_vertex(tail),
-                    head=names.name_vertex(head),
-                    why=why,
-                ),
-                remedy=Phrase("choose another way"),
+                numbers={"type": robot_type if is_barred else None},
+                scenario=scenario,
             )
         )
 
 
-def judge_closures(plan: Plan, visits: Visits, names: Names, collector: FaultCollector) -> None:
+def judge_closures(
+    plan: Plan, visits: Visits, scenario: Scenario, collector: FaultCollector
+) -> None:
     """Find bookings of what is closed.
 
     A robot books its vertices, headway included, and the edges that it drives along. A closure
@@ -90,7 +83,7 @@ def judge_closures(plan: Plan, visits: Visits, names: Names, collector: FaultCol
         for k in at_once[is_shut[kind[at_once]]].tolist():
             first, second = booked.places[k].tolist()
             moment = max(int(booked.start[k]), begin)
-            collector.add(_fault(int(booked.robot[k]), (first, second), moment, end, names))
+            collector.add(_fault(int(booked.robot[k]), (first, second), moment, end, scenario))
 
 
 class _Booked(NamedTuple):
@@ -202,25 +195,12 @@ def _square_between(p: Vector, q: Vector, r: Vector, s: Vector) -> Fraction:
     return min(from_point(p, r, s), from_point(q, r, s), from_point(r, p, q), from_point(s, p, q))
 
 
-def _fault(robot: int, place: Place, moment: int, end: int | None, names: Names) -> Fault:
-    first, second = map(names.name_vertex, place)
-    where = first
-    if first != second:
-        where = Phrase("the edge between {tail} and {head}", tail=first, head=second)
-    until = Phrase("for ever")
-    if end is not None:
-        until = Phrase("until {end}", end=names.say_until(end))
+def _fault(robot: int, place: Place, moment: int, end: int | None, scenario: Scenario) -> Fault:
     return Fault(
         kind="closed",
         robots=(robot,),
         vertices=tuple(VertexId(vertex) for vertex in dict.fromkeys(place)),
         tick=Tick(moment),
-        reason=Phrase(
-            "{robot} books {place} at {moment}, which is closed {until}",
-            robot=names.name_robot(robot),
-            place=where,
-            moment=names.say_moment(moment),
-            until=until,
-        ),
-        remedy=Phrase("come after that, or leave before it begins"),
+        numbers={"end": end},
+        scenario=scenario,
     )

@@ -10,18 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.check.faults import (
-    ONE_AFTER_THE_OTHER,
-    Fault,
-    FaultCollector,
-    FaultKind,
-    Names,
-    Verdict,
-)
+from rightofway.check.faults import Fault, FaultCollector, FaultKind
 from rightofway.check.visits import Visits
-from rightofway.model import Plan, Tick
+from rightofway.model import Plan, Scenario, Tick
 from rightofway.model.sorting import order_by
-from rightofway.phrases import Phrase, join_items
 from rightofway.site import VertexId
 
 Indices = NDArray[np.int64]
@@ -48,7 +40,9 @@ def _pairs(first: Indices, after: Indices) -> Iterator[tuple[Indices, Indices]]:
         begin = end
 
 
-def judge_bookings(plan: Plan, visits: Visits, names: Names, collector: FaultCollector) -> None:
+def judge_bookings(
+    plan: Plan, visits: Visits, scenario: Scenario, collector: FaultCollector
+) -> None:
     """Find vertex conflicts, and those that only the headway makes."""
     headway = plan.scenario.problem.booking_rules.headway
     starts = visits.enter
@@ -58,54 +52,36 @@ def judge_bookings(plan: Plan, visits: Visits, names: Names, collector: FaultCol
     robot, vertex, last = visits.robot[crowded], visits.vertex[crowded], visits.last[crowded]
     start, leave = starts[crowded], visits.leave[crowded]
 
-    def name(booking: int) -> str:
-        return names.name_robot(int(robot[booking]))
+    def describe_conflict(first: int, second: int) -> Mapping[str, Any]:
+        """Return both bookings; the last visit of a robot has no end."""
+        begins = {"begin": int(start[first]), "other_begin": int(start[second])}
+        ends = (None if last[booking] else int(leave[booking]) for booking in (first, second))
+        return begins | dict(zip(("end", "other_end"), ends, strict=True))
 
-    def interval(booking: int) -> Phrase:
-        begin = names.say_moment(start[booking])
-        if last[booking]:
-            return Phrase("from {begin} for ever", begin=begin)
-        return Phrase("from {begin} to {end}", begin=begin, end=names.say_until(leave[booking]))
-
-    def conflict(first: int, second: int) -> Verdict:
-        reason = Phrase(
-            "{one} books {vertex} {time} and {other} {other_time}",
-            one=name(first),
-            vertex=names.name_vertex(int(vertex[first])),
-            time=interval(first),
-            other=name(second),
-            other_time=interval(second),
-        )
-        return reason, ONE_AFTER_THE_OTHER
-
-    def too_soon(first: int, second: int) -> Verdict:
-        reason = Phrase(
-            "{other} comes to {vertex} at {moment}, {time} after {one} left, the headway is"
-            " {headway}",
-            other=name(second),
-            vertex=names.name_vertex(int(vertex[first])),
-            moment=names.say_moment(start[second]),
-            time=names.say_duration(start[second] - leave[first]),
-            one=name(first),
-            headway=names.say_duration(headway),
-        )
-        return reason, Phrase(
-            "come at {moment} or later", moment=names.say_moment(leave[first] + headway)
-        )
+    def describe_headway(first: int, second: int) -> Mapping[str, Any]:
+        return {
+            "moment": int(start[second]),
+            "time": int(start[second] - leave[first]),
+            "headway": int(headway),
+            "earliest": int(leave[first] + headway),
+        }
 
     def report(
-        kind: FaultKind, first: Indices, second: Indices, verdict: Callable[[int, int], Verdict]
+        kind: FaultKind,
+        first: Indices,
+        second: Indices,
+        describe: Callable[[int, int], Mapping[str, Any]],
     ) -> None:
         def fault(position: int) -> Fault:
             pair = int(first[position]), int(second[position])
-            reason, remedy = verdict(*pair)
+            in_order = [int(robot[booking]) for booking in pair]
             return Fault(
                 kind=kind,
-                robots=tuple(sorted(int(robot[booking]) for booking in pair)),
+                robots=tuple(sorted(in_order)),
                 vertices=(VertexId(int(vertex[pair[0]])),),
                 tick=Tick(int(start[pair[1]])),
-                reason=reason,
-                remedy=remedy,
+                numbers={"one": in_order[0], "other": in_order[1], **describe(*pair)},
+                scenario=scenario,
             )
 
         ends = robot[first], robot[second]
@@ -117,8 +93,8 @@ def judge_bookings(plan: Plan, visits: Visits, names: Names, collector: FaultCol
         strangers = robot[first] != robot[second]
         at_once = start[second] < leave[first]
         conflicts, too_soons = strangers & at_once, strangers & ~at_once
-        report("vertex conflict", first[conflicts], second[conflicts], conflict)
-        report("headway", first[too_soons], second[too_soons], too_soon)
+        report("vertex conflict", first[conflicts], second[conflicts], describe_conflict)
+        report("headway", first[too_soons], second[too_soons], describe_headway)
 
 
 def _crowded(vertex: Indices, start: NDArray[Any], end: NDArray[Any]) -> Indices:
@@ -144,22 +120,17 @@ def _begun(vertex: Indices, start: NDArray[Any], end: NDArray[Any]) -> Indices:
     return begun
 
 
-def judge_swaps(visits: Visits, names: Names, collector: FaultCollector) -> None:
+def judge_swaps(visits: Visits, scenario: Scenario, collector: FaultCollector) -> None:
     """Find pairs of robots that exchange two vertices."""
 
     def fault(first: Indices, second: Indices, position: int) -> Fault:
         moves = int(first[position]), int(second[position])
-        robots = tuple(int(visits.robot[move]) for move in moves)
-        vertices = tuple(VertexId(int(visits.vertex[move])) for move in moves)
-        robot_names = join_items([names.name_robot(robot) for robot in robots])
-        where = join_items([names.name_vertex(vertex) for vertex in vertices])
         return Fault(
             kind="swap conflict",
-            robots=robots,
-            vertices=vertices,
+            robots=tuple(int(visits.robot[move]) for move in moves),
+            vertices=tuple(VertexId(int(visits.vertex[move])) for move in moves),
             tick=Tick(int(visits.leave[moves[0]])),
-            reason=Phrase("{robots} exchange {vertices}", robots=robot_names, vertices=where),
-            remedy=Phrase("let one wait aside until the other is by"),
+            scenario=scenario,
         )
 
     move, begin, after = _opposite(visits)
@@ -212,7 +183,7 @@ def _alike(*columns: NDArray[Any]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]
     return as_before[:-1] | as_before[1:], ~as_before[:-1]
 
 
-def judge_rotations(visits: Visits, names: Names, collector: FaultCollector) -> None:
+def judge_rotations(visits: Visits, scenario: Scenario, collector: FaultCollector) -> None:
     """Find circles of three or more robots that move at one instant.
 
     Where robots leave one vertex together, which is a vertex conflict, the first is followed.
@@ -227,17 +198,13 @@ def judge_rotations(visits: Visits, names: Names, collector: FaultCollector) -> 
     for tick, head_of in heads.items():
         for circle in _circles(head_of):
             moving = [robots[tick, vertex] for vertex in circle]
-            robot_names = join_items([names.name_robot(robot) for robot in moving])
-            where = join_items([names.name_vertex(vertex) for vertex in circle])
             fault = Fault(
                 kind="rotation",
                 robots=tuple(sorted(moving)),
                 vertices=tuple(map(VertexId, circle)),
                 tick=tick,
-                reason=Phrase(
-                    "{robots} move round {vertices} at once", robots=robot_names, vertices=where
-                ),
-                remedy=Phrase("let one wait until its place is empty"),
+                numbers={"moving": moving},
+                scenario=scenario,
             )
             collector.add(fault)
 

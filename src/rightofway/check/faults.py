@@ -1,20 +1,17 @@
-"""What the judge says: faults, each with who, where, when and what would be right."""
+"""Faults of a plan, as the judge finds them: kind, robots, vertices, tick and numbers."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
-from functools import cached_property
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.facts import get_teller
 from rightofway.model import Scenario, Tick
-from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase, chain_items, say_count
-from rightofway.quantities import Quantities
 from rightofway.site import VertexId
 
 FaultKind = Literal[
@@ -62,36 +59,6 @@ FaultKind = Literal[
 """
 
 
-FAULT_NAMES: Mapping[FaultKind, tuple[Phrase, Phrase]] = {
-    "unknown vertex": (Phrase("unknown vertex"), Phrase("unknown vertices")),
-    "wrong home": (Phrase("wrong home"), Phrase("wrong homes")),
-    "backwards": (Phrase("backwards"), Phrase("backwards")),
-    "jump": (Phrase("jump"), Phrase("jumps")),
-    "too fast": (Phrase("too fast"), Phrase("too fast")),
-    "turn cut short": (Phrase("turn cut short"), Phrase("turns cut short")),
-    "work cut short": (Phrase("work cut short"), Phrase("work cut short")),
-    "stop missed": (Phrase("stop missed"), Phrase("stops missed")),
-    "wrong end": (Phrase("wrong end"), Phrase("wrong ends")),
-    "vertex conflict": (Phrase("vertex conflict"), Phrase("vertex conflicts")),
-    "headway": (Phrase("headway"), Phrase("headways")),
-    "swap conflict": (Phrase("swap conflict"), Phrase("swap conflicts")),
-    "rotation": (Phrase("rotation"), Phrase("rotations")),
-    "space conflict": (Phrase("space conflict"), Phrase("space conflicts")),
-    "too close": (Phrase("too close"), Phrase("too close")),
-    "zone conflict": (Phrase("zone conflict"), Phrase("zone conflicts")),
-    "closed": (Phrase("closed"), Phrase("closed")),
-    "barred": (Phrase("barred"), Phrase("barred")),
-}
-"""What people call a fault of each kind, and several of it."""
-
-
-Verdict = tuple[Phrase, Phrase]
-"""What is wrong, and what would be right."""
-
-ONE_AFTER_THE_OTHER = Phrase("let one come when the other has left")
-"""What would be right where two robots are in one place."""
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fault:
     """One place where a plan breaks a rule.
@@ -108,39 +75,30 @@ class Fault:
         the edge of the first one, then those of the second one.
     tick
         When it begins [ticks].
-    reason
-        The same for people.
-    remedy
-        What would be right, for people.
-    moment
-        When it begins, for people.
+    numbers
+        Other values of its kind: durations and moments in ticks, lengths, names of zones.
+    scenario
+        The scenario that robots, vertices and ticks are of.
+
+    Notes
+    -----
+    ``str(fault)`` is an English sentence: when, which rule, how, and a remedy.
     """
 
     kind: FaultKind
     robots: tuple[int, ...]
     vertices: tuple[VertexId, ...]
     tick: Tick
-    reason: str
-    remedy: str
-    moment: str = ""
+    numbers: Mapping[str, Any] = field(default_factory=dict)
+    scenario: Scenario = field(repr=False, compare=False)
 
     @property
     def message(self) -> str:
-        """What is wrong, with what would be right in brackets."""
-        return Phrase("{reason} ({remedy})", reason=self.reason, remedy=self.remedy)
-
-    @property
-    def sentence(self) -> str:
-        """When it begins, what kind of fault it is, and the message."""
-        return Phrase(
-            "{moment}: {kind}: {message}",
-            moment=self.moment or Phrase("tick {tick}", tick=str(self.tick)),
-            kind=FAULT_NAMES[self.kind][0],
-            message=self.message,
-        )
+        """The reason and a remedy, in English."""
+        return get_teller().write_message(self)
 
     def __str__(self) -> str:
-        return str(self.sentence)
+        return get_teller().tell_fact(self)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -170,38 +128,18 @@ class Report:
 
     @property
     def summary(self) -> str:
-        """The number of faults of each kind, in a line."""
-        if self.ok:
-            return Phrase("no fault")
-        kinds = [
-            Phrase("{number} {kind}", number=str(count), kind=FAULT_NAMES[kind][count != 1])
-            for kind, count in self.counts.items()
-        ]
-        return Phrase(
-            "{faults}: {kinds}",
-            faults=say_count(self.total, "fault", "faults"),
-            kinds=chain_items(kinds),
-        )
+        """The number of faults of each kind, in an English line."""
+        return get_teller().summarize_report(self)
 
     def __str__(self) -> str:
-        return "\n".join(self.list_sentences())
-
-    def list_sentences(self) -> Iterator[str]:
-        """Yield the number of faults of each kind, and each fault that is listed."""
-        yield self.summary
-        for fault in self.faults:
-            yield fault.sentence
-        if unlisted := self.total - len(self.faults):
-            number = str(unlisted)
-            yield Phrase("and {number} more (raise the limit to list them)", number=number)
+        return get_teller().tell_fact(self)
 
 
 class FaultCollector:
     """Counts all faults, in any order, and keeps the earliest: a bad plan may have millions."""
 
-    def __init__(self, limit: int, names: Names) -> None:
+    def __init__(self, limit: int) -> None:
         self._limit = limit
-        self._names = names
         self._counts: Counter[FaultKind] = Counter()
         self._kept: list[Fault] = []
 
@@ -230,46 +168,6 @@ class FaultCollector:
     def report(self) -> Report:
         """Return the judgement on all faults added."""
         self._kept.sort(key=lambda fault: (fault.tick, fault.robots, fault.kind, fault.vertices))
-        listed = self._kept[: self._limit]
         return Report(
-            faults=tuple(
-                replace(fault, moment=self._names.say_moment(fault.tick)) for fault in listed
-            ),
-            counts=dict(sorted(self._counts.items())),
+            faults=tuple(self._kept[: self._limit]), counts=dict(sorted(self._counts.items()))
         )
-
-
-@dataclass(frozen=True)
-class Names:
-    """What people call robots and places of a scenario, and how times are written."""
-
-    scenario: Scenario
-    quantities: Quantities
-
-    def name_robot(self, index: int) -> str:
-        """Return a robot's name."""
-        return self.scenario.robots[index].name
-
-    def name_vertex(self, vertex: int) -> str:
-        """Return what people call a vertex, whether the roadmap has it or not."""
-        if 0 <= vertex < self.scenario.roadmap.n_vertices:
-            return self.places(vertex)
-        return Phrase("vertex {number}", number=str(vertex))
-
-    @cached_property
-    def places(self) -> PlaceNames:
-        """What people call the vertices."""
-        return PlaceNames(self.scenario, numbered=True)
-
-    def say_moment(self, tick: int) -> str:
-        """Return a point in time: ``time 2``, ``6 min 23 s``."""
-        return self.quantities.format_moment(int(tick))
-
-    def say_until(self, tick: int) -> str:
-        """Return a point in time that follows another one in a sentence: ``2``, ``6 min 23 s``."""
-        has_unit = self.quantities.time_unit and not self.quantities.in_ticks
-        return self.say_moment(tick) if has_unit else self.quantities.format_cell(int(tick))
-
-    def say_duration(self, ticks: int) -> str:
-        """Return how long something lasts: ``2 time units``."""
-        return self.quantities.format_duration(int(ticks))

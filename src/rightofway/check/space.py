@@ -17,12 +17,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.check.faults import ONE_AFTER_THE_OTHER, Fault, FaultCollector, Names
+from rightofway.check.faults import Fault, FaultCollector
 from rightofway.check.visits import Visits
-from rightofway.model import Plan, Tick
+from rightofway.model import Plan, Scenario, Tick
 from rightofway.model.sorting import order_by
-from rightofway.phrases import Phrase, join_items
-from rightofway.quantities import format_decimal
 from rightofway.site import Roadmap, VertexId
 
 Indices = NDArray[np.int64]
@@ -58,14 +56,14 @@ class _Times:
         )
 
 
-def judge_space(plan: Plan, visits: Visits, names: Names, collector: FaultCollector) -> None:
+def judge_space(plan: Plan, visits: Visits, scenario: Scenario, collector: FaultCollector) -> None:
     """Find bookings of different places that exclude each other, and robots that come too near."""
     radii = [robot.radius for robot in plan.scenario.robots]
     if not any(radii):
         return
     shapes = _Shapes(plan.scenario.roadmap, visits, radii, plan.scenario.rules.clearance)
-    _judge_bookings(plan, visits, shapes, names, collector)
-    _judge_discs(visits, shapes, names, collector)
+    _judge_bookings(plan, visits, shapes, scenario, collector)
+    _judge_discs(visits, shapes, scenario, collector)
 
 
 class _Near(NamedTuple):
@@ -284,7 +282,7 @@ def _first_of_each(times: _Times, first: Indices, second: Indices, worth: Exact)
 
 
 def _judge_bookings(
-    plan: Plan, visits: Visits, shapes: _Shapes, names: Names, collector: FaultCollector
+    plan: Plan, visits: Visits, shapes: _Shapes, scenario: Scenario, collector: FaultCollector
 ) -> None:
     headway = plan.scenario.problem.booking_rules.headway
     stays, drives = np.flatnonzero(visits.known), np.flatnonzero(visits.edge >= 0)
@@ -307,40 +305,33 @@ def _judge_bookings(
     for k in _first_of_each(bookings, first, second, start):
         pair = sorted((int(first[k]), int(second[k])), key=lambda entry: int(bookings.robot[entry]))
         robots = tuple(int(bookings.robot[entry]) for entry in pair)
-        places = [_place(visits, bookings, entry, names) for entry in pair]
-        booked = [
-            Phrase("{robot} books {place}", robot=names.name_robot(robot), place=place)
-            for robot, (place, _) in zip(robots, places, strict=True)
-        ]
+        places = [_list_ends(visits, bookings, entry, scenario) for entry in pair]
         collector.add(
             Fault(
                 kind="space conflict",
                 robots=robots,
-                vertices=(*places[0][1], *places[1][1]),
+                vertices=(*places[0], *places[1]),
                 tick=Tick(int(start[k])),
-                reason=Phrase(
-                    "{bookings}, which are too near to be booked at one time",
-                    bookings=join_items(booked),
-                ),
-                remedy=ONE_AFTER_THE_OTHER,
+                numbers={"places": places},
+                scenario=scenario,
             )
         )
 
 
-def _place(
-    visits: Visits, times: _Times, entry: int, names: Names
-) -> tuple[str, tuple[VertexId, ...]]:
-    """Return where an entry is, in words and as vertices."""
+def _list_ends(
+    visits: Visits, times: _Times, entry: int, scenario: Scenario
+) -> tuple[VertexId, ...]:
+    """Return the vertex of an entry, or tail and head of its edge."""
     visit = int(times.visit[entry])
     tail = VertexId(int(visits.vertex[visit]))
-    if times.shape[entry] < names.scenario.roadmap.n_vertices:
-        return names.name_vertex(tail), (tail,)
-    head = VertexId(int(visits.vertex[visit + 1]))
-    ends = {"tail": names.name_vertex(tail), "head": names.name_vertex(head)}
-    return Phrase("the edge from {tail} to {head}", **ends), (tail, head)
+    if times.shape[entry] < scenario.roadmap.n_vertices:
+        return (tail,)
+    return tail, VertexId(int(visits.vertex[visit + 1]))
 
 
-def _judge_discs(visits: Visits, shapes: _Shapes, names: Names, collector: FaultCollector) -> None:
+def _judge_discs(
+    visits: Visits, shapes: _Shapes, scenario: Scenario, collector: FaultCollector
+) -> None:
     """Find robots that come too near at any instant of their stays and straight drives."""
     begun = np.where(
         visits.edge >= 0, np.maximum(visits.leave - visits.drive, visits.enter), visits.leave
@@ -358,45 +349,30 @@ def _judge_discs(visits: Visits, shapes: _Shapes, names: Names, collector: Fault
         for pair in shapes.together(motions, shapes.near)
     ]
     first, second, square, when = (np.concatenate(part) for part in zip(*parts, strict=True))
-    quantities = names.quantities
     for k in _first_of_each(motions, first, second, square):
         pair = sorted((int(first[k]), int(second[k])), key=lambda entry: int(motions.robot[entry]))
         robots = tuple(int(motions.robot[entry]) for entry in pair)
-        places = [_place(visits, motions, entry, names) for entry in pair]
+        places = [_list_ends(visits, motions, entry, scenario) for entry in pair]
         needed = int(
             shapes.compute_least_distances(
                 motions.robot[first[k : k + 1]], motions.robot[second[k : k + 1]]
             )[0]
         )
-        one_robot, other_robot = map(names.name_robot, robots)
-        where, other_where = (_whereabouts(at, names) for _, at in places)
         collector.add(
             Fault(
                 kind="too close",
                 robots=robots,
-                vertices=(*places[0][1], *places[1][1]),
+                vertices=(*places[0], *places[1]),
                 tick=Tick(floor(when[k])),
-                reason=Phrase(
-                    "{one} and {other} come within {distance} ({needed} needed) at {moment}, {one}"
-                    " {place}, {other} {other_place}",
-                    one=one_robot,
-                    other=other_robot,
-                    distance=quantities.format_length(shapes.compute_length(square[k])),
-                    needed=format_decimal(shapes.compute_length(Fraction(needed**2))),
-                    moment=quantities.format_moment(when[k]),
-                    place=where,
-                    other_place=other_where,
-                ),
-                remedy=Phrase("let one wait until the other is by"),
+                numbers={
+                    "places": places,
+                    "distance": shapes.compute_length(square[k]),
+                    "needed": shapes.compute_length(Fraction(needed**2)),
+                    "instant": when[k],
+                },
+                scenario=scenario,
             )
         )
-
-
-def _whereabouts(at: tuple[VertexId, ...], names: Names) -> Phrase:
-    first, last = names.name_vertex(at[0]), names.name_vertex(at[-1])
-    if len(at) > 1:
-        return Phrase("between {tail} and {head}", tail=first, head=last)
-    return Phrase("at {vertex}", vertex=first)
 
 
 def _encounters(

@@ -8,10 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rightofway.check.faults import ONE_AFTER_THE_OTHER, Fault, FaultCollector, Names
+from rightofway.check.faults import Fault, FaultCollector
 from rightofway.check.visits import Visits
-from rightofway.model import Plan, Tick
-from rightofway.phrases import Phrase
+from rightofway.model import Plan, Scenario, Tick
 from rightofway.site import VertexId
 from rightofway.site.zones import Zone
 
@@ -25,7 +24,7 @@ class _Stay(NamedTuple):
     vertex: int
 
 
-def judge_zones(plan: Plan, visits: Visits, names: Names, collector: FaultCollector) -> None:
+def judge_zones(plan: Plan, visits: Visits, scenario: Scenario, collector: FaultCollector) -> None:
     """Find zones that two robots book at the same time.
 
     A booking of a vertex or an edge of the zone books the zone, approach and headway included.
@@ -40,7 +39,7 @@ def judge_zones(plan: Plan, visits: Visits, names: Names, collector: FaultCollec
                 pair = (min(stay.robot, other.robot), max(stay.robot, other.robot), other.end)
                 if other.robot != stay.robot and pair not in known:
                     known.add(pair)
-                    collector.add(_fault(zone, stay, other, names))
+                    collector.add(_fault(zone, stay, other, scenario))
             heappush(inside, (stay.end, len(inside), stay))
 
 
@@ -61,20 +60,13 @@ def _stays(plan: Plan, visits: Visits, zone: Zone) -> Iterator[_Stay]:
             yield _Stay(leave[k] - drive[k], leave[k] + headway, robot[k], at)
 
 
-def _fault(zone: Zone, stay: _Stay, other: _Stay, names: Names) -> Fault:
+def _fault(zone: Zone, stay: _Stay, other: _Stay, scenario: Scenario) -> Fault:
     first, second = sorted((stay, other), key=lambda booking: booking.robot)
     return Fault(
         kind="zone conflict",
         robots=(first.robot, second.robot),
         vertices=(VertexId(first.vertex), VertexId(second.vertex)),
         tick=Tick(stay.start),
-        reason=Phrase(
-            "{one} at {vertex} and {other} at {other_vertex} both book zone {zone}",
-            one=names.name_robot(first.robot),
-            vertex=names.name_vertex(first.vertex),
-            other=names.name_robot(second.robot),
-            other_vertex=names.name_vertex(second.vertex),
-            zone=zone.name,
-        ),
-        remedy=ONE_AFTER_THE_OTHER,
+        numbers={"zone": zone.name},
+        scenario=scenario,
     )

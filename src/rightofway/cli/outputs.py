@@ -84,11 +84,13 @@ def put_page(plan: Plan, path: str, *, said: Phrase | None = None, **extras: Any
 
 def complain_of_faults(plan: Plan, path: str) -> None:
     """Name the faults of a plan that a page shows, if it has any."""
+    from rightofway.report.judgement import summarize_report, write_fault
     from rightofway.viz.verdict import give_verdict
 
     verdict = give_verdict(plan)
     if not verdict.ok:
-        values = {"faults": verdict.summary, "first": verdict.faults[0].sentence}
+        first = write_fault(verdict.faults[0])
+        values = {"faults": summarize_report(verdict), "first": first}
         complain(Phrase("{file} shows {faults}; {first}", file=path, **values))
 
 

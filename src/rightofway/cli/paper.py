@@ -116,6 +116,7 @@ def _table(entry: dict[str, Any]) -> _Table:
 
 def _print(table: _Table, *, log: bool) -> None:
     from rightofway.check import check
+    from rightofway.report.judgement import write_fault
     from rightofway.report.plan import report_decisions
 
     title = read_first_sentence(find_examples_folder() / f"{table.scenario}.yaml")
@@ -131,7 +132,7 @@ def _print(table: _Table, *, log: bool) -> None:
             head = ""
         put_report(f"{_line(head, 'ours', row.ours, width)}  {row.verdict}".rstrip())
     for fault in check(table.plan).faults:
-        text = Phrase("The published method leaves this: {fault}.", fault=fault.sentence)
+        text = Phrase("The published method leaves this: {fault}.", fault=write_fault(fault))
         put_report(["", text])
     if log:
         put_report(

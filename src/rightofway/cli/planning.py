@@ -287,13 +287,17 @@ def _run(
     if not may_hold_swaps:
         return 0
     from rightofway.check import check
+    from rightofway.report.judgement import summarize_report
 
     # Only swaps that the published method leaves are faults; other plans are checked already.
     judged = check(plan)
     if judged.ok:
         return 0
     complain(
-        Phrase("the plan still has {faults} (--planner two-level has none)", faults=judged.summary)
+        Phrase(
+            "the plan still has {faults} (--planner two-level has none)",
+            faults=summarize_report(judged),
+        )
     )
     return 1
 

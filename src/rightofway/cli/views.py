@@ -41,6 +41,7 @@ from rightofway.phrases import Phrase
 if TYPE_CHECKING:
     from rightofway.check import Report
     from rightofway.model import Plan
+    from rightofway.quantities import Quantities
     from rightofway.viz import Background
 
 LAYOUTS_WITH_PICTURES = (".yaml", ".yml")
@@ -94,18 +95,20 @@ def check(*, plans: tuple[str, ...], limit: int, in_ticks: bool, as_json: bool) 
             code = 2
             continue
         quantities = choose_quantities(opened.scenario, in_ticks=in_ticks)
-        report = judge(opened, limit=limit, quantities=quantities)
+        report = judge(opened, limit=limit)
         code = code or int(not report.ok)
         if as_json:
-            reports.append({"plan": path, **_report_data(opened, report)})
+            reports.append({"plan": path, **_report_data(opened, report, quantities)})
         else:
-            put_report(report_check(path, opened, report))
+            put_report(report_check(path, opened, report, quantities))
     if as_json and reports:
         put_json(reports if len(plans) > 1 else reports[0])
     return code
 
 
-def _report_data(plan: Plan, report: Report) -> dict[str, Any]:
+def _report_data(plan: Plan, report: Report, quantities: Quantities) -> dict[str, Any]:
+    from rightofway.report.judgement import write_fault_message
+
     return {
         "ok": report.ok,
         "counts": dict(report.counts),
@@ -115,7 +118,7 @@ def _report_data(plan: Plan, report: Report) -> dict[str, Any]:
                 "robots": [plan.scenario.robots[robot].name for robot in fault.robots],
                 "vertices": [plan.scenario.roadmap.name(vertex) for vertex in fault.vertices],
                 "tick": fault.tick,
-                "message": fault.message,
+                "message": write_fault_message(fault, quantities),
             }
             for fault in report.faults
         ],

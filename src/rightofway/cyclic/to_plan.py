@@ -54,7 +54,7 @@ def plan_of_laps(result: CyclicResult, laps: int | None = None) -> Plan:
     if not report.ok:
         raise GaveUp(
             "whole laps make no plan here, as a robot that is home for the last time stays there:"
-            f" {report.faults[0].message}"
+            f" {report.faults[0]}"
         )
     return plan
 

@@ -21,6 +21,7 @@ from rightofway.model import ForcedLoss, Loss, LostTime, Plan, Proof, Scenario
 from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import Phrase, chain_items, join_items, say_count
 from rightofway.quantities import Quantities, format_decimal
+from rightofway.report.judgement import list_report_sentences
 from rightofway.report.lines import (
     Facts,
     Line,
@@ -353,7 +354,9 @@ def report_bounds(
     return parts
 
 
-def report_check(file: str, plan: Plan, judgement: Report) -> Iterator[Part]:
+def report_check(
+    file: str, plan: Plan, judgement: Report, quantities: Quantities
+) -> Iterator[Part]:
     """Yield what the judge finds in the plan of a file, each fault in a line."""
     if judgement.ok:
         yield Line(
@@ -365,6 +368,6 @@ def report_check(file: str, plan: Plan, judgement: Report) -> Iterator[Part]:
             )
         )
         return
-    first, *others = judgement.list_sentences()
+    first, *others = list_report_sentences(judgement, quantities)
     yield Line(Phrase("{file}: {text}", file=file, text=first))
     yield from map(Line, others)

@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
 from rightofway.check import Report
-from rightofway.check.faults import FAULT_NAMES
 from rightofway.cyclic import list_pieces_of_plan
 from rightofway.errors import InputError, NoPlanExists, quote
 from rightofway.metrics import Metrics, compare, compute_lost_time, join_waits, measure
@@ -40,6 +39,7 @@ from rightofway.model.place_names import PlaceNames
 from rightofway.model.steady_state import refuse_unknown_robots
 from rightofway.phrases import Phrase, PhraseBook, to_parts
 from rightofway.report.circuits import describe_circuit, summarize_circuit
+from rightofway.report.judgement import describe_fault, name_fault
 from rightofway.report.sentences import (
     Words,
     describe_closure,
@@ -517,19 +517,20 @@ def _loss(loss: Loss, text: int) -> LossRow:
 
 def _faults(plan: Plan, report: Report, book: PhraseBook) -> FaultsData:
     known = range(plan.scenario.roadmap.n_vertices)
+    described = ((fault, describe_fault(fault)) for fault in report.faults)
     return {
         "count": report.total,
-        "kinds": [(book.add(FAULT_NAMES[kind][0]), count) for kind, count in report.counts.items()],
+        "kinds": [(book.add(name_fault(kind)), count) for kind, count in report.counts.items()],
         "listed": [
             {
                 "kind": fault.kind,
-                "name": book.add(FAULT_NAMES[fault.kind][0]),
-                "reason": book.add(fault.reason),
-                "remedy": book.add(fault.remedy),
+                "name": book.add(name_fault(fault.kind)),
+                "reason": book.add(reason),
+                "remedy": book.add(remedy),
                 "tick": fault.tick,
                 "robots": list(fault.robots),
                 "vertices": [vertex for vertex in fault.vertices if vertex in known],
             }
-            for fault in report.faults
+            for fault, (reason, remedy) in described
         ],
     }

@@ -1,0 +1,72 @@
+"""Facts: a kind and values, which rooms below `report` return instead of sentences.
+
+A fact has no words. `rightofway.report` has a template for each kind in each language, and shows
+the values as people read them: a robot by its name, ticks as a time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Protocol, cast
+
+from rightofway.provision import provided
+
+__all__ = ["Fact", "get_teller"]
+
+
+class Fact:
+    """A fact about a scenario, or about a call.
+
+    Parameters
+    ----------
+    kind
+        The key of its templates.
+    about
+        The scenario whose robots, vertices and ticks the values are; None where there are none.
+    **values
+        Robots and vertices by index, times in ticks, lengths as fractions, counts, names, or facts.
+
+    Notes
+    -----
+    Facts are equal if kind and values are. ``str(fact)`` is the English sentence.
+    """
+
+    __slots__ = ("about", "kind", "values")
+
+    def __init__(self, kind: str, /, about: Any = None, **values: Any) -> None:
+        self.kind = kind
+        self.about = about
+        self.values: Mapping[str, Any] = values
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Fact):
+            return NotImplemented
+        return (self.kind, self.values) == (other.kind, other.values)
+
+    def __hash__(self) -> int:
+        return hash((self.kind, tuple(self.values.items())))
+
+    def __repr__(self) -> str:
+        values = "".join(f", {name}={value!r}" for name, value in self.values.items())
+        return f"Fact({self.kind!r}{values})"
+
+    def __str__(self) -> str:
+        return get_teller().tell_fact(self)
+
+
+class Teller(Protocol):
+    """The room that makes sentences, as rooms below it see it."""
+
+    def tell_fact(self, fact: Any) -> str:
+        """Return a fact, a fault or a report of the judge in English."""
+
+    def write_message(self, fault: Any) -> str:
+        """Return the reason of a fault and its remedy in English."""
+
+    def summarize_report(self, report: Any) -> str:
+        """Return the number of faults of each kind in English."""
+
+
+def get_teller() -> Teller:
+    """Return the object that makes sentences; the package provides it when it is imported."""
+    return cast("Teller", provided["teller"])

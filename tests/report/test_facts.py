@@ -1,0 +1,61 @@
+"""Facts have a kind and values; `report` has the words."""
+
+import pickle
+from fractions import Fraction
+
+import pytest
+
+from rightofway.check import check
+from rightofway.facts import Fact
+from rightofway.report.facts import VALUE, FactWriter, read_templates
+from rightofway.report.judgement import describe_fault, write_fault
+from tests.builders.fleets import grid_fleet
+from tests.builders.plans import door_shifted
+
+ROW = grid_fleet(["..."], [("N0", "N2")])
+
+
+def test_values_are_shown_in_the_forms_that_the_template_names() -> None:
+    writer = FactWriter(ROW)
+    text = writer.fill(
+        "{who:robot} at {where:vertex} for {long:duration}, {part}, {far:length}",
+        {
+            "who": 0,
+            "where": 2,
+            "long": 3,
+            "part": Fact("until", end=7),
+            "far": Fraction(1, 2),
+        },
+    )
+    assert text == "R1 at N2 for 3 time units, until 7, 0.5 length units"
+    assert text.template == "{who} at {where} for {long}, {part}, {far}"
+
+
+def test_a_fact_is_an_english_sentence_as_text() -> None:
+    assert str(Fact("at vertex", vertex=1, about=ROW)) == "at N1"
+    assert str(Fact("near a wall")) == "is nearer to a wall than the robot's radius"
+
+
+def test_facts_are_equal_by_kind_and_values() -> None:
+    one = Fact("until", end=7)
+    assert one == Fact("until", about=ROW, end=7)
+    assert hash(one) == hash(Fact("until", end=7))
+    assert one != Fact("until", end=8)
+    assert pickle.loads(pickle.dumps(one)) == one  # noqa: S301 (our own bytes)
+
+
+@pytest.mark.parametrize("kind", read_templates()["faults"])
+def test_a_fault_has_a_reason_and_a_remedy_whose_forms_are_known(kind: str) -> None:
+    texts = read_templates()["faults"][kind]
+    known = FactWriter(ROW)._forms
+    for part in ("reason", "remedy"):
+        assert {form for _, form in VALUE.findall(texts[part])} <= set(known)
+
+
+def test_the_judge_returns_numbers_and_no_sentences() -> None:
+    """R1 is a tick too early, so it meets R2."""
+    fault = check(door_shifted(-1)).faults[0]
+    assert all(isinstance(value, int | None) for value in fault.numbers.values())
+    reason, remedy = describe_fault(fault)
+    assert str(fault) == write_fault(fault)
+    assert fault.message == f"{reason} ({remedy})"
