@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 from pathlib import Path
 
 from rightofway.control.demo import drive_demo, make_pause
-from rightofway.model import Tick
 from rightofway.studio.messages import Blobs, Emit
 from rightofway.studio.tasks.documents import Result
 from rightofway.studio.tasks.views import read
@@ -27,12 +27,12 @@ def drive_plan(
     pause = make_pause(plan, time_scale)
     has_begun = False
 
-    def wait_until(tick: Tick) -> None:
+    def wait_until(moment: Fraction) -> None:
         nonlocal has_begun
         if not has_begun:
             has_begun = True
             emit({"drives": True})
-        pause(tick)
+        pause(moment)
 
     drive_demo(
         plan,
