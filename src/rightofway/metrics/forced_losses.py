@@ -8,6 +8,7 @@ from itertools import chain, product
 
 from rightofway.arguments import checks_arguments
 from rightofway.deadline import Deadline
+from rightofway.errors import GaveUp
 from rightofway.metrics.collisions import find_collisions, find_near_misses, find_swaps
 from rightofway.model import (
     Objective,
@@ -77,7 +78,7 @@ def find_forced_losses(
     add up. Deterministic without a time limit.
     """
     deadline = Deadline.after(require_time_limit(time_limit))
-    tracks = _alone(scenario)
+    tracks = _alone(scenario, deadline)
     if tracks is None:
         return ()
     search, objective = ConflictBasedSearch(scenario.problem), choose_objective(scenario)
@@ -142,7 +143,7 @@ def find_forced_makespan(
     Deterministic without a time limit.
     """
     deadline = Deadline.after(require_time_limit(time_limit))
-    tracks = None if scenario.roadmap.has_surcharges else _alone(scenario)
+    tracks = None if scenario.roadmap.has_surcharges else _alone(scenario, deadline)
     if tracks is None or makespan < 1:
         return ()
     search = ConflictBasedSearch(scenario.problem, latest=makespan - 1)
@@ -213,14 +214,20 @@ def _sum_of_disjoint(pairs: Mapping[Robots, ForcedLoss]) -> int:
     return most
 
 
-def _alone(scenario: Scenario) -> list[Track] | None:
-    """Return the track of least cost of each robot alone; None if one has none."""
-    distances, tracks = Distances(scenario.roadmap), []
-    for robot in range(len(scenario.robots)):
-        track = find_earliest_track(robot, Bookings(scenario.problem), distances)
-        if track is None:
-            return None
-        tracks.append(track)
+def _alone(scenario: Scenario, deadline: Deadline) -> list[Track] | None:
+    """Return the track of least cost of each robot alone; None if one has none, or time is up."""
+    bookings, tracks = Bookings(scenario.problem), list[Track]()
+    distances = Distances(scenario.roadmap)
+    try:
+        for robot in range(len(scenario.robots)):
+            deadline.check("driving each robot alone")
+            left = deadline.measure_seconds_left()
+            track = find_earliest_track(robot, bookings, distances, time_limit=left)
+            if track is None:
+                return None
+            tracks.append(track)
+    except GaveUp:
+        return None
     return tracks
 
 

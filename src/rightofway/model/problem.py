@@ -347,7 +347,8 @@ def scale_weights(robots: Sequence[Robot]) -> list[int]:
     """Return the least whole numbers in the ratio of the weights of robots."""
     common = lcm(*(robot.weight.denominator for robot in robots))
     whole = [int(robot.weight * common) for robot in robots]
-    return [weight // gcd(*whole) for weight in whole]
+    divisor = gcd(*whole)
+    return [weight // divisor for weight in whole]
 
 
 def _itinerary(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import cached_property
+from threading import Lock
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,10 @@ Path = tuple[VertexId, ...]
 """The vertices of a path, both ends included."""
 
 
+MOST_ENTRIES = 2**27
+"""Entries of all tables that are kept: half a gigabyte."""
+
+
 class Distances:
     """Tables of the least ticks from every vertex to a target.
 
@@ -30,13 +35,14 @@ class Distances:
 
     Notes
     -----
-    Robots of one speed that go to one target share one table.
+    Robots of one speed that go to one target share one table, as long as it is kept.
     """
 
     def __init__(self, roadmap: Roadmap, *, checkpoint: Callable[[], None] = lambda: None) -> None:
         self.roadmap = roadmap
         self.checkpoint = checkpoint
         self._tables: dict[tuple[int, tuple[Tick, ...]], NDArray[np.int32]] = {}
+        self._lock = Lock()
         self._edges: dict[tuple[Tick, ...], NDArray[np.int32]] = {}
 
     @cached_property
@@ -59,10 +65,19 @@ class Distances:
             Ticks, -1 from where the target cannot be reached.
         """
         key = (target, edge_ticks)
-        if key not in self._tables:
+        table = self._tables.get(key)
+        if table is None:
             self.checkpoint()
-            self._tables[key] = self._kernel.to(target, self.compute_edge_ticks(edge_ticks))
-        return self._tables[key]
+            table = self._kernel.to(target, self.compute_edge_ticks(edge_ticks))
+            self._keep(key, table)
+        return table
+
+    def _keep(self, key: tuple[VertexId, tuple[Tick, ...]], table: NDArray[np.int32]) -> None:
+        """Keep a table, and forget the oldest ones where all would take too much memory."""
+        with self._lock:
+            while self._tables and (len(self._tables) + 1) * len(table) > MOST_ENTRIES:
+                del self._tables[next(iter(self._tables))]
+            self._tables[key] = table
 
     def prepare(self, wanted: Iterable[tuple[VertexId, tuple[Tick, ...]]]) -> None:
         """Compute tables that will be asked for, on all cores: targets and ticks as for `to`."""
