@@ -178,7 +178,9 @@ def test_a_broken_state_proves_nothing_and_is_reported_once() -> None:
     broken = (b"{", b"{", b"[]", b"{}", b"\xff", b'{"orderId": 1}', b"[" * 100_000)
     for payload in broken:
         assert site.end.receive(Letter("uagv/v2/maker/R2/state", payload)) == []
-    assert all(sentence.startswith("R2 sent what cannot be read: ") for sentence in site.said)
+    assert all(
+        sentence.startswith("R2 sent a message that is not used: ") for sentence in site.said
+    )
     assert len(site.said) == 1
     assert site.control.ledger.arrived == [0, 0]
 
@@ -218,3 +220,72 @@ def test_orders_say_nothing_else_than_the_journal() -> None:
     )
     for one, other in zip(first, again, strict=True):
         assert {**one, "headerId": 0} == {**other, "headerId": 0}
+
+
+CONTRADICTIONS = {"serialNumber": "R9", "manufacturer": "others", "version": "3.0.0"}
+
+
+@pytest.mark.parametrize("key", CONTRADICTIONS)
+@pytest.mark.parametrize("name", ["state", "connection", "factsheet"])
+def test_a_message_whose_header_contradicts_its_topic_is_not_used(key: str, name: str) -> None:
+    site = Site()
+    site.send(1, "connection", {"connectionState": "CONNECTIONBROKEN"})
+    documents = {
+        "state": json.loads(site.robots[1].report_state().payload),
+        "connection": {"connectionState": "ONLINE"},
+        "factsheet": sheet(0.1, 9, 9),
+    }
+    before = len(site.said)
+    site.send(1, name, {**documents[name], key: CONTRADICTIONS[key]})
+    [sentence] = site.said[before:]
+    assert f"{name}.{key}: '{CONTRADICTIONS[key]}' contradicts the topic" in sentence
+    assert site.control.lost == {1}
+    assert site.end.take_heard() == set()
+    site.say(1)
+    assert site.released[1] > 0
+    assert site.end.take_heard() == {1}
+
+
+def test_a_robot_far_from_the_node_that_it_names_is_reported_until_it_is_there() -> None:
+    """R2 is at N2, at (2.5, -0.5), and may be 1 m away as it has no deviation."""
+    site = Site()
+    position = {"x": 2.5, "y": -0.5, "mapId": "map", "positionInitialized": True}
+    site.say(1, agvPosition=position)
+    assert site.said == []
+    for x in (18.5, 18.5, 3.6):
+        site.say(1, nodeStates=[], edgeStates=[], driving=False, agvPosition={**position, "x": x})
+    begin = "R2 reports a position 16 m from N2, its last node: at most 1 m fit (look where it is)"
+    assert site.said == [begin]
+    site.say(1, nodeStates=[], edgeStates=[], driving=False, agvPosition={**position, "x": 3.4})
+    assert site.said == [begin, "R2 is near its last node again"]
+
+
+@pytest.mark.parametrize(
+    "position",
+    [
+        None,
+        {},
+        {"x": 99.0, "y": 0.0, "mapId": "another"},
+        {"x": 99.0, "y": 0.0, "mapId": "map", "positionInitialized": False},
+        {"x": float("nan"), "y": 0.0, "mapId": "map"},
+        {"x": "far", "y": 0.0, "mapId": "map"},
+        [1, 2],
+    ],
+)
+def test_a_position_that_nobody_can_compare_is_none(position: Any) -> None:
+    site = Site()
+    site.say(1, agvPosition=position)
+    assert site.said == []
+    assert site.released[1] > 0
+
+
+@pytest.mark.parametrize(("along", "is_reported"), [(0.0, False), (1.9, False), (2.1, True)])
+def test_a_robot_between_two_nodes_may_be_as_far_as_the_lane_is_long(
+    along: float, is_reported: bool
+) -> None:
+    """The lane from N2 is 1 m long."""
+    site = Site()
+    site.say(1)
+    position = {"x": 2.5 - along, "y": -0.5, "mapId": "map"}
+    site.say(1, driving=True, agvPosition=position)
+    assert bool(site.said) == is_reported

@@ -12,7 +12,7 @@ import rightofway
 from rightofway.control import FleetControl, JournalReader, JournalRow, SqliteJournal
 from rightofway.control import recording as module
 from rightofway.control.demo import drive_demo
-from rightofway.control.notices import make_notice
+from rightofway.control.notices import EVERY_KIND, make_notice
 from rightofway.control.recording import Recording
 from rightofway.errors import InputError
 from rightofway.model import Plan
@@ -125,6 +125,35 @@ def test_alarms_begin_and_end(tmp_path: Path) -> None:
     alarms = [row for row in recording.take_frame()["rows"] if row[2] == "alarm"]
     assert alarms == [(20.0, 0, "alarm", "lost", lost), (21.0, 0, "alarm", "lost", None)]
     reader.close()
+
+
+def test_a_start_ends_the_alarms_that_notices_have_begun_and_no_others(tmp_path: Path) -> None:
+    """A control that was killed cannot report their ends; a fault is known by the journal."""
+    path = tmp_path / "run.journal"
+    drive_demo(door(), journal=path)
+    journal = SqliteJournal(path, lambda: 20.0)
+    lost, fault = to_parts(Phrase("is not connected")), {"fault": "is off its way", "place": None}
+    journal.commit([make_notice(lost, 0, "lost"), make_notice(lost, -1, "broker")])
+    journal.commit([{"kind": "fault", "robot": 1, **fault}])
+    journal.commit([make_notice("", kind=EVERY_KIND, is_over=True)])
+    journal.close()
+    reader = JournalReader(path)
+    recording = Recording(door(), reader)
+    recording.read_on()
+    alarms = [row[1:] for row in recording.take_frame()["rows"] if row[2] == "alarm"]
+    ended = [row for row in alarms if row[3] is None]
+    assert sorted(ended) == [(-1, "alarm", "broker", None), (0, "alarm", "lost", None)]
+    assert len(alarms) == 5
+    reader.close()
+
+
+def test_a_robot_of_a_demo_that_stands_has_an_alarm_until_it_moves(tmp_path: Path) -> None:
+    """R2 stands for 100 from its begin on: alarmed after 2 + 11 time units, or one step later."""
+    rows = recorded(door(), tmp_path, delays="stop:R2@0+100")
+    told = [row for row in rows if row.entry.get("about") == "still" and row.entry["robot"] == 1]
+    assert [row.entry["over"] for row in told] == [False, True]
+    assert told[0].moment is not None
+    assert 13 <= told[0].moment <= 15
 
 
 def test_times_count_from_the_begin_of_the_run_after_its_first_entries_have_gone(

@@ -36,7 +36,7 @@ from rightofway.control.driver import Driver
 from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd
 from rightofway.control.identities import Identity, make_simulated_identities
 from rightofway.control.names import list_jobs
-from rightofway.control.notices import Notices
+from rightofway.control.notices import EVERY_KIND, Notices, make_notice
 from rightofway.control.operator import Operator
 from rightofway.control.order_map import make_order_maps
 from rightofway.errors import GaveUp, InputError
@@ -416,6 +416,16 @@ def test_a_journal_that_cannot_be_written() -> None:
     assert len(published) == len(letters)
     about = [sentence for sentence in said if "journal" in sentence]
     assert about == [begins, "the journal can be written again"]
+
+
+def test_a_start_on_a_journal_ends_the_alarms_of_before() -> None:
+    journal, names = MemoryJournal(), [robot.name for robot in door().scenario.robots]
+    identities, said = make_simulated_identities(names), list[str]()
+    for _ in range(2):
+        driver = Driver(door(), identities, journal, report=said.append)
+        driver._flush()
+    told = [entry for entry in journal.written if entry["kind"] == "notice"]
+    assert told == [make_notice("", kind=EVERY_KIND, is_over=True)]
 
 
 def test_a_robot_on_hold(floor: Floor) -> None:

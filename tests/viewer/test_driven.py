@@ -19,6 +19,7 @@ from rightofway.control.journal import SqliteJournal
 from rightofway.control.notices import Notices
 from rightofway.control.operator import OPERATIONS
 from rightofway.control.proofs import say_stray, take_fault
+from rightofway.control.standstill import STILL
 from rightofway.phrases import Phrase
 from tests.builders.accessibility import serious
 from tests.builders.browsers import expect
@@ -331,6 +332,9 @@ def test_a_person_is_alarmed_and_says_what_has_become_of_a_robot_with_a_fault(
     expect(alarms).not_to_contain_text("R1")
     expect(row_of(viewer, "R2")).to_contain_text("alarm")
     notices.report_on(1, "", "lost", is_over=True)
+    notices.report_on(1, Phrase("does not move"), STILL)
+    expect(row_of(viewer, "R2")).to_contain_text("not moving")
+    notices.report_on(1, "", STILL, is_over=True)
     expect(alarms).to_be_hidden()
     assert viewer.complaints == []
 

@@ -291,6 +291,7 @@ class _Demo:
         while self._looks_at <= self._moment:
             self._looks_at += self._second
             messages = [*messages, *self._supervisor.take_turn()]
+            self._record.journal.flush()  # pages show what was reported, also where nobody drives
         is_asked = self._supervisor.has_answers
         if messages or is_asked:
             self._exchange(self._end.make_letters(messages))

@@ -25,7 +25,7 @@ from rightofway.control.identities import Identity
 from rightofway.control.journal import BatchedJournal, Entry, Journal, JournalFailed
 from rightofway.control.laps import LapsToDrive
 from rightofway.control.messages import Message
-from rightofway.control.notices import Notices
+from rightofway.control.notices import EVERY_KIND, Notices
 from rightofway.control.order_map import OrderMap, make_order_maps
 from rightofway.control.story import Story
 from rightofway.control.supervisor import Supervisor
@@ -119,6 +119,8 @@ class Driver:
         elif not ledger.run.startswith(f"{digest}-"):
             message = "is of another plan, or of other identities (give those, or another journal)"
             raise InputError.at("journal", message)
+        else:  # trouble of before is reported again if it lasts
+            notices.report("", EVERY_KIND, is_over=True)
         self.end = ControlEnd(self.control, maps, make_timestamp, notices)
         self._story = Story(ledger, names)
         self._heard = [time.monotonic()] * len(names)
@@ -249,7 +251,6 @@ class Driver:
         """Return what is to be sent again; robots that are silent are lost."""
         if self._metrics is not None:
             self._metrics.survey(self.control)
-        self.end.notices.settle()
         letters = self.end.make_letters(self.control.remind())
         now = time.monotonic()
         for robot, heard in enumerate(self._heard):
@@ -266,9 +267,9 @@ class Driver:
             robot = self.end.find_robot(letter.topic)
             if robot is None:
                 continue
-            if letter.name == "state":
-                self._heard[robot] = time.monotonic()
             self._outbox += self.end.receive(letter)
+        for robot in self.end.take_heard():
+            self._heard[robot] = time.monotonic()
         if not self._flush():
             return
         self._supervisor.answer()

@@ -17,7 +17,7 @@ from typing import Any, TypeVar
 from rightofway.control import vda5050
 from rightofway.control.fleet_control import UNSOUND, FleetControl
 from rightofway.control.identities import Identity
-from rightofway.control.messages import Condition, InstantAction, Message, Order
+from rightofway.control.messages import Condition, InstantAction, Message, Order, RobotState
 from rightofway.control.notices import Notices
 from rightofway.control.order_map import OrderLane, OrderMap, Place
 from rightofway.control.simulated_robot import SimulatedRobot
@@ -31,6 +31,9 @@ READ = ("state", "connection", "factsheet")
 
 LOST = "lost"
 """The kind of trouble of a robot that no message reaches."""
+
+OWN_DEVIATION = 1.0
+"""How far from a node a robot may call itself arrived that is given no deviation [m]."""
 
 LONGEST_MESSAGE = 1_000_000
 """Bytes of a message that is read: to refuse a longer one field by field takes seconds."""
@@ -70,6 +73,9 @@ FACTSHEET = {
     "loadSpecification": {},
 }
 """What a simulated robot is: small, and faster than any plan."""
+
+
+_AnyBody = TypeVar("_AnyBody", bound=vda5050.Body)
 
 
 class Letter:
@@ -163,6 +169,7 @@ class ControlEnd:
     ) -> None:
         self.control, self.notices = control, notices
         self._maps = maps
+        self._heard = set[int]()
         self._writer = _Writer(now)
         self._robots = {
             order_map.identity.get_topic(name): (robot, name)
@@ -198,7 +205,9 @@ class ControlEnd:
         try:
             letters = self._take(robot, name, letter)
         except InputError as error:
-            self._refuse(robot, name, Phrase("sent what cannot be read: {error}", error=str(error)))
+            self._refuse(
+                robot, name, Phrase("sent a message that is not used: {error}", error=str(error))
+            )
         except UNSOUND:
             raise
         except Exception as error:  # noqa: BLE001 (the guard: no message ends the control)
@@ -222,15 +231,59 @@ class ControlEnd:
     def _take(self, robot: int, name: str, letter: Letter) -> list[Letter]:
         """Take in a message of a robot; return what is to be sent because of it."""
         if name == "state":
-            state = _read(vda5050.StateMessage, letter).to_robot_state()
+            state = self._read(robot, vda5050.StateMessage, letter).to_robot_state()
+            self._heard.add(robot)
             self.notices.take(robot, state.condition)
             self.notices.end(robot, LOST)
-            return self.make_letters(self.control.receive(robot, state))
+            messages = self.control.receive(robot, state)
+            self._compare_position(robot, state)
+            return self.make_letters(messages)
         if name == "connection":
-            is_online = _read(vda5050.ConnectionMessage, letter).is_online
+            is_online = self._read(robot, vda5050.ConnectionMessage, letter).is_online
             return self.connect(robot, is_connected=is_online)
-        self._compare(robot, _read(vda5050.Factsheet, letter))
+        self._compare(robot, self._read(robot, vda5050.Factsheet, letter))
         return []
+
+    def _read(self, robot: int, model: type[_AnyBody], letter: Letter) -> _AnyBody:
+        """Return the content of a letter; refuse one whose header is that of another robot."""
+        if isinstance(letter.body, model):
+            return letter.body
+        document = _parse_document(letter.payload)
+        _refuse_header(document, self._maps[robot].identity, letter.name)
+        return vda5050.read(model, document, letter.name)
+
+    def take_heard(self) -> set[int]:
+        """Return the robots of which a state was used since the last call."""
+        heard, self._heard = self._heard, set()
+        return heard
+
+    def _compare_position(self, robot: int, state: RobotState) -> None:
+        """Report a robot that is further from the node that it names than it may be.
+
+        Between two nodes it may be as far away as the lane to the next one is long.
+        """
+        own, order_map = self.control.ledger.robots[robot], self._maps[robot]
+        visit = own.find_held(state.last_place) if state.order_id == own.order_id else None
+        place = None if visit is None else order_map.get_place(state.last_place)
+        if visit is None or place is None or state.position is None:
+            return
+        x, y, map_id = state.position
+        limit = ROUNDING + (OWN_DEVIATION if place.deviation is None else place.deviation)
+        if not state.is_idle and visit + 1 < own.route.end:
+            lane = order_map.find_lane(state.last_place, own.route.get_place(visit + 1))
+            limit += 0.0 if lane is None else lane.length
+        apart = hypot(x - place.point[0], y - place.point[1])
+        if map_id != place.map_id or apart <= limit:
+            self.notices.end(robot, "position")
+            return
+        sentence = Phrase(
+            "reports a position {apart} m from {place}, its last node: at most {limit} m fit"
+            " (look where it is)",
+            apart=f"{apart:.3g}",
+            place=escape_text(state.last_place),
+            limit=f"{limit:.3g}",
+        )
+        self.notices.begin(robot, "position", sentence, Phrase("is near its last node again"))
 
     def connect(self, robot: int, *, is_connected: bool, why: str = "") -> list[Letter]:
         """Note whether messages reach a robot; return what is to be sent because of it.
@@ -426,17 +479,32 @@ def _write(
     return json.dumps(vda5050.write_message(body, header), separators=(",", ":")).encode()
 
 
-_AnyBody = TypeVar("_AnyBody", bound=vda5050.Body)
-
-
 def _read(model: type[_AnyBody], letter: Letter) -> _AnyBody:
-    """Return what a letter says."""
+    """Return the content of a letter."""
     if isinstance(letter.body, model):
         return letter.body
-    return vda5050.read(model, _document(letter.payload), letter.name)
+    return vda5050.read(model, _parse_document(letter.payload), letter.name)
 
 
-def _document(payload: bytes) -> dict[str, Any]:
+def _refuse_header(document: Mapping[str, Any], identity: Identity, name: str) -> None:
+    """Refuse a message with a header of another robot than that of its topic.
+
+    Keys may be missing; a topic has the first number of the version.
+    """
+    expected = {
+        "manufacturer": identity.manufacturer,
+        "serialNumber": identity.serial_number,
+        "version": identity.version[0],
+    }
+    for key, value in expected.items():
+        given = document.get(key, value)
+        said = str(given).partition(".")[0] if key == "version" else given
+        if said != value:
+            message = f"{quote(given)} contradicts the topic, {quote(value)} (correct the sender)"
+            raise InputError.at((name, key), message)
+
+
+def _parse_document(payload: bytes) -> dict[str, Any]:
     """Return a payload as JSON has it."""
     if len(payload) > LONGEST_MESSAGE:
         message = f"has {len(payload)} bytes (the sender has to send {LONGEST_MESSAGE} at most)"

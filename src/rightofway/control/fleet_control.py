@@ -75,6 +75,8 @@ class FleetControl:
         releases back, and never let one go.
     places
         The last place of each robot, by its last state since the start.
+    points
+        The position that each robot has reported last [m].
     lost
         Robots that no message reaches.
     refused
@@ -104,6 +106,7 @@ class FleetControl:
         self.ledger = Ledger()
         self.conditions: dict[int, Condition] = {}
         self.places: dict[int, str] = {}
+        self.points: dict[int, tuple[float, float]] = {}
         self.lost, self.refused = set[int](), set[int]()
         self._reminded = set[int]()  # robots that were sent again what they have not answered
         self._just_sent = set[int]()  # robots that the next reminder leaves out
@@ -255,6 +258,8 @@ class FleetControl:
             Its state.
         """
         self.conditions[robot], self.places[robot] = state.condition, state.last_place
+        if state.position is not None:
+            self.points[robot] = state.position[:2]
         self.lost.discard(robot)
         own, graph = self.ledger.robots[robot], self.ledger.graph
         before = own.arrived

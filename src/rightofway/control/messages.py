@@ -163,6 +163,8 @@ class RobotState:
         Whether it drives.
     condition
         Whether it is fit to drive on.
+    position
+        Where it is: x and y [m], and the map; None where it does not say. For people only.
     """
 
     order_id: str
@@ -174,6 +176,7 @@ class RobotState:
     actions: Mapping[str, str] = field(default_factory=dict)
     is_driving: bool = False
     condition: Condition = Condition()
+    position: tuple[float, float, str] | None = None
 
     @property
     def is_idle(self) -> bool:

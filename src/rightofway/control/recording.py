@@ -13,6 +13,7 @@ from typing import Any, Protocol
 
 from rightofway.control.journal import JournalRow
 from rightofway.control.ledger import Ledger
+from rightofway.control.notices import EVERY_KIND
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive
 from rightofway.control.story import Story
@@ -29,6 +30,9 @@ MAX_ROWS = 200_000
 
 DECIMALS = 2
 """Decimals of a moment [ticks]."""
+
+OF_LEDGER = frozenset({"fault", "failed"})
+"""Kinds of alarms that begin and end with entries on robots, not with notices."""
 
 EVERYBODY = ("plan", "splice", "snapshot")
 """Kinds of entries that may change what is known of all robots."""
@@ -230,7 +234,11 @@ class Recording:
             is_alarm = about and not entry["over"]
             self._rows.append((tick, robot, "says", "alarm" if is_alarm else "news", text, []))
             self._told[robot] = text
-        if about:
+        if about == EVERY_KIND:
+            for number, known in ((-1, self._general), *enumerate(self._shown)):
+                for kind in known.alarms.keys() - OF_LEDGER:
+                    self._alarm(number, kind, None, tick)
+        elif about:
             self._alarm(robot, about, None if entry["over"] else text, tick)
 
     def _alarm(self, robot: int, kind: str, text: Any, tick: float) -> None:

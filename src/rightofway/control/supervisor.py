@@ -12,6 +12,7 @@ from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.messages import Message
 from rightofway.control.notices import Notices
 from rightofway.control.operator import Operator
+from rightofway.control.standstill import Standstill
 from rightofway.model import NEVER
 from rightofway.precedence import Part
 from rightofway.report.driving import waits_for_closure
@@ -53,6 +54,7 @@ class Supervisor:
         self.operator = Operator(dispatcher)
         self._answers: list[tuple[int, Answer]] = []  # to commands, once all is on the disk
         self._told = dict[int, int]()  # of each robot, the last part that a closure kept it from
+        self._standstill = Standstill(dispatcher, notices, read_ticks)
         dispatcher.report = self._report_replanning
         dispatcher.keep_closures(read_ticks)
 
@@ -63,6 +65,8 @@ class Supervisor:
         """Return what is to be sent because time has passed; call it every second."""
         messages = [*self._dispatcher.follow_closures(), *self._dispatcher.pass_stuck()]
         self.tell_closures()
+        self._standstill.look()
+        self._notices.settle()
         return messages
 
     def tell_closures(self) -> None:

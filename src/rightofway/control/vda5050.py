@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from itertools import pairwise
+from math import isfinite
 from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field, ValidationError
@@ -347,8 +348,10 @@ class StateMessage(_Model):
     operatingMode: str = "AUTOMATIC"
     errors: tuple[ErrorState, ...] = Field(default=(), strict=False)
     safetyState: _Safety = _Safety()
-    # These are only written: no release depends on them, and a robot may send anything.
-    agvPosition: Any = None
+    # No release depends on these, and a robot may send anything.
+    agvPosition: Any = Field(
+        default=None, validation_alias=AliasChoices("agvPosition", "mobileRobotPosition")
+    )
     batteryState: Any = _Battery()
 
     @classmethod
@@ -438,7 +441,18 @@ class StateMessage(_Model):
                 ),
                 wants_more=self.newBaseRequest,
             ),
+            position=_read_position(self.agvPosition),
         )
+
+
+def _read_position(given: Any) -> tuple[float, float, str] | None:
+    """Return the position of a robot, None where it has none or it cannot be read."""
+    try:
+        position = given if isinstance(given, _Position) else _Position.model_validate(given)
+    except ValidationError:
+        return None
+    is_known = position.positionInitialized and isfinite(position.x) and isfinite(position.y)
+    return (position.x, position.y, position.mapId) if is_known else None
 
 
 class ConnectionMessage(_Model):

@@ -20,6 +20,13 @@ test("a choice shows the plan or the floor and writes nothing into the plan", ()
   assert.equal(choice.robots, plan.happened);
 });
 
+test("robots with an alarm are marked like those with a fault", () => {
+  const choice = new Choice(planOf("late"));
+  assert.deepEqual(choice.faulty, []);
+  choice.alarmed = () => [1];
+  assert.deepEqual(choice.faulty, [1]);
+});
+
 test("the robot chosen is the one that is shown", () => {
   const plan = planOf("late");
   const choice = new Choice(plan);

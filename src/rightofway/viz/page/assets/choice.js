@@ -25,6 +25,8 @@ export class Choice extends Observable {
     this.mode = plan.happened ? "both" : "plan";
     this.bottleneck = true;
     this.allFaulty = [...new Set(plan.faults.flatMap(({ robots }) => robots))];
+    /** @type {() => number[]} */
+    this.alarmed = () => []; // the robots with an alarm, of a fleet that is driven
     /** @type {number[] | null} */
     this.corridor = null; // the vertices of the way whose distances are the axis of the diagram
     this.space = false; // whether bookings and the room that robots need are shown
@@ -66,9 +68,9 @@ export class Choice extends Observable {
     return this.plan.faults[this.faultIndex] ?? null;
   }
 
-  /** The robots that are marked as faulty: those of the fault looked at, else of all faults. */
+  /** The robots that are marked: those of the fault looked at, else of all faults, and those with an alarm. */
   get faulty() {
-    return this.fault ? this.fault.robots : this.allFaulty;
+    return this.fault ? this.fault.robots : [...this.allFaulty, ...this.alarmed()];
   }
 
   /** @param {number} index */

@@ -15,6 +15,7 @@ import { TwoLineList, chooseAt } from "./two_line_list.js";
 /** @import { Words } from "./words.js" */
 
 const MOST_TOLD = 2000; // sentences in the log, the latest ones
+const NOT_MOVING = "still"; // the kind of alarm of a robot that may drive and does not move
 const MARGIN = 1.25; // by how much the axis of time is longer than what has happened
 
 /** What a page has of a fleet that is driven beside its map and diagram: whether it is live, trouble, the log, orders. */
@@ -48,6 +49,8 @@ export class Live {
       isLong: true,
     });
     this.orders = new Orders(root, driven, choice, this.feed.orders ?? "");
+    choice.alarmed = () =>
+      driven.raw.map((_, robot) => robot).filter((robot) => this.isInTrouble(robot));
     root.part("live-box").hidden = false;
     this.button.hidden = !this.feed.stream;
     this.button.addEventListener("click", () => clock.follow());
@@ -179,7 +182,9 @@ export class Live {
     const { driven, clock, words } = this;
     const tick = clock.tick;
     if (driven.isOff(robot, tick)) return texts.driven.off;
-    if (this.isInTrouble(robot)) return texts.driven.alarmed;
+    const alarms = this.#alarmsOf(robot);
+    if (alarms.some(({ kind }) => kind === NOT_MOVING)) return texts.driven.still;
+    if (alarms.length) return texts.driven.alarmed;
     const wait = driven.waitAt(robot, tick);
     const names = wait?.others.map((other) => words.robot(other)).join(", ");
     if (names) return texts.driven.waitsFor(names);
@@ -192,9 +197,14 @@ export class Live {
    * @param {number} robot
    */
   isInTrouble(robot) {
+    return this.#alarmsOf(robot).length > 0;
+  }
+
+  /** @param {number} robot */
+  #alarmsOf(robot) {
     const { driven, clock } = this;
-    if (driven.isOff(robot, clock.tick)) return false;
-    return driven.alarmsAt(clock.tick).some((alarm) => alarm.robot === robot);
+    if (driven.isOff(robot, clock.tick)) return [];
+    return driven.alarmsAt(clock.tick).filter((alarm) => alarm.robot === robot);
   }
 
   /**

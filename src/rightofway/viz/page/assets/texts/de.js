@@ -244,6 +244,7 @@ export const GERMAN = {
     operator: "Bediener",
     alarm: "Störung",
     alarmed: "Störung",
+    still: "bewegt sich nicht",
     notYet: "kommt noch",
     holdOne: (name) => `${name} halten`,
     goOne: (name) => `${name} fahren lassen`,

@@ -291,6 +291,7 @@ export const ENGLISH = {
     operator: "Operator",
     alarm: "Alarm",
     alarmed: "alarm",
+    still: "not moving",
     notYet: "to come",
     /** @param {string} name */
     holdOne: (name) => `Hold ${name}`,
