@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -15,6 +16,7 @@ from rightofway.io import dump_scenario, parse_scenario
 from rightofway.metrics import Site, inspect
 from rightofway.model import Scenario
 from rightofway.site import make_grid_roadmap
+from rightofway.site.occupancy import Occupancy
 from rightofway.site.walls import clear_of_walls, reaches_walls
 
 HALL = ["......", "......", "..@...", "......", "......"]
@@ -140,3 +142,62 @@ def test_an_inspection_says_where_robots_reach_into_walls() -> None:
     assert [(each.severity, each.robots) for each in found] == [("warning", ("R1",))]
     assert "in 22 cells, for example in N0" in found[0].fact
     assert "walls: strict" in found[0].remedy
+
+
+def make_rooms(door: int, radius: str, kind: str | None = None) -> Scenario:
+    """Return two rooms of 9 x 9 cells of half a metre, with a door of some cells between them."""
+    wall = ["." if 4 - door // 2 <= row < 4 - door // 2 + door else "@" for row in range(9)]
+    rows = [f"{'.' * 9}{cell}{'.' * 9}" for cell in wall]
+    robot = {"name": "R1", "home": [4, 4], "target": [4, 14], "radius": radius}
+    return parse_scenario(
+        {
+            "format": "rightofway-scenario/1",
+            "map": {"grid": rows, "cell_size": 0.5},
+            "units": {"length": "m", "time": "s"},
+            "robots": [robot | ({"type": kind} if kind else {})],
+            "rules": {"walls": "strict"},
+        }
+    )
+
+
+@pytest.mark.parametrize("kind", [None, "amr"])
+@pytest.mark.parametrize(("door", "room"), [(1, "0.25"), (2, "0.25"), (3, "0.75"), (5, "1.25")])
+def test_the_room_of_a_door_is_named_where_a_robot_is_too_wide_for_it(
+    door: int, room: str, kind: str | None
+) -> None:
+    """A robot drives along the middles of cells: a door of 2 cells leaves room as one of 1."""
+    assert rightofway.solve(make_rooms(door, room, kind)).flowtime > 0
+    too_wide = make_rooms(door, str(Fraction(room) + Fraction(1, 100)), kind)
+    with pytest.raises(NoPlanExists) as refused:
+        rightofway.solve(too_wide)
+    radius = f"{float(too_wide.robots[0].radius):g} m"
+    assert f"its radius is {radius}, and walls leave room for {room} m at (4.75," in str(
+        refused.value
+    )
+    assert "type" not in str(refused.value)
+    site = Site(
+        roadmap=too_wide.roadmap, units=too_wide.units, robots=too_wide.robots, rules=too_wide.rules
+    )
+    [found] = [each for each in inspect(site).findings if each.kind == "trip"]
+    assert (found.severity, found.robots) == ("error", ("R1",))
+    assert (
+        f"1 robot of radius {radius} cannot pass where walls leave room for {room} m" in found.fact
+    )
+
+
+@pytest.mark.parametrize(("key", "size"), [("cell_size", "1/2"), ("cell_size", "1")])
+@pytest.mark.parametrize("radius", ["3/10", "3"])
+def test_a_picture_whose_cells_are_too_small_for_a_radius_says_so(
+    key: str, size: str, radius: str
+) -> None:
+    """Free strips of 5 pixels of 0.1 m between walls of one pixel."""
+    pixels = np.zeros((60, 60), np.uint8)
+    pixels[::6, :] = 100
+    picture = Occupancy(pixels=pixels, resolution=Fraction(1, 10))
+    with pytest.raises(InputError) as refused:
+        picture.free_cells(Fraction(size), radius=Fraction(radius), key=key)
+    message = str(refused.value)
+    if 2 * Fraction(radius) > Fraction(size):
+        assert f"{key}: no cell of {float(Fraction(size))} m has room for a radius of" in message
+    else:
+        assert message == f"{key}: no cell of 1.0 m is free all over (give a smaller one)"

@@ -31,6 +31,7 @@ from rightofway.metrics.site import SEVERITIES, Finding, Inspection, Kind, Site,
 from rightofway.phrases import Phrase, say_count
 from rightofway.quantities import format_decimal
 from rightofway.site import Roadmap
+from rightofway.site.walls import find_narrowest, reaches_walls
 
 MOST_PLACES = 200
 """The most places that are compared; of a longer list, this number spread over it."""
@@ -87,6 +88,7 @@ def inspect(site: Site) -> Inspection:
     load, total, sampled = _load(site, ways, parts[0], places)
     findings = [
         *_impossible_trips(site, ways, parts),
+        *_narrow_trips(site, ways),
         *_outside(site, ways, parts),
         *find_nearness(site, ways.joints),
         *_on_the_way(site, ways, main, apart, load=load, total=total),
@@ -166,6 +168,59 @@ def _impossible_trips(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) ->
                     vertices=site.list_names((start, goal)),
                     robots=(robot.name,),
                 )
+
+
+def _narrow_trips(site: Site, ways: Ways) -> Iterator[Finding]:
+    """Yield for each radius the robots that walls keep from their places, and the room they leave.
+
+    Ways of a grid lead in both directions.
+    """
+    grid = site.roadmap.grid
+    if grid is None or site.rules.walls != "strict":
+        return
+    radii = {robot.radius for robot in site.robots if 2 * robot.radius > grid.cell_size}
+    length = site.units.format_length
+    for radius in sorted(radii):
+        barred_trips = _find_robots_kept_out(site, ways, radius)
+        for name, (start, goal) in [*barred_trips.items()][:1]:
+            narrowest = find_narrowest(site.roadmap, start, goal)
+            if narrowest is None:
+                continue  # no robot has a way there
+            room, place = narrowest
+            yield Finding(
+                kind="trip",
+                severity="error",
+                fact=Phrase(
+                    "{robots} of radius {radius} cannot pass where walls leave room for {room} only"
+                    ": {robot} not from {start} to {goal}, at {place}",
+                    robots=say_count(len(barred_trips), "robot", "robots"),
+                    radius=length(radius),
+                    room=length(room),
+                    robot=name,
+                    start=site.name(start),
+                    goal=site.name(goal),
+                    place=site.name(place),
+                ),
+                remedy=Phrase("widen the way, or take smaller robots"),
+                vertices=site.list_names((place, start, goal)),
+                robots=tuple(barred_trips),
+            )
+
+
+def _find_robots_kept_out(site: Site, ways: Ways, radius: Fraction) -> dict[str, tuple[int, int]]:
+    """Return the robots of a radius that walls keep from a place, and the first such drive."""
+    is_clear = (~reaches_walls(site.roadmap, radius)).tolist()
+    part_of = dict[int, int]()
+    for vertex, clear in enumerate(is_clear):
+        if clear and vertex not in part_of:
+            reached = reach_from([vertex], ways.along, is_clear.__getitem__)
+            part_of.update(dict.fromkeys(reached, vertex))
+    barred_trips = dict[str, tuple[int, int]]()
+    for robot in site.robots:
+        for start, goal in pairwise(list_trip(robot, site.rules)):
+            if robot.radius == radius and part_of.get(start) != part_of.get(goal):
+                barred_trips.setdefault(robot.name, (start, goal))
+    return barred_trips
 
 
 def _outside(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator[Finding]:

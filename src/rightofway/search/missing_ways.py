@@ -15,6 +15,7 @@ from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import Phrase
 from rightofway.search.distances import Distances
 from rightofway.site import Roadmap, VertexId
+from rightofway.site.walls import find_narrowest
 
 
 def reaches_its_places(itinerary: Itinerary, distances: Distances) -> bool:
@@ -55,9 +56,7 @@ def find_missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[B
         distances = distances or Distances(scenario.roadmap)
         for tail, head in _legs_without_a_way(itinerary, distances):
             if distances.to(head, _unbarred(itinerary))[tail] >= 0:
-                kind = str(scenario.robots[robot].type)
-                why = Phrase("edges are barred for robots of type {type}", type=kind)
-                remedy = Phrase("open one, or give the robot other places")
+                why, remedy = _explain_barred(scenario, robot, tail, head, place)
             elif opening := parts.find_opening(tail, head):
                 first, last = map(place, opening)
                 why = Phrase("the edge from {first} to {last} is one way", first=first, last=last)
@@ -75,6 +74,30 @@ def find_missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[B
                 why=why,
             )
             yield Blockage(reason, (name,), (name_of(tail), name_of(head)), remedy)
+
+
+def _explain_barred(
+    scenario: Scenario, robot: int, tail: VertexId, head: VertexId, place: PlaceNames
+) -> tuple[Phrase, Phrase]:
+    """Return why a robot has no way where others have one, and a remedy.
+
+    On a grid edges are barred by the width of robots only, elsewhere by their types.
+    """
+    barred = scenario.robots[robot]
+    has_walls = scenario.roadmap.grid is not None
+    narrowest = find_narrowest(scenario.roadmap, tail, head) if has_walls else None
+    if narrowest is None:
+        why = Phrase("edges are barred for robots of type {type}", type=str(barred.type))
+        return why, Phrase("open one, or give the robot other places")
+    room, spot = narrowest
+    length = scenario.quantities.format_length
+    why = Phrase(
+        "its radius is {radius}, and walls leave room for {room} at {place}",
+        radius=length(barred.radius),
+        room=length(room),
+        place=place.describe_place(spot),
+    )
+    return why, Phrase("widen the way, or take a smaller robot")
 
 
 def _unbarred(itinerary: Itinerary) -> tuple[Tick, ...]:

@@ -104,7 +104,7 @@ class Occupancy:
         Raises
         ------
         InputError
-            If there is no whole cell, there are too many cells, or one is below a pixel.
+            If there is no whole cell or no free one, there are too many, or one is below a pixel.
         """
         height, width = self.pixels.shape
         rows, columns = (int(side * self.resolution // size) for side in (height, width))
@@ -126,6 +126,13 @@ class Occupancy:
         across = [(int(k * step), ceil((k + 1) * step)) for k in range(max(rows, columns))]
         strips = np.array([blocked[begin:end].any(axis=0) for begin, end in across[:rows]])
         cut = np.array([strips[:, begin:end].any(axis=1) for begin, end in across[:columns]])
+        if cut.all():
+            remedy = "give a smaller one"
+            message = f"no cell of {float(size)} m is free all over"
+            if growth > 0:
+                message = f"no cell of {float(size)} m has room for a radius of {float(radius)} m"
+                remedy += ", or smaller robots"
+            raise InputError.at(key, f"{message} ({remedy})")
         return ~cut.T
 
 

@@ -11,12 +11,16 @@ from collections.abc import Collection
 from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
-from math import ceil
+from heapq import heappop, heappush
+from math import ceil, isqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.site.roadmap import EdgeClass, Grid, Roadmap
+
+ROUNDED = Fraction(1, 1000)
+"""Room beside walls is rounded down to this [length unit]."""
 
 
 @lru_cache(maxsize=8)
@@ -59,6 +63,30 @@ def measure_gaps(grid: Grid, limit: int | None = None) -> NDArray[np.int64]:
 def _square_gaps(offsets: NDArray[np.int64]) -> NDArray[np.int64]:
     """Return the squared gaps between the middles of cells and other cells [half cells]."""
     return np.maximum(2 * offsets - 1, 0) ** 2
+
+
+def find_narrowest(roadmap: Roadmap, start: int, goal: int) -> tuple[Fraction, int] | None:
+    """Return the largest radius for which walls leave a way, and the narrowest vertex of that way.
+
+    The radius is rounded down to `ROUNDED` [length unit]; None where no way leads there at all.
+    """
+    grid = roadmap.grid
+    assert grid is not None, "only grids have walls"
+    gaps = measure_gaps(grid).tolist()
+    indptr, heads = roadmap.indptr.tolist(), roadmap.heads.tolist()
+    waiting, narrowest = [(-gaps[start], start)], {start: start}
+    while waiting:  # the widest place first
+        _, vertex = heappop(waiting)
+        if vertex == goal:
+            place = narrowest[goal]
+            square = gaps[place] * (grid.cell_size / ROUNDED / 2) ** 2
+            return isqrt(square.numerator // square.denominator) * ROUNDED, place
+        for head in heads[indptr[vertex] : indptr[vertex + 1]]:
+            if head not in narrowest:
+                place = narrowest[vertex]
+                narrowest[head] = head if gaps[head] < gaps[place] else place
+                heappush(waiting, (-gaps[narrowest[head]], head))
+    return None
 
 
 def clear_of_walls(roadmap: Roadmap, radii: Collection[Fraction]) -> Roadmap:

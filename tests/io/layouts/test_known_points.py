@@ -313,7 +313,9 @@ def test_obstacles_keep_their_distance_from_large_robots() -> None:
     robots = [{"name": "R1", "home": [2, 0], "target": [2, 0], "radius": 0.5}]
     shape = {"layout": "room.yaml", "cell_size": 0.5}
     document = {"format": "rightofway-scenario/1", "map": shape, "robots": robots}
-    with pytest.raises(InputError, match="no free cell"):
+    with pytest.raises(
+        InputError, match=r"map\.cell_size: no cell of 0\.5 m has room for a radius of 0\.5 m"
+    ):
         parse_scenario(document, HERE)
 
 
