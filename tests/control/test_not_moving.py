@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from rightofway.control import Condition, Entry, FleetControl, RobotState, SimulatedRobot
+from rightofway.control import Condition, Entry, FleetControl, Order, RobotState, SimulatedRobot
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.notices import Notices
 from rightofway.control.standstill import Standstill
@@ -35,7 +35,7 @@ class Watch:
         while own := [message for message in self.messages if message.robot == 1]:
             self.messages = []
             for message in own:
-                if hasattr(message, "nodes"):
+                if isinstance(message, Order):
                     self.robot.take_order(message)
                 else:
                     self.robot.take_action(message)

@@ -13,7 +13,7 @@ import ast
 import asyncio
 import json
 from collections import deque
-from collections.abc import Collection
+from collections.abc import AsyncIterator, Collection
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -416,6 +416,24 @@ def test_a_journal_that_cannot_be_written() -> None:
     assert len(published) == len(letters)
     about = [sentence for sentence in said if "journal" in sentence]
     assert about == [begins, "the journal can be written again"]
+
+
+def test_a_flood_of_states_fills_no_memory() -> None:
+    """Of 10 000 states that come within a turn the latest is looked at, and those of others."""
+    plan = door()
+    names = [robot.name for robot in plan.scenario.robots]
+    driver = Driver(plan, make_simulated_identities(names), MemoryJournal(), report=lambda _: None)
+    topics = [topic for topic in driver.end.topics if topic.endswith("/state")]
+
+    async def flood() -> AsyncIterator[Any]:
+        for number in range(10_000):
+            yield SimpleNamespace(topic=topics[0], payload=b"%d" % number)
+            if number == 5_000:
+                yield SimpleNamespace(topic=topics[1], payload=b"another")
+
+    asyncio.run(driver._read(cast(Any, SimpleNamespace(messages=flood()))))
+    waiting = [letter.payload for _, letter in driver._inbox.values()]
+    assert waiting == [b"9999", b"another"]
 
 
 def test_a_start_on_a_journal_ends_the_alarms_of_before() -> None:

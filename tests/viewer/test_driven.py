@@ -324,7 +324,7 @@ def test_a_person_is_alarmed_and_says_what_has_become_of_a_robot_with_a_fault(
     dialog.get_by_role("button", name="Yes").click()
     is_asked(viewer, path)
     ((number, asked),) = commands.list_unanswered()
-    assert asked == {"kind": command, "name": "R1"}
+    assert json.loads(asked) == {"kind": command, "name": "R1"}
     journal.commit([{**OPERATIONS[command], "robot": 0}])
     commands.answer(number, {"done": True, "text": f"R1: {command}"})
     expect(viewer.page.get_by_text("carried out")).to_be_visible()

@@ -11,7 +11,7 @@ from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 from urllib.parse import unquote, urlsplit
 
 from rightofway.control.endpoints import Letter
@@ -20,7 +20,7 @@ from rightofway.errors import InputError, quote
 if TYPE_CHECKING:
     import aiomqtt
 
-__all__ = ["Broker", "check_cancellation"]
+__all__ = ["Broker", "LatestMessages", "check_cancellation"]
 
 PASSWORD = "RIGHTOFWAY_BROKER_PASSWORD"  # noqa: S105 (the name of a variable)
 """The environment variable with the password."""
@@ -33,6 +33,32 @@ MANY = 10_000
 
 KEEP_ALIVE = 10
 """Seconds after which a broker and its client miss each other."""
+
+
+class LatestMessages(asyncio.Queue[Any]):
+    """A queue in which a newer message of a topic takes the place of one that was not taken.
+
+    It has one message of each topic at most, so a flood cannot fill the memory, and no topic keeps
+    the others waiting.
+
+    Notes
+    -----
+    A state that is replaced is a state that was lost, and any state may be lost (QoS 0). The rule
+    of release needs none of them: a state proves arrivals and finished actions by its own content,
+    facts only grow, and the latest state has all of them. It has the last node of its order, and
+    actions stay in its list, FINISHED, as long as the robot has that order. The control sends no
+    other order before it has taken a state that allows it. Of a connection only the latest state
+    counts, and a robot reports its factsheet anew when it is asked.
+    """
+
+    def _init(self, maxsize: int) -> None:  # noqa: ARG002 (the number of topics is the limit)
+        self._queue: dict[str, Any] = {}
+
+    def _put(self, item: Any) -> None:
+        self._queue[str(item.topic)] = item
+
+    def _get(self) -> Any:
+        return self._queue.pop(next(iter(self._queue)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,7 +136,7 @@ class Broker:
 
     @asynccontextmanager
     async def open_client(
-        self, name: str, will: Letter | None = None
+        self, name: str, will: Letter | None = None, *, takes_latest: bool = False
     ) -> AsyncIterator[aiomqtt.Client]:
         """Open a connection: nothing is kept for it when it is gone.
 
@@ -122,6 +148,8 @@ class Broker:
             How its identifier begins; the rest is made up, so that two never have the same.
         will
             What the broker sends when the connection breaks; it is retained.
+        takes_latest
+            Whether only the latest message of each topic counts, see `LatestMessages`.
         """
         import aiomqtt
 
@@ -135,6 +163,7 @@ class Broker:
             clean_session=True,
             keepalive=KEEP_ALIVE,
             timeout=KEEP_ALIVE,
+            queue_type=LatestMessages if takes_latest else None,
             will=None if will is None else aiomqtt.Will(will.topic, will.payload, 1, retain=True),
         )
         client.pending_calls_threshold = MANY

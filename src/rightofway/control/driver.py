@@ -124,7 +124,7 @@ class Driver:
         self.end = ControlEnd(self.control, maps, make_timestamp, notices)
         self._story = Story(ledger, names)
         self._heard = [time.monotonic()] * len(names)
-        self._inbox: list[tuple[float, Letter]] = []
+        self._inbox: dict[str, tuple[float, Letter]] = {}  # the latest of each topic
         self._outbox: list[Letter] = []
         self._news = asyncio.Event()
         self._fails = False
@@ -151,7 +151,7 @@ class Driver:
         wait, is_lost = RETRY[0], False
         while stays or not self.is_done:
             try:
-                async with broker.open_client("rightofway") as client:
+                async with broker.open_client("rightofway", takes_latest=True) as client:
                     self._notices.report(
                         Phrase("connected to {broker}", broker=broker.address),
                         BROKER,
@@ -237,7 +237,8 @@ class Driver:
     async def _read(self, client: aiomqtt.Client) -> None:
         async for message in client.messages:
             payload = message.payload if isinstance(message.payload, bytes) else b""
-            self._inbox.append((time.perf_counter(), Letter(str(message.topic), payload)))
+            letter = Letter(str(message.topic), payload)
+            self._inbox[letter.topic] = (time.perf_counter(), letter)
             self._news.set()
 
     def _obey(self) -> list[Letter]:
@@ -261,7 +262,7 @@ class Driver:
 
     async def _turn(self, client: aiomqtt.Client, fresh: list[Letter]) -> None:
         """Take in all that has come; commit what follows, once; then send it."""
-        inbox, self._inbox = self._inbox, []
+        inbox, self._inbox = [*self._inbox.values()], {}
         self._outbox += fresh
         for _, letter in inbox:
             robot = self.end.find_robot(letter.topic)
