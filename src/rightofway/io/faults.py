@@ -70,11 +70,14 @@ class Faults:
 
 def read_both(first: Callable[[], T], second: Callable[[], U]) -> tuple[T, U]:
     """Return what two functions read, or raise the faults of both."""
-    faults, values = Faults(), list[Any]()
-    for read in (first, second):
-        values.append(faults.attempt("", read))
-    faults.stop()
-    return values[0], values[1]
+    try:
+        return first(), second()
+    except InputError:
+        faults = Faults()
+        for read in (first, second):
+            faults.attempt("", read)
+        faults.stop()
+        raise
 
 
 def _rank(fault: InputFault, ranks: dict[str, int]) -> tuple[int, int]:

@@ -183,6 +183,7 @@ class LayoutDraft:
         self.levels: list[LevelDraft] = []
         self.repairs: dict[Phrase, list[str]] = {}
         self.failed: set[str | None] = set()
+        self.unused: dict[str, list[str]] = {}  # by key the pieces that have it
 
     def begin_level(self, name: str = "") -> LevelDraft:
         """Begin a level; InputError for a name that cannot be shown."""
@@ -217,12 +218,13 @@ class LayoutDraft:
 
     def note_unused_key(self, key: str, name: str) -> None:
         """Note a key of a piece that has no effect on plans."""
-        mending = Phrase("{key} has no effect on plans", key=quote(key).strip("'"))
-        if mending not in self.repairs and len(self.repairs) >= MOST_NOTES:
-            mending = Phrase("a further key has no effect on plans")
-            name = f"{name}: {quote(key)}"
-        if self.repairs.get(mending, [])[-1:] != [name]:  # a key may be there for several types
-            self.repair(mending, name)
+        pieces = self.unused.get(key)
+        if pieces is None and len(self.unused) >= MOST_NOTES:
+            self.repair(Phrase("a further key has no effect on plans"), f"{name}: {quote(key)}")
+        elif pieces is None:
+            self.unused[key] = [name]
+        elif pieces[-1] != name:  # a key may be there for several types
+            pieces.append(name)
 
     def make_layout(self) -> Layout:
         """Return the layout.
@@ -244,7 +246,13 @@ class LayoutDraft:
         for level in self.levels:
             if not level.vertices:
                 self.repair(Phrase("a level without a vertex on a lane is left out"), level.name)
-        notes = (_name_pieces(mending, pieces) for mending, pieces in self.repairs.items())
+        unused = {
+            Phrase("{key} has no effect on plans", key=quote(key).strip("'")): pieces
+            for key, pieces in self.unused.items()
+        }
+        notes = (
+            _name_pieces(mending, pieces) for mending, pieces in (unused | self.repairs).items()
+        )
         return Layout(kind=self.kind, levels=tuple(levels), notes=tuple(notes))
 
     def _make_fault_of_none(self) -> InputError:

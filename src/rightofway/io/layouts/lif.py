@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from rightofway.errors import InputError, join_names
+from rightofway.errors import InputError, Steps, format_path, join_names
 from rightofway.io.faults import read_both
 from rightofway.io.layouts.draft import MICRO, Curve, LayoutDraft, LevelDraft, find_name, name_piece
 from rightofway.io.layouts.nurbs import CHORD_ERROR, Nurbs
@@ -77,8 +77,8 @@ def read(document: Any) -> Layout:
         With every node, edge and station that cannot be used.
     """
     draft, root = LayoutDraft("LIF layout"), Source(document)
-    for place in _list_numbers_as_text(root):
-        draft.repair(Phrase("a number is written as text"), place)
+    for path in _list_numbers_as_text(document):
+        draft.repair(Phrase("a number is written as text"), format_path(path))
     origins = [root] if root.get("origins") is None else root.need("origins").read_items()
     layouts = [layout for origin in origins for layout in origin.need("layouts").read_items()]
     for part, name in zip(layouts, _level_names(layouts), strict=True):
@@ -117,16 +117,18 @@ def _items(part: Source, key: str, draft: LayoutDraft) -> list[Source]:
     return value.read_items()
 
 
-def _list_numbers_as_text(source: Source, is_number: bool = False) -> Iterator[str]:
+def _list_numbers_as_text(value: Any, is_number: bool = False) -> Iterator[Steps]:
     """Yield where numbers of a document are text, also those that nothing here depends on."""
-    if isinstance(source.value, dict):
-        for key, child in source.read_entries():
-            yield from _list_numbers_as_text(child, key in NUMBERS)
-    elif isinstance(source.value, list):
-        for child in source.read_items():
-            yield from _list_numbers_as_text(child, is_number)
-    elif is_number and isinstance(source.value, str):
-        yield str(source.location)
+    if isinstance(value, dict):
+        entries = ((key, child, key in NUMBERS) for key, child in value.items())
+    else:
+        entries = ((index, child, is_number) for index, child in enumerate(value))
+    for step, child, is_own in entries:
+        if isinstance(child, dict | list):
+            for inner in _list_numbers_as_text(child, is_own):
+                yield (step, *inner)
+        elif is_own and isinstance(child, str):
+            yield (step,)
 
 
 def _add_node(level: LevelDraft, node: Source, draft: LayoutDraft) -> None:
@@ -233,6 +235,8 @@ def _note_unused_properties(own: Source, name: str, draft: LayoutDraft) -> None:
 
 def _check_theta(own: Source, name: str, draft: LayoutDraft) -> None:
     """Note an angle that is not in radians."""
+    if own.value.get("theta") is None:
+        return
     try:
         theta = own.need("theta").number()
     except InputError:
