@@ -19,6 +19,7 @@ __all__ = [
     "PhraseBook",
     "PhraseOfPieces",
     "chain_items",
+    "join_first",
     "join_items",
     "join_parts",
     "say_count",
@@ -124,6 +125,20 @@ SHOWN = 5
 """Pieces that a sentence names."""
 
 
+def join_first(pieces: Sequence[str]) -> str:
+    """Return the first of some names and the number of the others: ``A, B, C, D, E and 2 more``.
+
+    Parameters
+    ----------
+    pieces
+        Names or phrases, one at least.
+    """
+    shown, left = list(pieces[:SHOWN]), len(pieces) - SHOWN
+    if left > 0:
+        shown.append(Phrase("{number} more", number=str(left)))
+    return join_items(shown)
+
+
 class PhraseOfPieces(Phrase):
     """A sentence on some pieces, with the names of the first of them.
 
@@ -149,10 +164,7 @@ class PhraseOfPieces(Phrase):
 
     def __new__(cls, sentence: Phrase, pieces: Sequence[str]) -> Self:
         """Return the text."""
-        shown, left = list(pieces[:SHOWN]), len(pieces) - SHOWN
-        if left > 0:
-            shown.append(Phrase("{number} more", number=str(left)))
-        names = join_items(shown)
+        names = join_first(pieces)
         phrase = Phrase("{sentence}: {names}", sentence=sentence, names=names)
         own = super().__new__(cls, phrase.template, **phrase.values)
         own.sentence, own.pieces = sentence, tuple(pieces)

@@ -5,18 +5,19 @@ Reading what was written gives the same layout, but for what `list_losses` names
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import dist
 from typing import Any
 
 from rightofway.arguments import checks_arguments, get_value
-from rightofway.errors import InputError, join_names
+from rightofway.errors import InputError
 from rightofway.io.text import format_json_line
+from rightofway.phrases import join_first, join_items
 from rightofway.site.geometry import Point, measure_squared_distance
 from rightofway.site.lane_table import LayoutEdge
-from rightofway.site.layout import Layout, LayoutVertex, Level
+from rightofway.site.layout import Layout, LayoutVertex, Level, name_lanes
 
 LISTS = {"layouts", "nodes", "edges", "stations", "features"}
 """Keys of lists that are spread over lines."""
@@ -74,51 +75,72 @@ def format_layout(layout: Layout, name: str) -> tuple[str, tuple[str, ...]]:
 
 def list_losses(layout: Layout, says: frozenset[str]) -> Iterator[str]:
     """Yield what a layout has beside vertices, lanes and speed limits, and a format cannot say."""
-    vertices = [vertex for level in layout.levels for vertex in level.vertices]
-    edges = [edge for level in layout.levels for edge in level.edges]
-    counts = {
-        "names of vertices": sum(not _is_number(vertex.name) for vertex in vertices),
-        "stations": sum(len(level.stations) for level in layout.levels),
-        "parking places": sum(vertex.is_parking for vertex in vertices),
-        "charging places": sum(vertex.is_charging for vertex in vertices),
-        "lanes longer than the straight line": sum(map(_curved, layout.levels)),
-        "drawn curves": sum(bool(edge.shape) and edge.chord_error is None for edge in edges),
-        "curves that robots drive along": sum(edge.chord_error is not None for edge in edges),
-        "vehicle types": len({name for edge in edges for name in edge.types or ()}),
-        "zones": sum(len(level.zones) for level in layout.levels),
-        "further zones of one place": sum(map(_overlaps, layout.levels)),
-        "lanes to other levels": sum(len(level.links) for level in layout.levels),
+    levels = layout.levels
+    vertices = [vertex for level in levels for vertex in level.vertices]
+    edges = [edge for level in levels for edge in level.edges]
+    pieces: dict[str, Sequence[str]] = {
+        "names of vertices": [vertex.name for vertex in vertices if not _is_number(vertex.name)],
+        "stations": [station.name for level in levels for station in level.stations],
+        "parking places": [vertex.name for vertex in vertices if vertex.is_parking],
+        "charging places": [vertex.name for vertex in vertices if vertex.is_charging],
+        "lanes longer than the straight line": [
+            name for level in levels for name in _name_curved(level)
+        ],
+        "drawn curves": _name_edges(
+            edge for edge in edges if edge.shape and edge.chord_error is None
+        ),
+        "curves that robots drive along": _name_edges(
+            edge for edge in edges if edge.chord_error is not None
+        ),
+        "vehicle types": sorted({name for edge in edges for name in edge.types or ()}),
+        "zones": [zone.name for level in levels for zone in level.zones],
+        "further zones of one place": [name for level in levels for name in _name_overlaps(level)],
+        "lanes to other levels": [name for level in levels for name in name_lanes(level.links)],
     }
-    lost = [f"{loss} ({count})" for loss, count in counts.items() if count and loss not in says]
+    lost = [
+        f"{loss} ({len(names)}: {join_first(names)})"
+        for loss, names in pieces.items()
+        if names and loss not in says
+    ]
     if lost:
-        yield f"left out, the format has no place for them: {join_names(lost)}"
+        yield f"left out, the format has no place for them: {join_items(lost)}"
+
+
+def _name_edges(edges: Iterable[LayoutEdge]) -> list[str]:
+    return name_lanes((edge.tail, edge.head) for edge in edges)
 
 
 def _is_number(name: str) -> bool:
     return name.isascii() and name.isdecimal() and str(int(name)) == name
 
 
-def _overlaps(level: Level) -> int:
-    """Return how often a vertex or lane is in a zone beside its first one."""
-    members = [member for zone in level.zones for member in (*zone.vertices, *zone.edges)]
-    return len(members) - len(set(members))
+def _name_overlaps(level: Level) -> Iterator[str]:
+    """Yield the vertices and lanes in a zone beside their first one, each time."""
+    seen = set[str | tuple[str, str]]()
+    for zone in level.zones:
+        members: list[str | tuple[str, str]] = [*zone.vertices, *zone.edges]
+        for member in members:
+            if member in seen:
+                yield member if isinstance(member, str) else name_lanes([member])[0]
+            seen.add(member)
 
 
-def _curved(level: Level) -> int:
-    """Return how many lanes are longer than the straight line, by more than rounding.
+def _name_curved(level: Level) -> list[str]:
+    """Return the lanes that are longer than the straight line, by more than rounding.
 
     Lanes along a known curve do not count.
     """
     at = {vertex.name: vertex.at for vertex in level.vertices}
     near = {name: (float(x), float(y)) for name, (x, y) in at.items()}
     step = Fraction(1, 1000)
-    return sum(
-        edge.chord_error is None
+    return _name_edges(
+        edge
+        for edge in level.edges
+        if edge.chord_error is None
         and edge.length > step
         # Lengths and distances of floats are off by far less than half a step.
         and float(edge.length) > dist(near[edge.tail], near[edge.head]) + float(step) / 2
         and (edge.length - step) ** 2 > measure_squared_distance(at[edge.tail], at[edge.head])
-        for edge in level.edges
     )
 
 
