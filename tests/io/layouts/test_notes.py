@@ -12,6 +12,7 @@ from typing import Any
 import networkx as nx  # type: ignore[import-untyped]
 import pytest
 
+from rightofway.errors import InputError
 from rightofway.io import read_layout
 from rightofway.io.layouts import make_layout_of_graph
 from rightofway.phrases import Phrase, PhraseOfPieces, join_parts, to_parts
@@ -197,6 +198,30 @@ def test_columns_and_attributes_without_effect_are_named(tmp_path: Path) -> None
     graph = nx.DiGraph()
     graph.add_node("A", x=0, y=0, owner="me")
     assert make_layout_of_graph(graph).notes == ("owner has no effect on plans: A",)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        in_nav2(put(0, metadata=[1])),
+        in_nav2(put(0, metadata="wet")),
+        in_lif(put("stations", 0, stationPosition="here")),
+        in_lif(put("stations", 0, stationPosition={"theta": "north"})),
+        in_lif(put(*NODE, theta="north", actions=[1])),
+        RMF.format("", "") + "\ndoors: [gate]",
+        RMF.format("", "").replace("lanes:", "doors: {a: b}, lanes:"),
+        RMF.format("", "").replace("lanes:", "doors: [gate, [0, 1], [0, 1, {name: 7}]], lanes:"),
+    ],
+)
+def test_what_has_no_effect_may_have_any_shape(text: str, tmp_path: Path) -> None:
+    list_notes(text, tmp_path / "layout")
+
+
+@pytest.mark.parametrize("key", ["nodes", "edges"])
+def test_properties_that_are_no_mapping_are_a_fault(key: str, tmp_path: Path) -> None:
+    kind = "vehicleTypeNodeProperties" if key == "nodes" else "vehicleTypeEdgeProperties"
+    with pytest.raises(InputError, match="5 is not a mapping of keys to values"):
+        list_notes(in_lif(put(key, 0, **{kind: [5]})), tmp_path / "layout")
 
 
 def test_doors_of_a_building_are_named(tmp_path: Path) -> None:

@@ -221,8 +221,9 @@ def _note_unused_properties(own: Source, name: str, draft: LayoutDraft) -> None:
 
     False and 0 have a meaning here. Defaults have an effect on no plan.
     """
-    is_along = own.value.get("orientationType") != "GLOBAL"
-    for key, value in own.read_mapping().items():
+    properties = own.read_mapping()
+    is_along = properties.get("orientationType") != "GLOBAL"
+    for key, value in properties.items():
         is_default = value in DEFAULTS.get(key, ()) and (is_along or key != "vehicleOrientation")
         if key not in PROPERTY_KEYS and value is not None and not is_default:
             draft.note_unused_key(key, name)

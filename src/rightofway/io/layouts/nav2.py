@@ -72,7 +72,7 @@ def _note_unused(own: Source, draft: LayoutDraft, used: Collection[str]) -> None
     """Note the properties of a node or an edge that have no effect, and those in its metadata."""
     name, metadata = name_piece(own, "id"), own.get("metadata")
     draft.note_unused(own, name, used)
-    if metadata is not None:
+    if metadata is not None and isinstance(metadata.value, dict):
         draft.note_unused(metadata, name, METADATA_KEYS)
 
 

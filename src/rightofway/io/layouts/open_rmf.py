@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 from rightofway.errors import InputError, join_names, quote
 from rightofway.io.faults import read_both
-from rightofway.io.layouts.draft import LayoutDraft, LevelDraft, name_piece
+from rightofway.io.layouts.draft import LayoutDraft, LevelDraft
 from rightofway.io.source import Source
 from rightofway.phrases import Phrase
 from rightofway.site.drawing import Picture
@@ -87,9 +87,13 @@ def _note_doors(root: Source, draft: LayoutDraft) -> None:
     for name in of_graph if isinstance(of_graph, dict) else ():
         draft.note_unused_key("door", quote(name).strip("'"))
     for _, level in root.need("levels").read_entries():
-        for door in level.read_items_under("doors"):
-            own = draft.faults.attempt("", _own, door, 2)
-            draft.note_unused_key("door", name_piece(Source(own, door.path), "name"))
+        doors = level.value.get("doors") if isinstance(level.value, dict) else None
+        for index, door in enumerate(doors if isinstance(doors, list) else ()):
+            match door:
+                case [_, _, {"name": [_, str(name)] | str(name)}, *_]:
+                    draft.note_unused_key("door", quote(name).strip("'"))
+                case _:
+                    draft.note_unused_key("door", str(index))
 
 
 def _note_lifts(root: Source, draft: LayoutDraft) -> None:
