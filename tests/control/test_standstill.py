@@ -9,9 +9,11 @@ from typing import Any
 import pytest
 
 import rightofway
-from rightofway.control import FleetControl
+from rightofway.control import Entry, FleetControl
 from rightofway.control.dispatcher import Dispatcher
+from rightofway.control.notices import Notices
 from rightofway.control.rest import RestPlanner
+from rightofway.control.supervisor import Supervisor
 from rightofway.errors import GaveUp
 from rightofway.io import parse_scenario
 from rightofway.model import Plan
@@ -154,6 +156,23 @@ def test_replanning_that_fails_is_reported_once_until_it_succeeds(
     monkeypatch.setattr(RestPlanner, "plan", plan)
     fleet.drive(0)
     assert fleet.reports == [text, "the rest is replanned"]
+
+
+def test_replanning_that_fails_is_an_alarm_as_long_as_it_does() -> None:
+    """The log has the sentences, and the journal the begin and the end of the alarm."""
+    said, entries = list[str](), list[Entry]()
+    dispatcher = Dispatcher(FleetControl(MemoryJournal()), crossing())
+    dispatcher.begin("run")
+    notices = Notices(dispatcher.ledger.names, said.append, keep=entries.append)
+    Supervisor(dispatcher, notices, lambda: 0)
+    for sentence, is_over in (("", True), ("the old plan stands", False), ("it is over", True)):
+        dispatcher.report(sentence, is_over)
+    assert said == ["the old plan stands", "it is over"]
+    assert [(entry["robot"], entry["about"], entry["over"]) for entry in entries] == [
+        (-1, "plan", True),
+        (-1, "plan", False),
+        (-1, "plan", True),
+    ]
 
 
 def test_a_control_that_starts_again_replans_round_what_is_closed() -> None:
