@@ -16,7 +16,6 @@ import rightofway
 from benchmarks.common import SEEDS, movingai_fleet, table
 from rightofway.metrics import measure
 from rightofway.model import Scenario
-from rightofway.planners import make_planning_problem
 from rightofway.search import plan_by_lacam
 
 EFFORT = 10**12
@@ -32,7 +31,7 @@ FLEETS = {
 
 def kernel(scenario: Scenario) -> None:
     """Run the native search of `lacam`."""
-    plan_by_lacam(make_planning_problem(scenario), most_effort=EFFORT)
+    plan_by_lacam(scenario.problem, most_effort=EFFORT)
 
 
 def figures(scenario: Scenario) -> tuple[float, float, float, float]:

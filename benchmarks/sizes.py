@@ -46,7 +46,6 @@ from rightofway.metrics import measure
 from rightofway.model import Robot, Scenario, Stop
 from rightofway.model.problem import bind_problem
 from rightofway.native import bind_lists
-from rightofway.planners import make_planning_problem
 from rightofway.search import FleetSearch, plan_by_lacam
 from rightofway.site import VertexId
 from rightofway.site import spacing as spacings
@@ -70,12 +69,12 @@ def seconds(work: Callable[[], Any]) -> tuple[float, Any]:
 
 def by_lacam(scenario: Scenario) -> None:
     """Plan by the native search of `lacam`."""
-    assert plan_by_lacam(make_planning_problem(scenario), most_effort=EFFORT) is not None
+    assert plan_by_lacam(scenario.problem, most_effort=EFFORT) is not None
 
 
 def in_turn(scenario: Scenario) -> FleetSearch:
     """Return the search with a plan of robots one after another, shortest trips first."""
-    search = FleetSearch(make_planning_problem(scenario), threads=1)
+    search = FleetSearch(scenario.problem, threads=1)
     order = np.argsort(search.compute_alone(), kind="stable").tolist()
     assert search.prioritize(order, searches=30 * len(order), time_limit=None)
     return search

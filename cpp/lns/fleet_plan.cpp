@@ -6,6 +6,7 @@
 #include "core/poll.hpp"
 #include "distances/trip.hpp"
 #include "precedence/retiming.hpp"
+#include "search/rotations.hpp"
 
 namespace rightofway {
 
@@ -164,6 +165,15 @@ void FleetPlan::meet(RobotId robot, const TimedTrack& track, const Found& found)
                     here[index(j - 1)].robot != nobody &&
                     here[index(j - 1)].robot == before[index(i - 1)].robot &&
                     found(here[index(j - 1)].robot)) {
+                    return;
+                }
+            }
+            const RobotId follower = before[index(i - 1)].robot;
+            if (!problem_->rules().rotations && follower != robot && follower != nobody) {
+                const RobotId ahead = find_rotation_ahead(
+                    problem_->graph(), bookings_, problem_->first_row(robot),
+                    {track.visits[k - 1].vertex, track.visits[k].vertex, own.start, robot});
+                if (ahead != nobody && found(ahead)) {
                     return;
                 }
             }

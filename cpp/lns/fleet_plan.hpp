@@ -41,10 +41,10 @@ class FleetPlan {
     // The surcharges of the edges of a track.
     Tick surcharges(std::span<const Visit> visits) const;
 
-    // Whether a track overlaps no booking and has no swap conflict with another robot.
+    // Whether a track overlaps no booking, and has no swap or forbidden rotation with others.
     bool fits(RobotId robot, const TimedTrack& track) const;
 
-    // The robots in conflict with a track (vertex or swap), each once, in order of id.
+    // The robots in conflict with a track (vertex, swap or rotation), each once, in order of id.
     void find_conflicting(RobotId robot, const TimedTrack& track,
                           std::vector<RobotId>& robots) const;
 

@@ -1,6 +1,7 @@
 // What soft intervals add to SIPP (MAPF-LNS2): a track may overlap bookings and pays for them.
 #include <algorithm>
 
+#include "search/rotations.hpp"
 #include "search/sipp.hpp"
 
 namespace rightofway {
@@ -103,7 +104,7 @@ Tick SafeIntervalSearch::price_of_all(std::span<const BookedBy> bookings, Tick s
 }
 
 // The price of swap conflicts: a robot leaves the head of the edge and enters its tail at this
-// instant.
+// instant. Where rotations are forbidden, several robots may do so in a chain.
 Tick SafeIntervalSearch::price_of_swaps_at(const SearchNode& candidate) const {
     const SearchNode& before = states_[candidate.parent];
     const auto from = at(before.vertex);
@@ -118,6 +119,14 @@ Tick SafeIntervalSearch::price_of_swaps_at(const SearchNode& candidate) const {
                 sum += price(from[j].robot);
             }
         }
+    }
+    const bool is_entered =
+        index(before.gap) < from.size() && from[index(before.gap)].time.start == candidate.ready;
+    if (!rules_.rotations && is_entered && sum == 0) {
+        const RobotId ahead =
+            find_rotation_ahead(roads_.graph, *bookings_, trip_->first_row,
+                                {before.vertex, candidate.vertex, candidate.ready});
+        sum = ahead == nobody ? 0 : price(ahead);
     }
     return std::min(sum, never);
 }

@@ -17,7 +17,6 @@ from rightofway.cyclic import (
 )
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import BookingRules, Rules, Scenario
-from rightofway.planners import make_planning_problem
 from rightofway.precedence import TimedEventGraph
 from tests.builders.fleets import grid_fleet, random_fleet
 from tests.builders.laws import law, leave
@@ -52,13 +51,11 @@ def comparisons(result: CyclicResult) -> list[BaselineComparison]:
 @law(fleets())
 def test_three_periods_of_a_chosen_timetable_have_no_fault(scenario: Scenario) -> None:
     result = chosen(scenario)
-    headway, ahead = (
-        make_planning_problem(scenario).booking_rules.headway,
-        scenario.problem.booking_rules.books_ahead,
-    )
+    ahead = scenario.problem.booking_rules.books_ahead
     for group, comparison in zip(result.groups, comparisons(result), strict=True):
         timetable = group.timetable
         assert timetable is not None
+        headway = group.context.booking_rules.headway
         assert oracle.faults(timetable, headway=headway, books_ahead=ahead) == []
         period = timetable.period
         graph = TimedEventGraph(timetable, rules=BookingRules(headway=headway, books_ahead=ahead))

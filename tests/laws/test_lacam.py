@@ -7,7 +7,6 @@ from fractions import Fraction
 from hypothesis import strategies as st
 
 from rightofway.model import Rules, Scenario, Track
-from rightofway.planners import make_planning_problem
 from rightofway.precedence import build_graph_of_plan
 from rightofway.search import plan_by_lacam
 from tests.builders.fleets import grid_fleet
@@ -53,7 +52,7 @@ def fleets(draw: st.DrawFn) -> Scenario:
 @law(fleets(), st.integers(0, 2**32 - 1))
 def test_the_kernel_finds_the_plan_of_the_oracle(scenario: Scenario, seed: int) -> None:
     """Both tell one robot more where to go where robots that choose alone get stuck."""
-    problem = make_planning_problem(scenario)
+    problem = scenario.problem
     may_rotate = problem.booking_rules.may_rotate
     oracle = Fleet(
         scenario, headway=problem.booking_rules.headway, may_rotate=may_rotate, seed=seed

@@ -23,7 +23,6 @@ from rightofway.cyclic.sensitivity import compute_parameter_effects
 from rightofway.cyclic.to_plan import unroll_laps
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Closure, Plan, Scenario
-from rightofway.planners import make_planning_problem
 from rightofway.site import VertexId
 from rightofway.viz.verdict import give_verdict
 from tests.builders.any_fleet import LAPS_REFUSE, any_fleet
@@ -97,7 +96,7 @@ def test_what_repeats_is_the_timetable_of_its_own_orders(scenario: Scenario, rul
         if timetable is None or sum(map(len, timetable.enter)) > SLOW:
             continue
         headway, books_ahead = (
-            make_planning_problem(run.scenario).booking_rules.headway,
+            group.context.booking_rules.headway,
             scenario.problem.booking_rules.books_ahead,
         )
         times = replay(timetable, 5, headway=headway, books_ahead=books_ahead)

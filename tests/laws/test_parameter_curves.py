@@ -29,7 +29,6 @@ from rightofway.model import Lap, Rules, Scenario, Tick
 from rightofway.model.lap import compute_turns_of_lap
 from rightofway.model.route import compute_drives_along
 from rightofway.native import BookedRows
-from rightofway.planners import make_planning_problem
 from rightofway.precedence import CyclicSchedule, TimedEventGraph
 from tests.builders.fleets import random_fleet
 from tests.builders.sizes import repeated
@@ -79,7 +78,7 @@ def period_by_hand(timetable: CyclicSchedule, old: Scenario, scenario: Scenario)
         )
     after = replace(timetable, laps=tuple(laps))
     rows = BookedRows.of_laps(old.problem, timetable.robots, timetable.laps, timetable.counts)
-    graph = TimedEventGraph(after, rules=make_planning_problem(scenario).booking_rules, rows=rows)
+    graph = TimedEventGraph(after, rules=scenario.problem.booking_rules.keep_apart(), rows=rows)
     found = graph.find_critical_circuit_if_live()
     return None if found is None else found.cycle_time * scenario.problem.clock.tick
 

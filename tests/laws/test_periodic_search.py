@@ -19,7 +19,6 @@ from rightofway.model import (
     compute_drives_along,
 )
 from rightofway.model.lap import compute_turns_of_lap
-from rightofway.planners import make_planning_problem
 from rightofway.precedence import CyclicSchedule
 from rightofway.search import Distances, PeriodicBookings, RoundTrip
 from tests.builders.fleets import grid_fleet, random_fleet
@@ -47,7 +46,7 @@ def crowd(
     circle = PeriodicBookings(
         scenario.roadmap.n_vertices,
         period,
-        rules=make_planning_problem(scenario).booking_rules,
+        rules=scenario.problem.booking_rules.keep_apart(),
     )
     there = []
     for robot in range(1, len(laps)):
@@ -84,7 +83,7 @@ def test_a_route_is_found_exactly_where_there_is_one(seed: int, robots: int, rul
     itinerary = scenario.problem.itineraries[0]
     trip = RoundTrip.of(itinerary, Distances(scenario.roadmap))
     headway, ahead = (
-        int(make_planning_problem(scenario).booking_rules.headway),
+        int(scenario.problem.booking_rules.keep_apart().headway),
         scenario.problem.booking_rules.books_ahead,
     )
     passed = any(itinerary.home in other.vertices for other in others.laps)

@@ -127,8 +127,8 @@ def test_a_wait_that_nothing_compels_has_no_cause() -> None:
     assert (loss.for_robot, loss.freed, loss.ticks) == (None, None, 2)
 
 
-def test_where_rotations_are_forbidden_a_robot_comes_one_tick_after_the_other() -> None:
-    """R1 leaves N4 at tick 2; planners let R2 enter it at tick 3."""
+def test_a_tick_that_keeps_robots_from_rotating_is_lost_to_the_one_before() -> None:
+    """R1 leaves N4 at tick 2; laps that keep robots apart let R2 enter it at tick 3."""
     trips = (([3, 4, 5], [0, 1, 2]), ([1, 4, 7], [0, 3, 4]))
     loss = only_loss(make_plan(["..."] * 3, *trips, rotations=False))
     assert (loss.for_robot, loss.freed, loss.ticks) == (0, 4, 2)

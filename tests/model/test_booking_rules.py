@@ -57,11 +57,11 @@ def test_a_visit_books_from_its_drive_on_and_for_the_headway() -> None:
     assert ahead.start(np.array([10, 20]), np.array([3, 4])).tolist() == [7, 16]
 
 
-def test_planners_keep_a_tick_where_only_a_rule_forbids_rotations() -> None:
-    assert BookingRules(rotations=False).to_plan_with().headway == 1
-    assert BookingRules(rotations=False, headway=Tick(3)).to_plan_with().headway == 3
-    assert BookingRules(rotations=False, books_ahead=True).to_plan_with().headway == 0
-    assert BookingRules().to_plan_with() == BookingRules()
+def test_a_tick_keeps_robots_apart_where_only_a_rule_forbids_rotations() -> None:
+    assert BookingRules(rotations=False).keep_apart().headway == 1
+    assert BookingRules(rotations=False, headway=Tick(3)).keep_apart().headway == 3
+    assert BookingRules(rotations=False, books_ahead=True).keep_apart().headway == 0
+    assert BookingRules().keep_apart() == BookingRules()
     rotating = [
         BookingRules().may_rotate,
         BookingRules(books_ahead=True).may_rotate,

@@ -30,7 +30,7 @@ from rightofway.model import Plan, PlannerRun, Robot, Scenario, Stop, Tick, Trac
 from rightofway.model.route import make_route_through
 from rightofway.planners.lacam import build_timetable_if_possible
 from rightofway.planners.local_search import LocalSearch
-from rightofway.planners.task import Task, make_planning_problem
+from rightofway.planners.task import Task
 from rightofway.precedence import ReleaseGraph, build_graph
 from rightofway.search import Distances
 from rightofway.site import Roadmap, VertexId
@@ -184,7 +184,7 @@ class RestPlanner:
             ]
             for robot in moving
         ]
-        graph = build_graph(make_planning_problem(whole), visited)
+        graph = build_graph(whole.problem, visited)
         if not graph.keeps_order(times):
             return None
         committed = {

@@ -12,7 +12,7 @@ from dataclasses import replace
 from rightofway.cyclic.problem import Candidate, CyclicProblem, RobotCycle
 from rightofway.cyclic.route import make_lap_rows
 from rightofway.errors import GaveUp
-from rightofway.model import Itinerary, Scenario, Track, make_lap, make_route
+from rightofway.model import Itinerary, Scenario, Tick, Track, make_lap, make_route
 from rightofway.planners import Task
 from rightofway.planners.lacam import lacam
 from rightofway.planners.prioritized import prioritized
@@ -33,6 +33,9 @@ def repeat_plan(problem: CyclicProblem) -> Candidate | None:
     scenario, context = problem.context.scenario, problem.context
     robots = tuple(replace(scenario.robots[robot], laps=1) for robot in context.robots)
     part = replace(scenario, robots=robots)
+    if context.is_apart:
+        headway = scenario.problem.clock.convert_to_time(context.booking_rules.end(Tick(0)))
+        part = replace(part, rules=replace(part.rules, headway=headway))
     task = Task(
         scenario=part,
         options={"paths": "spread"},

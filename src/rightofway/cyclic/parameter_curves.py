@@ -12,7 +12,7 @@ Where the clock is not exact (`Clock.exact`), drives are rounded up to ticks as 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
 
@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
 from rightofway.cyclic.sensitivity import compute_growth_by_speed, find_stages_at
-from rightofway.model import Scenario, Tick
+from rightofway.model import Scenario
 from rightofway.precedence import Growth, TimedEventGraph, compute_period_curve
 
 MOST_VISITS = 100_000
@@ -68,11 +68,10 @@ class ParameterCurve:
     value
         The value of the scenario [time unit; of a speed: length unit per time unit].
     pieces
-        Each begins where the one before ends. A time is examined from 0 (a headway where only a
-        rule forbids rotations: from one tick) up to the period or four times its value, whichever
-        is longer.
-        A headway has one piece that is a point where robots would wait for each other for ever
-        with any longer one.
+        Each begins where the one before ends. A time is examined from 0 (a headway that keeps
+        robots from rotating: from one tick) up to the period or four times its value, whichever is
+        longer. A headway has one piece that is a point where robots would wait for each other for
+        ever with any longer one.
     """
 
     kind: Kind
@@ -130,7 +129,8 @@ def _curves(
     for place in critical:
         yield from _of_robot(scenario, graph, place, time_limit)
     if len(graph.timetable.robots) > 1:
-        least = replace(scenario.problem.booking_rules, headway=Tick(0)).to_plan_with().headway
+        is_kept = graph.rules == scenario.problem.booking_rules
+        least = 0 if is_kept else graph.rules.end(0)  # without it robots would rotate
         is_right = graph.arcs.first >= 0
         pieces = _of_time(scenario, graph, is_right, graph.rules.headway, time_limit, least=least)
         value = scenario.rules.headway

@@ -112,9 +112,13 @@ class CyclicProblem:
         return self.compute_fairness(counts, period) >= self.least_fairness
 
     def accepts(self, candidate: Candidate) -> bool:
-        """Tell whether a candidate is fair, and robots that wait at home can begin with it."""
+        """Tell whether a candidate is fair, and robots that wait at home can begin with it.
+
+        Nor may it have a rotation that the rules forbid.
+        """
         return (
             self.is_fair(candidate.timetable.counts, candidate.cycle_time)
+            and not self.context.has_rotation(candidate.timetable)
             and find_start(self.context.scenario, candidate.timetable) is not None
         )
 

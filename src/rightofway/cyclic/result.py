@@ -16,8 +16,8 @@ from rightofway.cyclic.bottleneck import Bottleneck, find_bottleneck
 from rightofway.cyclic.pattern import History, Pattern
 from rightofway.cyclic.route import GroupContext
 from rightofway.cyclic.warmup import MeasuredLaps, measure
-from rightofway.model import NEVER, Scenario, Tick
-from rightofway.precedence import CyclicSchedule, TimedEventGraph
+from rightofway.model import NEVER, Scenario, Tick, Track
+from rightofway.precedence import CyclicSchedule, TimedEventGraph, find_rotation
 from rightofway.site import VertexId
 
 BaselineEnds = Literal["repeats", "starves", "deadlock", "open"]
@@ -166,6 +166,20 @@ class GroupResult:
     def list_first_waits(self) -> tuple[LapWait, ...]:
         """Return the waits in the first lap of each robot, by tick."""
         return waits_in_first_laps(self.context, self.history)
+
+    def has_rotation(self) -> bool:
+        """Return whether robots rotate where the rules forbid it."""
+        if not self.context.might_rotate:
+            return False
+        tracks = []
+        for index, (past, lap) in enumerate(zip(self.history, self.context.laps, strict=True)):
+            enter = np.asarray(past, np.int64)
+            if self.pattern:
+                period = self.pattern.counts[index] * len(lap)
+                enter = self.pattern.enters(index, range(len(past) + period))
+            vertices = np.resize(np.array(lap.vertices, np.int32), len(enter))
+            tracks.append(Track(vertices=vertices, enter=enter))
+        return bool(find_rotation(self.context.scenario.problem, tracks))
 
     def build_graph(self) -> TimedEventGraph | None:
         """Return the timed event graph of `timetable`; None without one."""

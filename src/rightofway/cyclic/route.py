@@ -24,6 +24,7 @@ from rightofway.planners.routing import (
     find_shortest_routes,
 )
 from rightofway.precedence import CyclicSchedule, TimedEventGraph
+from rightofway.precedence.rotations import FEWEST
 from rightofway.search import Distances
 from rightofway.search.missing_ways import reaches_its_places
 from rightofway.site import VertexId
@@ -110,10 +111,14 @@ class GroupContext:
         The problem of the robots.
     routes
         The cyclic route of each robot of the group.
+    is_apart
+        Whether robots keep a headway by which they cannot rotate: only where rules forbid
+        rotations, and the laps without this headway have one.
     """
 
     scenario: Scenario
     routes: tuple[CyclicRoute, ...]
+    is_apart: bool = False
 
     def __len__(self) -> int:
         return len(self.routes)
@@ -141,7 +146,24 @@ class GroupContext:
     @property
     def booking_rules(self) -> BookingRules:
         """When visits book: the rules to plan with."""
-        return self.scenario.problem.booking_rules.to_plan_with()
+        rules = self.scenario.problem.booking_rules
+        return rules.keep_apart() if self.is_apart else rules
+
+    @property
+    def might_rotate(self) -> bool:
+        """Whether only the rules keep robots from rotating, and no headway does."""
+        rules = self.booking_rules
+        return rules != rules.keep_apart() and len(self) >= FEWEST
+
+    def has_rotation(self, timetable: CyclicSchedule) -> bool:
+        """Return whether robots rotate, against the rules, in the orders of a timetable.
+
+        A circle of robots that hand over at one instant is a deadlock with any headway.
+        """
+        if not self.might_rotate:
+            return False
+        graph = replace(self, is_apart=True).build_graph(timetable)
+        return graph.find_critical_circuit_if_live() is None
 
     def build_graph(self, timetable: CyclicSchedule) -> TimedEventGraph:
         """Return the timed event graph of laps of these robots."""

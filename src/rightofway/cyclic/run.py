@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from rightofway.cyclic.pattern import find_pattern
 from rightofway.cyclic.result import CyclicResult, GroupResult
@@ -73,7 +74,9 @@ def run_laps(
     Notes
     -----
     Exact: a pattern is reported after a state has recurred, hence the pattern repeats for ever. A
-    group without a recurrence within the limit is open. Deterministic below the limit.
+    group without a recurrence within the limit is open. Deterministic below the limit. Where rules
+    forbid rotations and robots of a group rotate, the group is simulated again, in the other half
+    of the time, with a headway of one tick.
     """
     require_scenario(scenario)
     require_functions(report=report)
@@ -82,11 +85,18 @@ def run_laps(
     deadline = Deadline.after(require_time_limit(time_limit))
     scenario = take_out_closed_places(scenario)
     groups = split_groups(scenario, make_cyclic_routes(scenario, routes))
-    simulations = [
-        make_simulation(GroupContext(scenario=scenario, routes=tuple(group)), rule)
-        for group in groups
-    ]
-    results = share_time(simulations, deadline, report or (lambda _: None))
+    contexts = [GroupContext(scenario=scenario, routes=tuple(group)) for group in groups]
+
+    def simulate(chosen: Sequence[GroupContext], until: Deadline) -> list[GroupResult]:
+        simulations = [make_simulation(context, rule) for context in chosen]
+        return share_time(simulations, until, report or (lambda _: None))
+
+    may_repeat = any(context.might_rotate for context in contexts)
+    results = simulate(contexts, deadline.shorten(0.5) if may_repeat else deadline)
+    rotating = [index for index, result in enumerate(results) if result.has_rotation()]
+    apart = [replace(contexts[index], is_apart=True) for index in rotating]
+    for index, result in zip(rotating, simulate(apart, deadline), strict=True):
+        results[index] = result
     return CyclicResult(scenario=scenario, rule=rule, routes=routes, groups=tuple(results))
 
 

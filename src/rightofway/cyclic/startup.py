@@ -13,6 +13,7 @@ from array import array
 from bisect import bisect_left
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -35,7 +36,7 @@ RAISES_PER_ROBOT = 50
 
 
 def start(
-    scenario: Scenario,
+    group: GroupContext,
     timetable: CyclicSchedule,
     comparison: BaselineComparison,
     *,
@@ -47,6 +48,7 @@ def start(
     None if no start is found in which robots only wait at home. The history holds ``periods``
     periods, or one period if it has more than ``most_visits`` visits.
     """
+    scenario = group.scenario
     begins = find_start(scenario, timetable)
     if begins is None:
         return None
@@ -70,7 +72,7 @@ def start(
         first_dwell = Tick(lap.dwell[0] - between)
         routes.append(CyclicRoute(robot=robot, lap=lap, first_dwell=first_dwell))
     return GroupResult(
-        context=GroupContext(scenario=scenario, routes=tuple(routes)),
+        context=replace(group, routes=tuple(routes)),
         ends="repeats",
         history=history,
         pattern=pattern,

@@ -301,6 +301,9 @@ def _choose(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) ->
         return closed
     problem.deadline.check(CLOSING)
     baseline = _simulated(problem, "first-come", params.baseline_share)
+    if baseline.has_rotation():
+        apart = replace(problem.context, is_apart=True)
+        return _choose(replace(problem, context=apart), rounds, params)
     ends, worth = _baseline(problem, baseline)
     pattern = _fair_pattern(problem, baseline)
     candidates = [
@@ -335,6 +338,8 @@ def _closed_run(problem: CyclicProblem) -> GroupResult | None:
         return None
     problem.deadline.check(CLOSING)
     baseline = SimulatedRun(problem, problem.context, "first-come")
+    if baseline.result.has_rotation():
+        return None
     extracted = extract_cycle(problem, choose_runs(problem, baseline))
     pattern, compared = _fair_pattern(problem, baseline.result), _baseline(problem, baseline.result)
     if pattern is not None and (
@@ -441,7 +446,7 @@ def _started(
 ) -> GroupResult:
     """Return the result of a timetable with which robots that wait at home can begin."""
     comparison = _compare(problem, chosen, ends, baseline)
-    result = start(problem.context.scenario, chosen.timetable, comparison)
+    result = start(problem.context, chosen.timetable, comparison)
     assert result is not None, "candidates without a start are not accepted"
     return result
 

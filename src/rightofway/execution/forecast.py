@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from rightofway.execution.progress import Activity, Progress, Times
 from rightofway.model import Route, Tick
-from rightofway.planners.task import make_planning_problem
 from rightofway.precedence import ActionDependencyGraph, PrecedenceGraph, build_graph
 
 
@@ -78,7 +77,7 @@ class Forecast:
     def _graph(self, begun: NDArray[np.bool_]) -> PrecedenceGraph:
         """Return the graph of expected durations, in which closures do not bind what has begun."""
         return build_graph(
-            make_planning_problem(self.adg.scenario),
+            self.adg.scenario.problem,
             [self._route(robot) for robot in range(len(self.adg.routes))],
             begun=begun,
         )

@@ -88,8 +88,8 @@ def find_freeing_visits(
     )
     robot = np.repeat(np.arange(len(tracks)), [len(track) for track in tracks])
     first, second = list_rights_of_way(scenario, tracks, stays).T
-    # Where rotations are forbidden, planners keep one tick between two bookings of a vertex.
-    gap = rules.to_plan_with().end(0) - rules.end(0)
+    # Laps in which robots would rotate keep one tick between two bookings of a vertex.
+    gap = rules.keep_apart().end(0) - rules.end(0)
     binds = np.isin(start[second] - end[first], (0, gap)) & (robot[first] != robot[second])
     frees = np.full(len(start), NOBODY)
     frees[second[binds][::-1]] = first[binds][::-1]  # of several, the first in order

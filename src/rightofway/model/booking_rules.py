@@ -43,11 +43,12 @@ class BookingRules:
         """Whether bookings let robots move round a circle at one instant."""
         return self.rotations and self.may_follow
 
-    def to_plan_with(self) -> BookingRules:
-        """Return the rules that planners keep.
+    def keep_apart(self) -> BookingRules:
+        """Return stricter rules that leave no rotation, where only a rule forbids it.
 
-        Where only a rule forbids rotations, their headway is one tick: a vertex that is never
-        entered at the instant at which it is left cannot be part of a rotation.
+        Their headway is one tick: a vertex that is never entered at the instant at which it is left
+        cannot be part of a rotation. Planners need no such rules; laps take them where robots
+        rotate without.
         """
         if self.rotations or not self.may_follow:
             return self

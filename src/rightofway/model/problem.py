@@ -157,11 +157,6 @@ class Problem:
         """Whether a change of heading takes time for some robot."""
         return any(itinerary.turning is not None for itinerary in self.itineraries)
 
-    def to_plan_with(self) -> Problem:
-        """Return the same problem with the booking rules that planners keep."""
-        rules = self.booking_rules.to_plan_with()
-        return self if rules == self.booking_rules else replace(self, booking_rules=rules)
-
     def as_steps(self) -> Problem:
         """Return the problem in steps of a tick: in a step, a robot drives along an edge or stays.
 

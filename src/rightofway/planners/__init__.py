@@ -23,7 +23,6 @@ from rightofway.planners.task import (
     Draft,
     Planner,
     Task,
-    make_planning_problem,
 )
 
 __all__ = [
@@ -52,5 +51,4 @@ __all__ = [
     "TwoLevelOptions",
     "find",
     "find_all",
-    "make_planning_problem",
 ]

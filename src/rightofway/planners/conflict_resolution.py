@@ -20,17 +20,18 @@ import numpy as np
 
 from rightofway.errors import GaveUp
 from rightofway.model import Decision, Reroute, Route, Tick, Track
-from rightofway.phrases import Phrase
+from rightofway.phrases import Phrase, chain_items
 from rightofway.planners.lacam import plan_fleet
 from rightofway.planners.prioritized import make_fleet_search, plan_in_turn
 from rightofway.planners.routing import find_shortest_route
-from rightofway.planners.task import Draft, Task, make_planning_problem
+from rightofway.planners.task import Draft, Task
 from rightofway.precedence import (
     Meeting,
     PrecedenceGraph,
     Segment,
     build_graph,
     build_graph_of_plan,
+    find_rotation,
     make_crossing,
 )
 from rightofway.search import Booking, Bookings, Distances, find_earliest_track
@@ -88,21 +89,35 @@ class PartialPlan:
         self.settled = np.zeros(len(routes), np.uint8)
         self.deferred: dict[int, str] = {}
         self.decisions: list[Decision] = []
-        self.graph = graph or build_graph(
-            make_planning_problem(task.scenario), routes, forbid_swaps=sees_swaps
-        )
+        self.graph = graph or build_graph(task.scenario.problem, routes, forbid_swaps=sees_swaps)
 
     def resolve_all(self, rule: Rule) -> None:
         """Resolve the earliest conflict until none is left; defer where the rule cannot."""
-        while (meeting := self.graph.find_next_meeting()) is not None:
+        while True:
             self.task.deadline.check("giving right of way")
+            meeting = self.graph.find_next_meeting()
+            if meeting is None:
+                rotation = find_rotation(self.task.scenario.problem, self._list_tracks())
+                if not rotation:
+                    return
+                self.defer(rotation, self._explain_rotation(rotation))
+                continue
             resolution = rule(self, meeting)
             if resolution is None:
-                self.defer(meeting)
+                self.defer(meeting.robots, self.explain_deadlock(meeting))
                 continue
             self.graph.give_all(resolution.rights)
             self.decisions += resolution.decisions
             self.settled[list(meeting.robots)] = 1
+
+    def _list_tracks(self) -> list[Track]:
+        """Return the tracks at their times; that of a deferred robot has its home only."""
+        return [
+            Track.of([route.vertices[0]], [0]) if robot in self.deferred else track
+            for robot, (route, track) in enumerate(
+                zip(self.routes, self.graph.build_tracks(), strict=True)
+            )
+        ]
 
     def find_segment(self, meeting: Meeting) -> Segment:
         """Return the visits of which one robot goes first in all."""
@@ -111,19 +126,25 @@ class PartialPlan:
         (i, visit_i), (j, visit_j) = (self.graph.place(visit) for visit in meeting.visits)
         return make_crossing(self.routes[i], visit_i, self.routes[j], visit_j)
 
-    def defer(self, meeting: Meeting) -> None:
-        """Take out one of two robots that no waiting keeps apart; the others keep their rights."""
-        why = self.explain_deadlock(meeting)
+    def defer(self, robots: Sequence[int], why: str) -> None:
+        """Take out one of some robots that no waiting keeps apart; the others keep their rights."""
         if not self.sees_swaps:
             raise GaveUp(f"{why} (the published method is stuck here; try two-level)")
         everyone = np.ones(len(self.routes), np.uint8)
         robot = max(
-            meeting.robots,
+            robots,
             key=lambda candidate: (self.graph.count_conflicts_of(candidate, everyone), candidate),
         )
         self.deferred[robot] = why
         self.settled[robot] = 0
         self.graph.withdraw(robot)
+
+    def _explain_rotation(self, rotation: Sequence[int]) -> Phrase:
+        """Name the robots that would move round a circle at one instant."""
+        names = [self.task.scenario.robots[robot].name for robot in rotation]
+        return Phrase(
+            "{robots} would move round in a circle at one instant", robots=chain_items(names)
+        )
 
     def explain_deadlock(self, meeting: Meeting) -> str:
         """Name the two robots, and the cycle of robots that one of them would close by waiting."""
@@ -264,7 +285,7 @@ class _Reservations:
         self.distances = distances
         self.itineraries = scenario.problem.itineraries
         self.tracks = tracks
-        self.bookings = Bookings(make_planning_problem(scenario))
+        self.bookings = Bookings(scenario.problem)
         for robot, track in tracks.items():
             self.bookings.add(robot, track)
 

@@ -15,7 +15,7 @@ from rightofway.errors import GaveUp
 from rightofway.model import Plan, Tick, Track, compute_completions
 from rightofway.planners.local_search import LocalSearch
 from rightofway.planners.prioritized import make_fleet_search
-from rightofway.planners.task import Task, make_planning_problem
+from rightofway.planners.task import Task
 from rightofway.precedence import PrecedenceGraph, build_graph_of_plan
 
 SEARCHES = 100
@@ -61,7 +61,7 @@ def flip_right_of_way(
         remedy = "plan again with a planner that leaves none"
         raise GaveUp(f"the plan has {judged.summary}: no right of way can be flipped ({remedy})")
     task = Task(scenario=scenario, deadline=Deadline.after(time_limit))
-    graph = build_graph_of_plan(make_planning_problem(scenario), plan.tracks)
+    graph = build_graph_of_plan(scenario.problem, plan.tracks)
     rights = [
         (first, second)
         for first, second in graph.list_rights_of(waits)
@@ -101,10 +101,7 @@ def _on_other_routes(
     old_tracks = [
         None if robot in {waits, goes_first} else track for robot, track in enumerate(plan.tracks)
     ]
-    try:
-        search.start(old_tracks)
-    except ValueError:
-        return None  # without rotations the search keeps a headway, which the plan need not have
+    search.start(old_tracks)
     limit = task.deadline.measure_seconds_left()
     if not search.repair([waits, goes_first], searches=SEARCHES, time_limit=limit):
         return None

@@ -24,10 +24,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.model import Problem
 from rightofway.phrases import Phrase
 from rightofway.planners.impossible import explain_no_room, find_smallest_set
-from rightofway.planners.task import Draft, Task, make_planning_problem
+from rightofway.planners.task import Draft, Task
 from rightofway.search import ConflictBasedSearch, JointPlan
 
 MOST_STATES, FEW_ROBOTS = 100_000, 4
@@ -50,23 +49,20 @@ def plan_by_joint_states(task: Task) -> Draft | None:
     if len(everybody) > FEW_ROBOTS:
         return None
 
-    def search(problem: Problem, robots: Sequence[int]) -> JointPlan:
-        return ConflictBasedSearch(problem).search_together(
+    def search(robots: Sequence[int]) -> JointPlan:
+        return ConflictBasedSearch(scenario.problem).search_together(
             robots, states=MOST_STATES, time_limit=deadline.measure_seconds_left()
         )
 
     def is_blocked(robots: Sequence[int]) -> bool:
-        plan = search(scenario.problem, robots)
+        plan = search(robots)
         if not plan.has_ended:
             raise GaveUp("too many joint states")
         return plan.tracks is None
 
-    plan = search(scenario.problem, everybody)
+    plan = search(everybody)
     if plan.has_ended and plan.tracks is None:
         raise NoPlanExists([explain_no_room(scenario, find_smallest_set(everybody, is_blocked))])
-    # The proof is of the rules themselves; planners keep stricter ones where nobody may rotate.
-    if make_planning_problem(scenario) is not scenario.problem:
-        plan = search(make_planning_problem(scenario), everybody)
     if plan.tracks is None:
         return None
     task.has_plan()

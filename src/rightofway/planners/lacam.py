@@ -33,7 +33,7 @@ from rightofway.planners.impossible import (
 )
 from rightofway.planners.joint_states import plan_by_joint_states
 from rightofway.planners.moves import plan_by_moves
-from rightofway.planners.task import Draft, Task, make_planning_problem
+from rightofway.planners.task import Draft, Task
 from rightofway.precedence import build_graph
 from rightofway.search import Distances, FleetSearch, plan_by_lacam
 from rightofway.site import VertexId
@@ -65,7 +65,7 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
         return draft
     if not problem.resources.are_points:
         task.report(Phrase("no end by instants: planning the order of single moves"))
-        search = FleetSearch(make_planning_problem(scenario), seed=task.seed, alone=task.alone)
+        search = FleetSearch(scenario.problem, seed=task.seed, alone=task.alone)
         return plan_by_moves(task, search)
     if problem.is_open:
         task.report(Phrase("no end by instants: planning the order of moves without clocks"))
@@ -108,7 +108,7 @@ def plan_by_instants(
     refuse_stranded(scenario, ())
     try:
         tracks = plan_by_lacam(
-            make_planning_problem(scenario),
+            scenario.problem,
             seed=task.seed,
             most_effort=most_effort if effort is None else min(effort, most_effort),
             time_limit=task.deadline.shorten(share if robots <= MANY else 1).measure_seconds_left(),
@@ -151,7 +151,7 @@ def build_timetable_if_possible(
         for itinerary, vertices in zip(scenario.problem.itineraries, visited, strict=True)
     ]
     try:
-        graph = build_graph(make_planning_problem(scenario), routes)
+        graph = build_graph(scenario.problem, routes)
     except ValueError:
         return None
     return graph.build_tracks() if graph.keeps_order(arrivals) else None

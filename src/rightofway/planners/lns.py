@@ -31,7 +31,7 @@ from rightofway.planners.objectives import (
     measure_worth,
 )
 from rightofway.planners.prioritized import MOST_ROBOTS, make_fleet_search, plan_in_turn
-from rightofway.planners.task import Draft, Task, make_planning_problem
+from rightofway.planners.task import Draft, Task
 from rightofway.precedence import build_graph_of_plan
 from rightofway.search import FleetSearch
 
@@ -265,7 +265,7 @@ def _retimed(task: Task, search: FleetSearch) -> tuple[Track, ...]:
     if problem.closures is None:
         search.retime()
         return search.list_tracks()
-    graph = build_graph_of_plan(make_planning_problem(task.scenario), search.list_tracks())
+    graph = build_graph_of_plan(task.scenario.problem, search.list_tracks())
     return tuple(graph.build_tracks())
 
 
@@ -274,7 +274,7 @@ def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track] | None:
 
     None where a closure begins too soon for it.
     """
-    problem = make_planning_problem(task.scenario)
+    problem = task.scenario.problem
     if problem is task.scenario.problem:
         return tracks
     try:

@@ -31,9 +31,9 @@ from rightofway.model import Improvement, Objective, Tick
 from rightofway.phrases import Phrase, chain_items
 from rightofway.planners.conflict_resolution import list_rights_if_waits
 from rightofway.planners.objectives import compute_value, find_objective, list_weights
-from rightofway.planners.task import Draft, Task, make_planning_problem
+from rightofway.planners.task import Draft, Task
 from rightofway.planners.two_level import two_level
-from rightofway.precedence import Meeting, PrecedenceGraph, build_graph_of_plan
+from rightofway.precedence import Meeting, PrecedenceGraph, build_graph_of_plan, find_rotation
 
 MOST_FAVOURS = 3
 """How many robots are favoured or disfavoured in a round, at most."""
@@ -61,13 +61,11 @@ def local_search(task: Task) -> Draft:
     first = Draft(tracks=task.start, status="") if task.start else two_level(task)
     task.has_plan()
     task.better(lambda: first.tracks)
-    before = build_graph_of_plan(task.scenario.problem, first.tracks)
-    graph = build_graph_of_plan(make_planning_problem(task.scenario), first.tracks)
-    search, old = LocalSearch(task, graph), LocalSearch(task, before).measure()
+    graph = build_graph_of_plan(task.scenario.problem, first.tracks)
+    search = LocalSearch(task, graph)
+    old = search.measure()
     search.run(rounds=int(task.options["rounds"]))
     new = search.measure()
-    if new > old:  # the headway of planning costs more than flips gain
-        graph, new = before, old
     gain = Phrase(
         "flips took the {objective} from {before} to {after} ticks",
         objective=Phrase(find_objective(task).value),
@@ -196,7 +194,7 @@ class LocalSearch:
                 return False
             meeting = self.graph.find_next_meeting()
             if meeting is None:
-                return True
+                return not find_rotation(self.task.scenario.problem, self.graph.build_tracks())
             if not self.resolve_one(meeting, preference):
                 return False
         return False

@@ -35,7 +35,7 @@ from rightofway.model import Scenario, Tick, Track, compute_least_dwell
 from rightofway.native import list_excluded
 from rightofway.phrases import Phrase
 from rightofway.planners.impossible import explain_no_room, find_smallest_set, make_fleet_of
-from rightofway.planners.task import Draft, Task, make_planning_problem
+from rightofway.planners.task import Draft, Task
 from rightofway.search import Distances, FleetSearch
 from rightofway.site import VertexId
 
@@ -239,7 +239,7 @@ def _in_sequence(task: Task, moves: list[Move]) -> list[Track]:
     vertices = [[itinerary.home] for itinerary in itineraries]
     enter, rules = (
         [[Tick(0)] for _ in itineraries],
-        make_planning_problem(task.scenario).booking_rules,
+        task.scenario.problem.booking_rules,
     )
     stages, now, edges = [0] * len(itineraries), 0, [-1] * len(itineraries)
     for robot, head, edge in moves:

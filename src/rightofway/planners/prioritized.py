@@ -25,7 +25,7 @@ from rightofway.phrases import Phrase
 from rightofway.planners.impossible import refuse_stranded
 from rightofway.planners.lacam import build_timetable, plan_fleet
 from rightofway.planners.objectives import find_objective
-from rightofway.planners.task import Draft, Task, make_planning_problem
+from rightofway.planners.task import Draft, Task
 from rightofway.precedence import build_graph_of_plan
 from rightofway.search import FleetSearch
 
@@ -67,7 +67,7 @@ def make_fleet_search(task: Task) -> FleetSearch:
     """Return the search for a fleet; `NoPlanExists` if a robot cannot do its trip alone."""
     scenario = task.scenario
     search = FleetSearch(
-        make_planning_problem(scenario),
+        scenario.problem,
         seed=task.seed,
         alone=task.alone,
         objective=find_objective(task),
@@ -123,9 +123,7 @@ def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
     tracks = search.list_tracks()
     problem = task.scenario.problem
     if problem.closures is not None:  # a robot may have waited for a kept home
-        tracks = tuple(
-            build_graph_of_plan(make_planning_problem(task.scenario), tracks).build_tracks()
-        )
+        tracks = tuple(build_graph_of_plan(task.scenario.problem, tracks).build_tracks())
     task.has_plan()
     return Draft(tracks=tracks, status=Phrase("one after another"))
 

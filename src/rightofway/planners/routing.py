@@ -10,7 +10,7 @@ from rightofway.deadline import limit_loop
 from rightofway.errors import GaveUp
 from rightofway.model import Itinerary, Route, Scenario, Track, join_route, make_route
 from rightofway.planners.impossible import refuse_the_impossible
-from rightofway.planners.task import Task, make_planning_problem
+from rightofway.planners.task import Task
 from rightofway.search import Bookings, Congestion, Distances, find_earliest_track
 from rightofway.site import Roadmap, VertexId
 
@@ -35,7 +35,7 @@ def choose_routes_among_closures(task: Task, distances: Distances) -> list[Route
     `GaveUp` where a robot finds none with the headway of planning.
     """
     refuse_the_impossible(task.scenario, distances)
-    bookings, routes = Bookings(make_planning_problem(task.scenario)), list[Route]()
+    bookings, routes = Bookings(task.scenario.problem), list[Route]()
     for robot, itinerary in enumerate(task.scenario.problem.itineraries):
         left = task.deadline.measure_seconds_left()
         track = find_earliest_track(robot, bookings, distances, time_limit=left)

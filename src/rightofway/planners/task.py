@@ -9,13 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.arguments import checks_arguments
 from rightofway.deadline import NO_DEADLINE, Deadline
 from rightofway.model import (
     Decision,
     ForcedLoss,
     Improvement,
-    Problem,
     Proof,
     Reroute,
     Scenario,
@@ -100,17 +98,3 @@ Planner = Callable[[Task], Draft]
 
 Raises `NoPlanExists` if it is proven that there is no plan, and `GaveUp` if none was found.
 """
-
-
-@checks_arguments
-def make_planning_problem(scenario: Scenario) -> Problem:
-    """Return the problem with the booking rules that planners keep.
-
-    Where rotations are forbidden their headway is at least one tick.
-
-    Parameters
-    ----------
-    scenario
-        The problem.
-    """
-    return scenario.problem.to_plan_with()

@@ -34,7 +34,6 @@ from numpy.typing import NDArray
 from rightofway.check import check
 from rightofway.model import (
     NEVER,
-    BookingRules,
     Plan,
     PlannerRun,
     Route,
@@ -48,7 +47,7 @@ from rightofway.model import (
 from rightofway.planners.impossible import refuse_closed_ways
 from rightofway.planners.prioritized import make_fleet_search
 from rightofway.planners.task import Task
-from rightofway.precedence import build_graph
+from rightofway.precedence import build_graph, find_rotation
 from rightofway.search import FleetSearch
 from rightofway.site import Roadmap, VertexId
 
@@ -92,10 +91,6 @@ def make_first_plan(task: Task, old: Plan) -> tuple[Track, ...] | None:
     drafts = [_repaired(hurried, search, old_routes, [*unchanged, *changed])]
     if changed and hurried.deadline.measure_seconds_left() != 0:
         drafts.append(_repaired(hurried, search, old_routes, unchanged))
-    rules = task.scenario.problem.booking_rules
-    if not others and rules != rules.to_plan_with():  # the old plan may have had less headway
-        in_time = _timetable(task.scenario, old_routes, [*unchanged, *changed], rules)
-        drafts.append(None if in_time is None else tuple(in_time.values()))
     valid = [tracks for tracks in drafts if tracks is not None and _is_valid(task.scenario, tracks)]
     return min(valid, key=lambda tracks: compute_cost(task.scenario, tracks), default=None)
 
@@ -230,7 +225,7 @@ def _repaired(
     try:
         search.start(tracks)
     except ValueError:
-        return None  # without rotations the search keeps a headway, which the plan need not have
+        return None  # the plan breaks a rule
     is_repaired = search.repair(
         sorted(left, key=lambda robot: alone[robot]),
         searches=SEARCHES * (len(left) + len(tracks) // 10),
@@ -248,23 +243,22 @@ def _in_old_order(
     bisection, because an order stays possible if a robot is taken out.
     """
     fits, left = list[int](), list(order)
-    rules = task.scenario.problem.booking_rules.to_plan_with()
-    tracks = _timetable(task.scenario, old_routes, left, rules)
+    tracks = _timetable(task.scenario, old_routes, left)
     for _ in range(MOST_REFUSED):
         if tracks is not None or task.deadline.measure_seconds_left() == 0:
             break
         low, high = 0, len(left)
         while high - low > 1:
             middle = (low + high) // 2
-            tried = _timetable(task.scenario, old_routes, [*fits, *left[:middle]], rules)
+            tried = _timetable(task.scenario, old_routes, [*fits, *left[:middle]])
             low, high = (low, middle) if tried is None else (middle, high)
         fits, left = [*fits, *left[:low]], left[low + 1 :]
-        tracks = _timetable(task.scenario, old_routes, [*fits, *left], rules)
-    return tracks or _timetable(task.scenario, old_routes, fits, rules) or {}
+        tracks = _timetable(task.scenario, old_routes, [*fits, *left])
+    return tracks or _timetable(task.scenario, old_routes, fits) or {}
 
 
 def _timetable(
-    scenario: Scenario, old_routes: Mapping[int, _Kept], robots: Sequence[int], rules: BookingRules
+    scenario: Scenario, old_routes: Mapping[int, _Kept], robots: Sequence[int]
 ) -> Mapping[int, Track] | None:
     """Return the earliest tracks of some robots in the old order; None if it is impossible.
 
@@ -278,13 +272,14 @@ def _timetable(
         part = replace(scenario, robots=fleet, clock=scenario.problem.clock)
     try:
         routes = [old_routes[robot].route for robot in robots]
-        graph = build_graph(replace(part.problem, booking_rules=rules), routes)
+        graph = build_graph(part.problem, routes)
         is_possible = graph.keeps_order([old_routes[robot].when for robot in robots])
     except ValueError:
         return None  # closures leave a route no times, or the old plan has times that fall
     if not is_possible:
         return None
-    return dict(zip(robots, graph.build_tracks(), strict=True))
+    tracks = graph.build_tracks()
+    return None if find_rotation(part.problem, tracks) else dict(zip(robots, tracks, strict=True))
 
 
 def _is_valid(scenario: Scenario, tracks: tuple[Track, ...]) -> bool:

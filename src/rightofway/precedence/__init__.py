@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     )
     from rightofway.precedence.period_curve import Growth, PeriodPiece, compute_period_curve
     from rightofway.precedence.release_graph import Arrival, Part, ReleaseGraph
+    from rightofway.precedence.rotations import find_rotation
     from rightofway.precedence.segments import Segment, find_shared_segment, make_crossing
     from rightofway.precedence.sensitivity import (
         Sensitivity,
@@ -60,6 +61,7 @@ _MODULES = {
         "PeriodPiece",
         "compute_period_curve",
     ),
+    "rotations": ("find_rotation",),
     "release_graph": (
         "Arrival",
         "Part",
@@ -110,6 +112,7 @@ __all__ = [
     "compute_period_curve",
     "compute_sensitivity",
     "find_critical_circuit_without",
+    "find_rotation",
     "find_shared_segment",
     "find_tight_arcs",
     "make_crossing",

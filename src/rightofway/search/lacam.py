@@ -67,8 +67,7 @@ def plan_by_lacam(
     Notes
     -----
     Deterministic for a seed as long as there is time; not optimal. No robot could be earlier on
-    the same routes with the same order at every vertex, unless rotations are forbidden or robots
-    have a size.
+    the same routes with the same order at every vertex, unless robots have a size.
     """
     native, robots = bind_native(problem), range(len(problem.itineraries))
     for robot in ends_anywhere:
