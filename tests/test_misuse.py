@@ -130,6 +130,8 @@ GOOD: dict[str, Callable[[], tuple[Callable[..., Any], dict[str, Any]]]] = {
     "Roadmap.name": lambda: (DOOR.roadmap.name, {"vertex": 0}),
     "Roadmap.get_point": lambda: (DOOR.roadmap.get_point, {"vertex": 0}),
     "Roadmap.get_vertex": lambda: (DOOR.roadmap.get_vertex, {"name": "N0"}),
+    "Roadmap.get_place": lambda: (DOOR.roadmap.get_place, {"name": "N0"}),
+    "Roadmap.get_position": lambda: (DOOR.roadmap.get_position, {"vertex": 0}),
     "Roadmap.exclude": lambda: (DOOR.roadmap.exclude, {"closed": {1}, "edges": [(0, 1)]}),
     "make_layout_of_graph": lambda: (rw.make_layout_of_graph, {}),
     "load": lambda: (rw.load, {"path": "fleet.yaml"}),

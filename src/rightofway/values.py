@@ -170,9 +170,11 @@ TypeSpeeds = tuple[tuple[str, Fraction], ...]
 
 def read_type_speeds(value: object) -> TypeSpeeds:
     """Return speeds by types of robots."""
-    if value == ():
-        return ()
-    speeds = dict(value) if isinstance(value, tuple) else value
+    is_pairs = isinstance(value, tuple) and all(
+        isinstance(pair, tuple) and len(pair) == 2  # noqa: PLR2004 (a type and its speed)
+        for pair in value
+    )
+    speeds = dict(value) if isinstance(value, tuple) and is_pairs else value
     if isinstance(speeds, Mapping) and all(isinstance(name, str) for name in speeds):
         return tuple((name, read_at(name, read_number, speeds[name])) for name in sorted(speeds))
     raise ValueError(f"{quote(value)} are no speeds of types (give a mapping of types to speeds)")
