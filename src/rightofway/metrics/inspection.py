@@ -31,6 +31,7 @@ from rightofway.metrics.site import SEVERITIES, Finding, Inspection, Kind, Site,
 from rightofway.phrases import Phrase, say_count
 from rightofway.quantities import format_decimal
 from rightofway.site import Roadmap
+from rightofway.site.scale import find_odd_sizes
 from rightofway.site.walls import find_narrowest, reaches_walls
 
 MOST_PLACES = 200
@@ -87,6 +88,7 @@ def inspect(site: Site) -> Inspection:
     apart = find_separations(ways, places[::step])
     load, total, sampled = _load(site, ways, parts[0], places)
     findings = [
+        *_odd_sizes(site),
         *_impossible_trips(site, ways, parts),
         *_narrow_trips(site, ways),
         *_outside(site, ways, parts),
@@ -168,6 +170,12 @@ def _impossible_trips(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) ->
                     vertices=site.list_names((start, goal)),
                     robots=(robot.name,),
                 )
+
+
+def _odd_sizes(site: Site) -> Iterator[Finding]:
+    """Yield sizes that only another unit explains."""
+    for fact, remedy in find_odd_sizes(site.roadmap, site.units, site.radii[0]):
+        yield Finding(kind="scale", severity="warning", fact=fact, remedy=remedy)
 
 
 def _narrow_trips(site: Site, ways: Ways) -> Iterator[Finding]:

@@ -17,13 +17,14 @@ from rightofway.model.place_names import describe_middle
 from rightofway.phrases import Phrase, say_count
 from rightofway.quantities import Units, format_decimal
 from rightofway.site import Roadmap
+from rightofway.site.scale import compute_extent
 
 Severity = Literal["error", "warning", "note"]
 """``error``: some work cannot be done; ``warning``: robots will wait; ``note``: good to know."""
 
 Kind = Literal[
     "trip", "trap", "unreachable", "cut off", "too near", "crossing", "through way", "corridor",
-    "bottleneck",
+    "bottleneck", "scale",
 ]  # fmt: skip
 """What a finding is about."""
 
@@ -262,17 +263,6 @@ def describe_site(site: Site, inspection: Inspection) -> tuple[str, ...]:
             )
         )
     return tuple(sentences)
-
-
-def compute_extent(roadmap: Roadmap) -> tuple[Fraction, Fraction]:
-    """Return how wide and high a roadmap is; cells reach beyond their middles [length unit]."""
-    if roadmap.grid is not None:
-        grid = roadmap.grid
-        return grid.columns * grid.cell_size, grid.rows * grid.cell_size
-    reach = 0.0 if roadmap.sides is None else roadmap.drawn_sides[:, None] / 2
-    spans = (roadmap.positions + reach).max(axis=0) - (roadmap.positions - reach).min(axis=0)
-    width, height = (Fraction(repr(span)) for span in spans.tolist())
-    return width, height
 
 
 def list_trip(robot: Robot, rules: Rules) -> list[int]:

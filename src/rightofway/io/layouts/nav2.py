@@ -27,6 +27,10 @@ METADATA_KEYS = {"speed_limit"}
 LINES = ("LineString", "MultiLineString")
 
 
+GEOGRAPHIC = ("4326", "CRS84")
+"""Coordinate reference systems (crs) whose coordinates are degrees."""
+
+
 def recognizes(document: Any) -> bool:
     """Return whether a document is a collection of features."""
     return isinstance(document, dict) and (
@@ -44,6 +48,14 @@ def read(document: Any) -> Layout:
     """
     draft = LayoutDraft("Nav2 route graph")
     level = draft.begin_level()
+    crs = str(document.get("crs", ""))
+    if name := next((name for name in GEOGRAPHIC if name in crs), None):
+        draft.repair(
+            Phrase(
+                "the coordinates are metres, though {crs} has degrees (export them in metres)",
+                crs=name,
+            )
+        )
     for feature in Source(document).need("features").read_items():
         properties = feature.value.get("properties") if isinstance(feature.value, dict) else None
         if isinstance(properties, dict) and {"startid", "endid"} & set(properties):

@@ -39,6 +39,7 @@ from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 from rightofway.phrases import Phrase, say_count
 from rightofway.quantities import Units
 from rightofway.site import Roadmap
+from rightofway.site.scale import find_odd_sizes
 
 CLASSIC = Rules(turn=Fraction(0), ends="none")
 """The rules of the classic benchmark: robots need not turn, and stay at their targets."""
@@ -276,6 +277,9 @@ def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[Phrase]:
     yield from note_on_hidden_stations(scenario.roadmap)
     yield from _type_notes(scenario)
     yield from note_crossings(scenario)
+    largest = max(robot.radius for robot in scenario.robots)
+    for fact, remedy in find_odd_sizes(scenario.roadmap, scenario.units, largest):
+        yield Phrase("{fact} ({remedy})", fact=fact, remedy=remedy)
     if not scenario.problem.clock.exact:
         yield Phrase(
             "each drive, turn and work time is rounded up to a multiple of {tick} (the shortest of"

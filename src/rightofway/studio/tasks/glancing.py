@@ -9,10 +9,10 @@ from rightofway.errors import InputError
 from rightofway.io import dump_scenario, is_layout, load_either, load_with_notes
 from rightofway.io.scenario.reader import read_scenario
 from rightofway.io.sites import Choice, Sites, make_sites, read_sites
-from rightofway.metrics.site import compute_extent
 from rightofway.model import Plan
 from rightofway.quantities import format_decimal
 from rightofway.report.examples import find_examples_folder
+from rightofway.site.scale import compute_extent
 from rightofway.studio.messages import Blobs, Emit
 from rightofway.studio.tasks.documents import Result, as_plain, read_document
 from rightofway.studio.tasks.editing import read_map, read_readable
