@@ -235,14 +235,21 @@ STILL: dict[str, Any] = {
 """C comes to Y before E; all times are multiples of five seconds."""
 
 
-def test_others_go_round_a_robot_on_hold_as_at_a_broker(tmp_path: Path) -> None:
-    """E waits for C, which is held at its home, and is at its own before C is let go."""
+@pytest.mark.parametrize("moment", ["", "C sets out from HC to KC"])
+def test_others_go_round_a_robot_on_hold_as_at_a_broker(moment: str, tmp_path: Path) -> None:
+    """E waits for C, and is at its home before C is let go.
+
+    C is held at its home, or when it has all the way beyond Y: then E goes once C is there.
+    """
     path, lines = tmp_path / "demo.journal", list[str]()
     people = Commands(path)
-    people.ask({"kind": "hold", "name": "C"})
+    if not moment:
+        people.ask({"kind": "hold", "name": "C"})
 
     def note(_: Tick, sentence: str) -> None:
         lines.append(sentence)
+        if sentence == moment:
+            people.ask({"kind": "hold", "name": "C"})
         if sentence.startswith("E is at the end"):
             people.ask({"kind": "go", "name": "C"})
 
