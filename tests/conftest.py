@@ -37,6 +37,7 @@ SLOW = (
     "studio/test_beginning.py",  # a browser
     "studio/test_bombs.py",  # a studio, and a browser
     "studio/test_drives.py",  # a process for each drive
+    "studio/test_connection.py",  # a browser, and processes that are killed
     "studio/test_documents.py",  # a process for each studio
     "studio/test_drawing.py",  # a browser
     "studio/test_editing.py",  # a browser

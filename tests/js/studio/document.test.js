@@ -1,4 +1,4 @@
-/** The document that is edited: undo and redo; there is no server, which it survives. */
+/** The document that is edited: undo and redo, with a server that keeps every draft. */
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -8,6 +8,11 @@ const [FIRST, SECOND, THIRD] = [1, 2, 3].map((count) => ({
   map: { grid: ["."] },
   robots: Array.from({ length: count }, (_, i) => ({ name: `R${i + 1}` })),
 }));
+
+Object.assign(globalThis, {
+  fetch: () => Promise.resolve(Response.json({ revision: "1", ok: true, faults: [] })),
+  requestAnimationFrame: (/** @type {() => void} */ draw) => setTimeout(draw),
+});
 
 function opened() {
   const store = new ScenarioStore();

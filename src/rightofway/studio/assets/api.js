@@ -2,8 +2,12 @@
 
 /** @import { Bodies, DeleteAnswer, ErrorData, GetAnswer, PatchAnswer, PostAnswer, PutAnswer, Saved } from "./api_types.js" */
 import { whileBusy } from "./busy.js";
+import { connection } from "./connection.js";
 
 const ROOT = "/api/v1";
+
+/** The kind of a refusal where there was no answer. */
+export const UNREACHABLE = "unreachable";
 
 /** What the server refuses: its message, its status, and the faults of a document with their places. */
 export class Refusal extends Error {
@@ -32,13 +36,32 @@ const request = (method, path, body) => whileBusy(answered(method, path, body));
 async function answered(method, path, body) {
   /** @type {HeadersInit} */
   const headers = body === undefined ? {} : { "content-type": "application/json" };
-  const answer = await fetch(ROOT + path, {
+  return ask(path, {
     method,
     headers,
     body: body === undefined ? undefined : JSON.stringify(body),
     keepalive: method === "DELETE", // also while the page is being left
   });
-  const data = await answer.json();
+}
+
+/**
+ * Send a request, and find out whether the server answers at all.
+ * @param {string} path
+ * @param {RequestInit} init
+ * @param {(answer: Response) => Promise<any>} [read]
+ * @returns {Promise<any>}
+ */
+async function ask(path, init, read = (answer) => answer.json()) {
+  let answer;
+  let data;
+  try {
+    answer = await fetch(ROOT + path, init);
+    data = await (answer.ok ? read(answer) : answer.json());
+  } catch {
+    connection.lose();
+    throw new Refusal({ message: "the studio does not answer", status: 0, kind: UNREACHABLE });
+  }
+  connection.restore();
   if (!answer.ok) throw new Refusal(data.error);
   return data;
 }
@@ -97,14 +120,11 @@ export const upload = (file, path, options = {}) => whileBusy(uploaded(file, pat
 
 /** @type {typeof upload} */
 async function uploaded(file, path, { replace = false } = {}) {
-  const answer = await fetch(`${ROOT}/files/${inAddress(path)}?replace=${replace}`, {
+  return ask(`/files/${inAddress(path)}?replace=${replace}`, {
     method: "PUT",
     headers: { "content-type": "application/octet-stream" },
     body: file,
   });
-  const data = await answer.json();
-  if (!answer.ok) throw new Refusal(data.error);
-  return data;
 }
 
 /**
@@ -114,8 +134,8 @@ async function uploaded(file, path, { replace = false } = {}) {
  * @returns {Promise<boolean>}
  */
 export async function sameAs(file, path) {
-  const answer = await fetch(`${ROOT}/files/${inAddress(path)}`);
-  const [one, other] = await Promise.all([file.arrayBuffer(), answer.arrayBuffer()]);
+  const there = ask(`/files/${inAddress(path)}`, {}, (answer) => answer.arrayBuffer());
+  const [one, other] = await Promise.all([file.arrayBuffer(), there]);
   if (one.byteLength !== other.byteLength) return false;
   const [bytes, others] = [new Uint8Array(one), new Uint8Array(other)];
   return bytes.every((byte, at) => byte === others[at]);

@@ -1,7 +1,8 @@
 /** The scenario that is edited: plain data, undo and redo, a draft, and what the library says about it. */
 
 import { Observable } from "../../viz/page/assets/observable.js";
-import { inAddress, post, put, remove } from "./api.js";
+import { UNREACHABLE, get, inAddress, post, put, remove } from "./api.js";
+import { connection } from "./connection.js";
 import { Latest } from "./latest.js";
 import { liesAt, liesIn } from "./fault_place.js";
 import { later, present } from "./given.js";
@@ -10,6 +11,7 @@ import { later, present } from "./given.js";
 /** @import { Edit, Found, ScenarioDocument, SitePayload } from "./types.js" */
 
 const CHANGED = 412; // the status of a draft that another page has changed
+const RETRY = 3000; // pause before what could not be kept is sent again [ms]
 const MANY = 2000; // vertices from which on findings come after the map
 
 /** @type {SurveyData} */
@@ -26,7 +28,8 @@ const UNKNOWN = Object.freeze({
 /**
  * A document is never changed: an edit makes another one that shares what stays. So undo is a list.
  * Events: `document` when another one is shown, then `open`, `edit`, `undo` or `redo` if it is by these;
- * `survey` when the library has looked at it, `findings` when those of a large map come after that; `trouble`.
+ * `survey` when the library has looked at it, `findings` when those of a large map come after that; `kept` when
+ * the draft was kept, or was not; `trouble`.
  */
 export class ScenarioStore extends Observable {
   /** @type {ScenarioDocument} */
@@ -43,6 +46,8 @@ export class ScenarioStore extends Observable {
   site = null; // the last map that could be drawn
   isKept = false; // whether the draft has been written
   elsewhere = ""; // the name of the draft, if another page has changed it; nothing is kept until that is decided
+  /** @type {Refusal | null} */
+  unsaved = null; // why the draft lacks what was drawn last; it is sent again until it is kept
   /** @type {Refusal} */
   trouble = later(); // the last one
   opened = 0; // how many documents have been opened
@@ -57,11 +62,22 @@ export class ScenarioStore extends Observable {
   #saved = null;
   #draft = "";
   #known = ""; // revision of the draft that this page has read or written; empty if there must be none
+  /** @type {ScenarioDocument | null} */
+  #sent = null; // the draft that was sent last
+  #retry = 0; // the timer of the next attempt
   #work = {
     survey: new Latest(() => this.#look()),
     findings: new Latest(() => this.#inspect()),
     draft: new Latest(() => this.#keep()),
   };
+
+  constructor() {
+    super();
+    connection.on("back", () => {
+      if (this.unsaved) this.#work.draft.ask();
+      if (this.opened && this.survey.of !== this.document) this.#work.survey.ask();
+    });
+  }
 
   /**
    * Begin with a document; one that is not in a file yet counts as changed.
@@ -84,6 +100,8 @@ export class ScenarioStore extends Observable {
     this.names = new Set([this.#draft, this.name]);
     this.#known = known;
     this.elsewhere = "";
+    this.unsaved = this.#sent = null;
+    clearTimeout(this.#retry);
     this.tell("document");
     this.tell("open");
     this.#work.survey.ask();
@@ -156,6 +174,8 @@ export class ScenarioStore extends Observable {
     if (this.#known) await remove(mine).catch(() => {}); // that of another page stays
     this.#draft = path;
     this.#known = this.elsewhere = "";
+    this.unsaved = null;
+    clearTimeout(this.#retry);
     this.tell("document");
   }
 
@@ -238,9 +258,9 @@ export class ScenarioStore extends Observable {
       this.site = survey.site ?? this.site;
       this.tell("survey");
       if (isLarge) this.#work.findings.ask();
-    } catch (trouble) {
-      this.trouble = /** @type {Refusal} */ (trouble);
-      this.tell("trouble");
+    } catch (error) {
+      this.trouble = /** @type {Refusal} */ (error);
+      if (this.trouble.kind !== UNREACHABLE) this.tell("trouble"); // else it is asked again
     }
   }
 
@@ -257,6 +277,7 @@ export class ScenarioStore extends Observable {
 
   async #keep() {
     if (this.elsewhere) return;
+    clearTimeout(this.#retry);
     const { document, opened } = this;
     const [name, before] = [this.#draft, this.#known];
     try {
@@ -264,12 +285,44 @@ export class ScenarioStore extends Observable {
       if (opened !== this.opened) return;
       this.#known = kept.revision;
       this.isKept = true;
+      this.unsaved = this.#sent = null;
     } catch (error) {
-      const trouble = /** @type {Refusal} */ (error);
-      if (opened === this.opened && trouble.status === CHANGED) this.elsewhere = name;
-      this.trouble = trouble;
-      this.tell(this.elsewhere ? "document" : "trouble");
+      if (opened === this.opened) await this.#lack(/** @type {Refusal} */ (error), name, document);
     }
+    if (opened === this.opened) this.tell("kept");
+  }
+
+  /**
+   * A draft was not kept: send it again, unless another page has changed it.
+   * @param {Refusal} trouble
+   * @param {string} name
+   * @param {ScenarioDocument} document
+   * @returns {Promise<void>}
+   */
+  async #lack(trouble, name, document) {
+    const isOurs = trouble.status !== CHANGED || (await this.#knowAgain(name));
+    if (trouble.kind === UNREACHABLE) this.#sent = document; // it may be kept, without an answer
+    this.unsaved = trouble;
+    if (isOurs) this.#retry = setTimeout(() => this.#work.draft.ask(), RETRY);
+    else this.elsewhere = name;
+  }
+
+  /**
+   * Learn the revision of a draft that is not the one that this page knows: one that was kept while the
+   * answer was lost, or none at all. False where it is of another page.
+   * @param {string} name
+   * @returns {Promise<boolean>}
+   */
+  async #knowAgain(name) {
+    try {
+      const there = await get(`/drafts/${inAddress(name)}`);
+      if (JSON.stringify(there.document) !== JSON.stringify(this.#sent)) return false;
+      this.#known = there.revision;
+    } catch (error) {
+      const { status } = /** @type {Refusal} */ (error);
+      if (status === 404) this.#known = ""; // the studio started again without it
+    }
+    return true;
   }
 }
 

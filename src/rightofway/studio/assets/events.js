@@ -1,6 +1,7 @@
 /** Passes events of runs on to the functions that this page has registered for one run, or for all runs. */
 
 import { get } from "./api.js";
+import { connection } from "./connection.js";
 import { hear, KnownRuns } from "./hear.js";
 /** @import { Events } from "./api_types.js" */
 /** @import { EventPair, Hearer, Tell } from "./types.js" */
@@ -25,6 +26,7 @@ export async function listenToAll(hearer) {
   /** @type {Hearer} */
   listener = hearer;
   if (isShared) await connect();
+  connection.on("back", () => void (isShared || hearAgain()));
   if (!isShared) return tell("runs", await get("/runs"));
   addEventListener("pageshow", ({ persisted }) => persisted && connect()); // it had been left
 }
@@ -38,7 +40,7 @@ export async function listenToAll(hearer) {
 export function listen(number, hearer) {
   if (!heard.has(number)) heard.set(number, new Set());
   heard.get(number)?.add(hearer);
-  if (!isShared) stream ??= hear(tell);
+  if (!isShared) stream ??= hear(tell, lost);
   const run = known.byNumber?.get(number);
   if (run) tellHearers("run", run); // it may be over already
 }
@@ -52,12 +54,13 @@ function connect() {
     const worker = new SharedWorker(new URL("./stream.js", import.meta.url), { type: "module" });
     const doWithout = () => {
       isShared = false;
-      if (heard.size) stream ??= hear(tell);
+      if (heard.size) stream ??= hear(tell, lost);
       resolve();
     };
     worker.onerror = doWithout; // older browsers share no modules
     const { port } = worker;
     port.onmessage = ({ data: [name, data] }) => {
+      if (name === "lost") return lost();
       if (name === "refused") return doWithout();
       tell(name, data);
       if (name === "runs") resolve();
@@ -65,6 +68,15 @@ function connect() {
     addEventListener("pagehide", () => port.postMessage("bye"), { once: true });
   });
 }
+
+/** Without a shared connection: the stream of before may have ended for good. */
+async function hearAgain() {
+  stream?.close();
+  stream = heard.size ? hear(tell, lost) : null;
+  tell("runs", await get("/runs"));
+}
+
+const lost = () => void connection.ask();
 
 /** @type {Tell} */
 const tell = (...event) => {

@@ -1,6 +1,6 @@
 /** Documents as cards: a small picture of the map, what it is, how many robots. */
 
-import { get, inAddress } from "./api.js";
+import { UNREACHABLE, get, inAddress } from "./api.js";
 import { html, useEffect, useRef, useState } from "./vendor/htm-preact.js";
 import { language, words } from "./words.js";
 import { present } from "./given.js";
@@ -33,7 +33,11 @@ function glance(source, name, revision) {
   const key = `${path} ${revision}`;
   if (!glances.has(key)) {
     /** @type {() => Promise<Seen>} */
-    const ask = () => get(path).catch(({ message }) => ({ trouble: message }));
+    const ask = () =>
+      get(path).catch(({ message, kind }) => {
+        if (kind === UNREACHABLE) glances.delete(key); // it is asked for again
+        return { trouble: message };
+      });
     last = last.then(ask);
     glances.set(key, last);
   }

@@ -1,9 +1,12 @@
 /** The head of the page: the file, back and forth, save, language, plan. */
 
 import { html } from "./vendor/htm-preact.js";
+import { connection } from "./connection.js";
 import { Field } from "./field.js";
 import { Icon } from "./icons.js";
+import { present } from "./given.js";
 import { LANGUAGES, language, words } from "./words.js";
+/** @import { ScenarioStore } from "./document.js" */
 /** @import { Props } from "./types.js" */
 /** @import { PageEvent } from "./vendor/htm-preact.js" */
 
@@ -21,8 +24,27 @@ export function Header({ studio }) {
         <button type="button" aria-label=${words.keys} title=${`${words.keys} (?)`} onClick=${() => studio.help(true)}><${Icon} name="help" /></button>
         ${!isStarting && html`<${PlanButton} studio=${studio} />`}
       </div>
+      <${Unsaved} studio=${studio} />
     </header>`;
 }
+
+/**
+ * What keeps changes from being saved, as long as it does.
+ * @param {Props} props
+ */
+function Unsaved({ studio }) {
+  const unsaved = studio.isStarting ? null : studio.store.unsaved;
+  if (!connection.isLost && !unsaved) return null;
+  const reason = connection.isLost
+    ? words.noConnection
+    : html`<span lang="en">${present(unsaved).message}</span>`;
+  const text = unsaved ? words.unsaved : words.noAnswer;
+  return html`<p class="unsaved" role="alert"><b>${unsaved ? `${words.notSaved}. ` : ""}${reason}</b> ${text}</p>`;
+}
+
+/** @param {ScenarioStore} store */
+const stateOf = ({ isSaved, unsaved }) =>
+  isSaved ? words.saved : unsaved ? words.notSaved : words.keptAsDraft;
 
 /** @param {Props} props */
 function File({ studio }) {
@@ -59,7 +81,7 @@ function File({ studio }) {
       <button type="button" class="with-icon" title=${words.toFiles} onClick=${() => studio.toStart()}><${Icon} name="files" /><span>${words.files}</span></button>
       <${Field} class="file-name" aria-label=${words.fileName} title=${store.path || words.fileName} placeholder=${words.unnamed} value=${store.path} spellcheck="false" onChange=${rename} onKeyDown=${enter} />
       <button type="button" class="framed" title=${`${words.save} (Ctrl+S)`} onClick=${() => shelf.save()}>${words.save}</button>
-      <span class="state" role="status" title=${store.isSaved ? "" : words.draftHint}>${store.isSaved ? words.saved : words.keptAsDraft}</span>
+      <span class="state" role="status" title=${store.isSaved ? "" : words.draftHint}>${stateOf(store)}</span>
     </div>
     <div class="actions">
       ${press("undo", words.undo, "Ctrl+Z", !store.canUndo, () => store.undo())}

@@ -8,18 +8,22 @@ const EVENTS = ["runs", "run", "progress", "plan", "deleted"];
 
 /**
  * Hear of all runs: first the list of them, then what happens; `refused` is called where there is no
- * stream. The browser opens it again where it is lost.
+ * stream, `lost` where it has ended. The browser opens one that is lost again.
  * @param {Tell} tell
+ * @param {() => void} lost
  * @param {() => void} [refused]
  * @returns {EventSource}
  */
-export function hear(tell, refused = () => {}) {
+export function hear(tell, lost, refused = () => {}) {
   const stream = new EventSource("/api/v1/events");
   for (const name of EVENTS)
     stream.addEventListener(name, ({ data }) =>
       tell(.../** @type {EventPair} */ ([name, JSON.parse(data)])),
     );
-  stream.onerror = () => stream.readyState === EventSource.CLOSED && refused();
+  stream.onerror = () => {
+    lost();
+    if (stream.readyState === EventSource.CLOSED) refused();
+  };
   return stream;
 }
 

@@ -1,6 +1,7 @@
 /** A line below the map: the one thing to do next; and how the plan has changed by the last change. */
 
 import { html } from "./vendor/htm-preact.js";
+import { connection } from "./connection.js";
 import { nameOf } from "./fault_place.js";
 import { robotsOf } from "./robots/fleet.js";
 import { Change } from "./runs/change.js";
@@ -40,7 +41,7 @@ function PlanHint({ studio }) {
   const { runs, stage, store } = studio;
   const { running, losses } = runs;
   if (stage.isPicking) return words.pressToClose;
-  if (running) return words.planning;
+  if (running) return connection.isLost ? words.stateUnknown : words.planning;
   if (stage.isPlan && stage.plan.faultCount)
     return html`<b class="wrong">${doNotRun(stage.plan.faultCount)}</b>`;
   const { robot } = stage.choice ?? {};

@@ -18,6 +18,10 @@ const tell = (...event) => {
   for (const page of pages) page.postMessage(event);
 };
 
+function lost() {
+  for (const page of pages) page.postMessage(["lost"]);
+}
+
 function refused() {
   [known, stream] = [new KnownRuns(), null]; // the next page tries again
   for (const page of pages) page.postMessage(["refused"]);
@@ -27,7 +31,7 @@ function refused() {
 const connected = ({ ports: [page] }) => {
   pages.add(page);
   page.onmessage = () => pages.delete(page); // it is being left
-  stream ??= hear(tell, refused);
+  stream ??= hear(tell, lost, refused);
   if (known.byNumber) page.postMessage(["runs", { runs: [...known.byNumber.values()] }]);
 };
 Object.assign(self, { onconnect: connected }); // of a shared worker, which `self` is here

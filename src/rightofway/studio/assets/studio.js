@@ -1,6 +1,7 @@
 /** The studio as a whole: which document, which tab, what the server has refused. */
 
-import { address, get, post } from "./api.js";
+import { UNREACHABLE, address, get, post } from "./api.js";
+import { connection } from "./connection.js";
 import { ScenarioStore } from "./document.js";
 import { Backdrop } from "./draw/backdrop.js";
 import { Clipboard } from "./draw/clipboard.js";
@@ -63,7 +64,8 @@ export class Studio extends Observable {
     this.places = new PlaceDrag(this.editor, (edit) => this.#drop(edit));
     /** @type {[Observable, string[]][]} */
     const sources = [
-      [this.store, ["document", "survey", "findings"]],
+      [this.store, ["document", "survey", "findings", "kept"]],
+      [connection, ["lost", "back"]],
       [this.runs, ["runs"]],
       [this.editor, ["editor"]],
       [this.backdrop, ["image"]],
@@ -72,6 +74,8 @@ export class Studio extends Observable {
     ];
     for (const [source, events] of sources)
       for (const event of events) source.on(event, () => this.tell("change"));
+    addEventListener("beforeunload", (event) => this.store.unsaved && event.preventDefault());
+    connection.on("back", () => void (this.isStarting && this.attempt(() => this.shelf.list())));
     this.store.on("survey", () => this.#surveyed());
     for (const event of ["undo", "redo"]) this.store.on(event, () => this.#showItsPlan());
     this.store.on("trouble", () => this.complain(this.store.trouble));
@@ -108,10 +112,11 @@ export class Studio extends Observable {
   }
 
   /**
-   * @param {{message?: string, faults?: Complaint[]}} refusal
+   * @param {{message?: string, faults?: Complaint[], kind?: string}} refusal
    * @returns {void}
    */
-  complain({ message, faults }) {
+  complain({ message, faults, kind }) {
+    if (kind === UNREACHABLE) return; // the head says so as long as it lasts
     this.complaints = faults?.length ? faults : [{ place: "", message: message ?? "" }];
     this.tell("change");
   }
@@ -156,7 +161,9 @@ export class Studio extends Observable {
     this.tell("change");
   }
 
+  /** Show all files; not while what is drawn here is nowhere else. */
   toStart() {
+    if (this.store.unsaved && !this.isStarting) return this.notices.say(words.unsavedStay);
     return this.attempt(async () => {
       this.isStarting = true;
       this.place.leave();

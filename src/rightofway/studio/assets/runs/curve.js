@@ -1,11 +1,12 @@
 /** How the flowtime of runs came down over time, towards the lower bound; while one runs, as it comes. */
 
 import { html, useEffect, useState } from "../vendor/htm-preact.js";
+import { connection } from "../connection.js";
 import { Quantities } from "../../../viz/page/assets/quantities.js";
 import { words } from "../words.js";
 import { secondsOf } from "./list.js";
 import { faultsOf } from "./faults.js";
-import { isOver } from "./run_store.js";
+import { isOver, stateOf } from "./run_store.js";
 import { Term } from "./term.js";
 /** @import { Studio } from "../studio.js" */
 /** @import { Axes, LiveRun } from "../types.js" */
@@ -90,8 +91,8 @@ function Caption({ run: { state, figures, status }, isFaulty, bound, seconds }) 
   const isLive = !isOver({ state });
   const said = !isFaulty && figures?.tick && new Quantities(figures.units, figures.tick);
   return html`<figcaption>
-    ${isLive && html`<span role="status">${words.states[state]}</span> `}
-    ${state === "running" && `${seconds.toFixed(1)} s `}
+    ${isLive && html`<span role="status">${stateOf({ state })}</span> `}
+    ${state === "running" && !connection.isLost && `${seconds.toFixed(1)} s `}
     ${said && html`<${Term} of="flowtime" /> <b>${said.duration(figures.flowtime)}</b>, `}
     ${said && html`<${Term} of="bound" /> ${said.duration(figures.lower_bound)}`}
     ${said && figures.flowtime > (bound ?? Infinity) && ` (+${figures.text.gap})`}
@@ -168,7 +169,7 @@ function endOf(run, seconds, current) {
  */
 function useSeconds(run) {
   const [, look] = useState(0);
-  const isRunning = run.state === "running";
+  const isRunning = run.state === "running" && !connection.isLost;
   useEffect(() => {
     if (!isRunning) return undefined;
     const timer = setInterval(() => look((count) => count + 1), PERIOD);

@@ -2,13 +2,23 @@
 
 import { html, useEffect, useState } from "../vendor/htm-preact.js";
 import { get, post } from "../api.js";
+import { connection } from "../connection.js";
 import { language, words } from "../words.js";
 import { Causes, notation } from "./causes.js";
 import { showModal } from "./comparison.js";
+/** @import { Refusal } from "../api.js" */
 /** @import { DriveData } from "../api_types.js" */
 /** @import { Cause, Props } from "../types.js" */
 
 const EVERY = 1000; // so often it is asked whether robots still drive [ms]
+
+/**
+ * A drive of which the studio has nothing to say: it ended with the studio that it was of.
+ * @param {DriveData} drive
+ * @param {Refusal} refusal
+ * @returns {DriveData}
+ */
+const without = (drive, { status }) => (status === 404 ? { ...drive, state: "failed" } : drive);
 
 /** @param {Props} props */
 export function Drives({ studio }) {
@@ -21,10 +31,11 @@ export function Drives({ studio }) {
   const isDriving = drive?.state === "driving";
   useEffect(() => {
     if (!isDriving) return undefined;
-    const timer = setInterval(
-      () => studio.attempt(async () => setDrive(await get(`/drives/${drive.number}`))),
-      EVERY,
-    );
+    const look = async () => {
+      if (connection.isLost) return;
+      setDrive(await get(`/drives/${drive.number}`).catch((refusal) => without(drive, refusal)));
+    };
+    const timer = setInterval(look, EVERY);
     return () => clearInterval(timer);
   }, [drive?.number, isDriving]);
   if (!run?.has_plan) return null;
@@ -52,7 +63,7 @@ export function Drives({ studio }) {
     </form>
     ${
       drive &&
-      html`<p class="drive" role="status">${words.driveStates[drive.state](drive.run)}</p>
+      html`<p class="drive" role="status">${isDriving && connection.isLost ? words.stateUnknown : words.driveStates[drive.state](drive.run)}</p>
       ${drive.error && html`<p class="trouble" lang="en">${drive.error.message}</p>`}
       <div class="buttons">
         <button type="button" class="framed" onClick=${() => setOpen(true)}>${words.watchDrive}</button>

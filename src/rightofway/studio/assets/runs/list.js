@@ -5,7 +5,7 @@ import { Field } from "../field.js";
 import { Quantities } from "../../../viz/page/assets/quantities.js";
 import { words } from "../words.js";
 import { doNotRun, faultsOf, inShort } from "./faults.js";
-import { canBeShown, isOver, isWithoutPlan } from "./run_store.js";
+import { canBeShown, isOver, isWithoutPlan, stateOf } from "./run_store.js";
 /** @import { ErrorData, PlanFigures, RunData } from "../api_types.js" */
 /** @import { Studio } from "../studio.js" */
 /** @import { LiveRun, Props } from "../types.js" */
@@ -185,7 +185,7 @@ function Row({ studio, run, order, isOwn }) {
     (run.kind === "plan" ? runs.planners.default : words.runKinds[run.kind]);
   const took = secondsOf(run);
   const title = isOwn ? method : titleOf(run);
-  const rest = [run.name || !isOwn ? method : "", words.states[run.state], ...runs.notes.on(run)];
+  const rest = [run.name || !isOwn ? method : "", stateOf(run), ...runs.notes.on(run)];
   const about = rest.filter(Boolean).join(" · ");
   const flowtime = figures?.tick
     ? new Quantities(figures.units, figures.tick).short(figures.flowtime)

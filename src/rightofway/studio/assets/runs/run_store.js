@@ -2,6 +2,7 @@
 
 import { Observable } from "../../../viz/page/assets/observable.js";
 import { get, patch, post, remove } from "../api.js";
+import { connection } from "../connection.js";
 import { listen, listenToAll } from "../events.js";
 import { words } from "../words.js";
 import { RunNotes } from "./notes.js";
@@ -26,6 +27,14 @@ export const canBeShown = (run) => run.has_plan || run.has_payload;
  * @returns {boolean}
  */
 export const isWithoutPlan = (run) => isOver(run) && !canBeShown(run); // it failed or was cancelled
+
+/**
+ * What a run does, in words; where the server does not answer, nobody knows of one that was going on.
+ * @param {Pick<RunData, "state">} run
+ * @returns {string}
+ */
+export const stateOf = (run) =>
+  connection.isLost && !isOver(run) ? words.stateUnknown : words.states[run.state];
 
 const NO_COMMAND = ["flip", "opened"]; // kinds of runs that no command makes
 const MOST_COMPARED = 8; // as the library has it

@@ -18,6 +18,13 @@ export const GERMAN = {
   saved: "Gespeichert",
   savedAs: (name) => `Gespeichert als ${name}.`,
   keptAsDraft: "Entwurf",
+  notSaved: "Nicht gespeichert",
+  unsaved:
+    "Die letzten Änderungen werden gesendet, bis sie gespeichert sind: diese Seite offen lassen.",
+  noConnection: "Keine Verbindung zum Studio.",
+  noAnswer: "Änderungen werden erst gespeichert, wenn es wieder antwortet.",
+  unsavedStay: "Die letzten Änderungen sind noch nicht gespeichert: auf dieser Seite bleiben.",
+  stateUnknown: "Unbekannt: keine Verbindung zum Studio.",
   draftHint: "Jede Änderung bleibt als Entwurf erhalten. Speichern schreibt eine Datei.",
   fileName: "Name der Datei",
   unnamed: "Ohne Namen",
