@@ -2,16 +2,31 @@
 
 from __future__ import annotations
 
+import json
+import os
+import re
 import sqlite3
 import subprocess
 import sys
+from contextlib import closing
 from pathlib import Path
 
 import pytest
 
-from rightofway.control import Entry, JournalFailed, JournalReader, SqliteJournal
+from rightofway.control import (
+    Entry,
+    FleetControl,
+    JournalFailed,
+    JournalReader,
+    SqliteJournal,
+)
+from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.journal import BatchedJournal, JournalRow
+from rightofway.control.recording import Recording
 from rightofway.errors import InputError
+from tests.builders.chaos import MemoryJournal
+from tests.builders.floors import Floor
+from tests.builders.plans import door
 
 ENTRIES: list[Entry] = [{"kind": "started"}, {"kind": "arrived", "robot": 0, "visit": 3}]
 
@@ -28,7 +43,8 @@ def test_what_was_committed_is_there_after_the_next_start(tmp_path: Path) -> Non
 
 def test_a_journal_is_open_once(tmp_path: Path) -> None:
     journal = SqliteJournal(tmp_path / "run.journal")
-    with pytest.raises(InputError, match=r"run\.journal: cannot be used .* stop the process"):
+    owner = rf"another control has it open, process {os.getpid()} on \S+ \(.*stop the process"
+    with pytest.raises(InputError, match=rf"run\.journal: cannot be used as a journal: {owner}"):
         SqliteJournal(tmp_path / "run.journal")
     journal.close()
 
@@ -140,3 +156,104 @@ def test_each_snapshot_says_when_the_run_began(tmp_path: Path) -> None:
         journal.begin_again({"kind": "snapshot"})
     assert list(journal.read_history()) == [{"kind": "snapshot", "began": 10}] * 2
     journal.close()
+
+
+# --- files of other versions, and damaged ones ----------------------------------------------------
+
+
+@pytest.fixture
+def driven(tmp_path: Path) -> Path:
+    """Return the journal of a run with a snapshot, of which the first entries have gone."""
+    path = tmp_path / "door.journal"
+    journal = SqliteJournal(path)
+    dispatcher = Dispatcher(FleetControl(journal), door())
+    dispatcher.begin("run")
+    floor = Floor(dispatcher)
+    floor.drive(3)
+    for _ in range(2):
+        journal.begin_again(dispatcher.ledger.make_snapshot())
+        floor.drive(3)
+    journal.close()
+    return path
+
+
+def change(path: Path, *queries: str) -> None:
+    """Change a journal by hand."""
+    with closing(sqlite3.connect(path)) as database:
+        for query in queries:
+            database.execute(query)
+        database.commit()
+
+
+def start(path: Path) -> None:
+    """Start a control on a journal, and read it for a page."""
+    with closing(JournalReader(path)) as reader:
+        Recording(door(), reader).read_on()
+    with closing(SqliteJournal(path)) as journal:
+        FleetControl(journal).start()
+
+
+def test_a_journal_carries_its_version_and_a_newer_one_is_refused(driven: Path) -> None:
+    start(driven)
+    with closing(sqlite3.connect(driven)) as database:
+        assert database.execute("PRAGMA user_version").fetchone() == (1,)
+    change(driven, "PRAGMA user_version = 2")
+    for opens in (SqliteJournal, JournalReader):
+        with pytest.raises(InputError, match=r"door\.journal: is a journal of version 2, and this"):
+            opens(driven)
+
+
+def test_a_journal_in_which_an_entry_is_missing_is_refused(driven: Path) -> None:
+    """Whichever it is, the first or the last one, too."""
+    with closing(sqlite3.connect(driven)) as database:
+        numbers = [number for (number,) in database.execute("SELECT number FROM entries")]
+    assert numbers[0] > 1
+    whole = driven.read_bytes()
+    for number in numbers:
+        driven.write_bytes(whole)
+        change(driven, f"DELETE FROM entries WHERE number = {number}")  # noqa: S608 (our own)
+        for opens in (SqliteJournal, JournalReader):
+            with pytest.raises(InputError, match=r"missing: the file is damaged"):
+                opens(driven)
+
+
+@pytest.mark.parametrize(
+    "query",
+    [
+        "ALTER TABLE entries RENAME COLUMN entry TO word",
+        "ALTER TABLE snapshots RENAME COLUMN number TO count",
+        "DROP TABLE entries",
+        "DELETE FROM entries",
+    ],
+)
+def test_a_journal_of_another_make_is_refused(driven: Path, query: str) -> None:
+    change(driven, query)
+    with pytest.raises(InputError, match=r"door\.journal: "):
+        start(driven)
+
+
+KEYS = {"robot", "visit", "kind"}
+WRONG: tuple[object, ...] = (None, -1, 99, 1.5, "x", [], {}, True)
+"""What a value may be instead."""
+
+
+def test_a_journal_with_a_wrong_entry_is_refused_with_its_number_or_drives(driven: Path) -> None:
+    """Each key of each entry is left out; robots, visits and kinds have wrong values."""
+    with closing(sqlite3.connect(driven)) as database:
+        rows = database.execute("SELECT number, entry FROM entries ORDER BY 1").fetchall()
+    refused = list[str]()
+    for index, (_, own) in enumerate(rows):
+        entry = json.loads(own)
+        changes = [{key: value for key, value in entry.items() if key != left} for left in entry]
+        changes += [{**entry, key: value} for key in {*entry} & KEYS for value in WRONG]
+        for changed in [*changes, {**entry, "kind": "of a newer version"}, [], "x"]:
+            altered = [json.loads(text) for _, text in rows]
+            altered[index] = changed
+            journal = MemoryJournal()
+            journal.written = altered
+            try:
+                FleetControl(journal).start()
+            except InputError as error:
+                refused.append(str(error))
+    assert len(refused) > 100
+    assert all(re.match(r"entry\[\d+\]: ", message) for message in refused)

@@ -41,6 +41,7 @@ from rightofway.cli.terminal import (
     say_written,
 )
 from rightofway.cli.watch import WatchPage, add_page_options
+from rightofway.errors import name_file
 from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
@@ -341,17 +342,18 @@ def _drive_at(
         counted.serve(metrics)
     with ExitStack() as stack:
         with closing(SqliteJournal(journal)) as opened:
-            driver = Driver(
-                plan,
-                identities,
-                opened,
-                laps=laps,
-                commands=Commands(journal),
-                switch=switch,
-                report=_narrate,
-                metrics=counted,
-                began=opened.read_begin(),
-            )
+            with name_file(str(journal)):
+                driver = Driver(
+                    plan,
+                    identities,
+                    opened,
+                    laps=laps,
+                    commands=Commands(journal),
+                    switch=switch,
+                    report=_narrate,
+                    metrics=counted,
+                    began=opened.read_begin(),
+                )
             if output.is_live:
                 stack.enter_context(shown.serve(journal, takes_orders=True))
             gc.freeze()  # what lives as long as the control: a look through it takes 100 ms

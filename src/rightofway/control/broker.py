@@ -48,7 +48,7 @@ class LatestMessages(asyncio.Queue[Any]):
     facts only grow, and the latest state has all of them. It has the last node of its order, and
     actions stay in its list, FINISHED, as long as the robot has that order. The control sends no
     other order before it has taken a state that allows it. Of a connection only the latest state
-    counts, and a robot reports its factsheet anew when it is asked.
+    counts, and a robot reports its factsheet again when it is asked.
     """
 
     def _init(self, maxsize: int) -> None:  # noqa: ARG002 (the number of topics is the limit)

@@ -44,7 +44,7 @@ LONGEST_EXCERPT = 200
 ROUNDING = 1e-3
 """By how much a factsheet may miss the plan [m, m/s]: its numbers are rounded."""
 
-FACTSHEET = {
+FACTSHEET: dict[str, dict[str, Any]] = {
     "typeSpecification": {
         "seriesName": "simulated",
         "agvKinematic": "DIFF",
@@ -462,7 +462,13 @@ class RobotEnd:
 
     def report_factsheet(self) -> Letter:
         """Return what it is, as it is sent."""
-        return self._writer.make_letter(self._identity, "factsheet", FACTSHEET)
+        sheet: dict[str, Any] = FACTSHEET
+        if self._identity.version >= "3":
+            # The schema of the tag 3.0.0 requires this key without an s, that of main with one.
+            kinds = FACTSHEET["typeSpecification"]
+            own = {**kinds, "mobileRobotKinematic": kinds["agvKinematic"]}
+            sheet = {**FACTSHEET, "typeSpecification": own}
+        return self._writer.make_letter(self._identity, "factsheet", sheet)
 
 
 def _write(

@@ -114,8 +114,8 @@ class FleetControl:
         self.may_drive: Callable[[int, str, str], bool] = lambda *_: True
         self.may_enter: Callable[[int, int], bool] = lambda *_: True
         self._since_snapshot = 0
-        for entry in journal.read_entries():
-            self.ledger.apply(entry)
+        for number, entry in enumerate(journal.read_entries(), 1):
+            self.ledger.read(number, entry)
             self._since_snapshot += 1
 
     # --- what starts and changes the work --------------------------------------------------------

@@ -8,11 +8,13 @@ people who look at it later; no release depends on it.
 from __future__ import annotations
 
 import json
+import os
 import sqlite3
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import closing, contextmanager
 from pathlib import Path
+from socket import gethostname
 from typing import Any, NamedTuple, Protocol
 
 from rightofway.errors import InputError, quote
@@ -20,6 +22,9 @@ from rightofway.errors import InputError, quote
 Entry = Mapping[str, Any]
 """A journal entry as JSON has it, with its ``kind``."""
 
+
+VERSION = 1
+"""The version of the file, its ``user_version``; 0 in files from before there were versions."""
 
 UNFOLDED = ("notice", "pace")
 """Kinds of entries that are for people only: no snapshot has them, and no control reads them."""
@@ -91,44 +96,55 @@ class SqliteJournal:
     """
 
     def __init__(self, path: Path, now: Callable[[], float] = time.time) -> None:
-        self._now = now
+        self._path, self._now = path, now
         try:
             self._lock = sqlite3.connect(_lock_of(path), timeout=0.5, isolation_level=None)
         except sqlite3.Error as error:
-            raise self._refused(path, error) from error
+            raise self._refused(path, str(error)) from error
         try:
             self._lock.execute("BEGIN EXCLUSIVE")  # the lock ends with the process
             self._database = sqlite3.connect(path, timeout=5, isolation_level=None)
         except sqlite3.Error as error:
             self._lock.close()
-            raise self._refused(path, error) from error
+            raise self._refused(path, _find_owner(path) or str(error)) from error
         try:
+            _refuse_newer(self._database, path)
             self._database.execute("PRAGMA journal_mode = WAL")
             self._database.execute("PRAGMA synchronous = FULL")
             self._database.execute(
                 "CREATE TABLE IF NOT EXISTS entries"
-                " (number INTEGER PRIMARY KEY, entry TEXT, moment REAL)"
+                " (number INTEGER PRIMARY KEY AUTOINCREMENT, entry TEXT, moment REAL)"
             )
             if not _has_moments(self._database):  # of an earlier version
                 self._database.execute("ALTER TABLE entries ADD COLUMN moment REAL")
             self._database.execute("CREATE TABLE IF NOT EXISTS snapshots (number INTEGER)")
+            _refuse_gaps(self._database, path)
+            self._database.execute("CREATE TABLE IF NOT EXISTS owner (process INTEGER, host TEXT)")
+            self._database.execute("DELETE FROM owner")
+            self._database.execute("INSERT INTO owner VALUES (?, ?)", (os.getpid(), gethostname()))
+            self._database.execute(f"PRAGMA user_version = {VERSION}")
         except sqlite3.Error as error:
             self.close()
-            raise self._refused(path, error) from error
+            raise self._refused(path, str(error)) from error
+        except InputError:
+            self.close()
+            raise
 
     @staticmethod
-    def _refused(path: Path, error: sqlite3.Error) -> InputError:
+    def _refused(path: Path, reason: str) -> InputError:
         remedy = "name another file, or stop the process that has it open"
-        return InputError.at(str(path), f"cannot be used as a journal: {error} ({remedy})")
+        return InputError.at(str(path), f"cannot be used as a journal: {reason} ({remedy})")
 
     def read_entries(self) -> Iterator[Entry]:
         """Yield all entries in their order, from the last snapshot on."""
-        last = self._database.execute("SELECT max(number) FROM snapshots").fetchone()[0]
+        with _report_damage(self._path):
+            last = self._database.execute("SELECT max(number) FROM snapshots").fetchone()[0]
         return self._entries(last or 0)
 
     def read_begin(self) -> float | None:
         """Return the moment of the first entry of the run [s]; None if none is known."""
-        began: float | None = _find_begin(self._database).get("began")
+        with _report_damage(self._path):
+            began: float | None = _find_begin(self._database).get("began")
         return began
 
     def read_history(self) -> Iterator[Entry]:
@@ -136,15 +152,11 @@ class SqliteJournal:
         return self._entries(0)
 
     def _entries(self, first: int) -> Iterator[Entry]:
-        rows = self._database.execute(
-            "SELECT number, entry FROM entries WHERE number >= ? ORDER BY 1", (first,)
-        )
+        query = "SELECT number, entry FROM entries WHERE number >= ? ORDER BY 1"
+        with _report_damage(self._path):
+            rows = self._database.execute(query, (first,)).fetchall()
         for number, text in rows:
-            try:
-                yield json.loads(text)
-            except ValueError as error:
-                message = f"{quote(text)} is no entry of a journal (name another file)"
-                raise InputError.at(("entry", number), message) from error
+            yield _read_entry(number, text)
 
     def commit(self, entries: Iterable[Entry]) -> None:
         """Append entries in one transaction."""
@@ -210,6 +222,8 @@ class JournalReader:
             )
             self._database.execute("PRAGMA query_only = TRUE")
             self._database.execute("SELECT 1 FROM entries LIMIT 1")
+            _refuse_newer(self._database, path)
+            _refuse_gaps(self._database, path)
         except sqlite3.Error as error:
             message = f"cannot be read as a journal: {error} (name the journal of rightofway drive)"
             raise InputError.at(str(path), message) from error
@@ -224,8 +238,9 @@ class JournalReader:
             The number of an entry.
         """
         query = f"SELECT number, {self._moment}, entry FROM entries WHERE number > ? ORDER BY 1"  # noqa: S608 (no text of others)
-        rows = self._database.execute(query, (after,))
-        return [JournalRow(number, moment, json.loads(text)) for number, moment, text in rows]
+        with _report_damage(self._path):
+            rows = self._database.execute(query, (after,)).fetchall()
+        return [JournalRow(number, at, _read_entry(number, text)) for number, at, text in rows]
 
     @property
     def is_written(self) -> bool:
@@ -291,17 +306,87 @@ class BatchedJournal:
             self._pending = []
 
 
+@contextmanager
+def _report_damage(path: Path) -> Iterator[None]:
+    """Report what SQLite cannot read as a fault of the file."""
+    try:
+        yield
+    except sqlite3.Error as error:
+        message = f"cannot be read: {error} (the file is damaged: name another one)"
+        raise InputError.at(str(path), message) from error
+
+
+def _read_entry(number: int, text: Any) -> Entry:
+    """Return the entry of a row."""
+    try:
+        entry = json.loads(text)
+    except (TypeError, ValueError, RecursionError):
+        entry = None
+    if not isinstance(entry, dict) or not isinstance(entry.get("kind"), str):
+        message = f"{quote(text)} is no entry of a journal (name another file)"
+        raise InputError.at(("entry", number), message)
+    return entry
+
+
+def _refuse_newer(database: sqlite3.Connection, path: Path) -> None:
+    """Refuse a file of a version that is not known yet."""
+    (version,) = database.execute("PRAGMA user_version").fetchone()
+    if version > VERSION:
+        message = (
+            f"is a journal of version {version}, and this program reads versions up to {VERSION}"
+            " (use a newer rightofway)"
+        )
+        raise InputError.at(str(path), message)
+
+
+def _refuse_gaps(database: sqlite3.Connection, path: Path) -> None:
+    """Refuse a file in which entries are missing: numbers rise by one, from 1 or a snapshot on."""
+    query = "SELECT count(*), min(number), max(number) FROM entries"
+    count, first, last = database.execute(query).fetchone()
+    snapshots = {number for (number,) in database.execute("SELECT number FROM snapshots")}
+    query = "SELECT count(*) FROM sqlite_master WHERE name = 'sqlite_sequence'"
+    if database.execute(query).fetchone()[0]:  # journals of before do not count
+        query = "SELECT max(seq) FROM sqlite_sequence WHERE name = 'entries'"
+        last = database.execute(query).fetchone()[0] or last
+    if not last:
+        return
+    expected = min(snapshots, default=1)
+    if first not in {1, expected}:
+        missing = f"entries before {first} are missing" if first else "all entries are missing"
+    elif count != last - first + 1:
+        query = (
+            "SELECT number + 1 FROM entries WHERE number + 1 NOT IN"
+            " (SELECT number FROM entries) ORDER BY 1 LIMIT 1"
+        )
+        missing = f"entry {database.execute(query).fetchone()[0]} is missing"
+    else:
+        return
+    raise InputError.at(str(path), f"{missing}: the file is damaged (name another one)")
+
+
+def _find_owner(path: Path) -> str:
+    """Return which control has a journal open; empty where that is not known."""
+    try:
+        with closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro", uri=True)) as database:
+            row = database.execute("SELECT process, host FROM owner").fetchone()
+    except sqlite3.Error:
+        return ""
+    return f"another control has it open, process {row[0]} on {row[1]}" if row else ""
+
+
 def _text_of(entry: Entry) -> str:
     return json.dumps(entry, separators=(",", ":"))
 
 
 def _find_begin(database: sqlite3.Connection) -> Entry:
     """Return the moment at which the run began, as a snapshot has it; nothing if none is known."""
-    row = database.execute("SELECT entry, moment FROM entries ORDER BY number LIMIT 1").fetchone()
+    query = "SELECT number, entry, moment FROM entries ORDER BY number LIMIT 1"
+    row = database.execute(query).fetchone()
     if row is None:
         return {}
-    began = json.loads(row[0]).get("began", row[1])
-    return {} if began is None else {"began": began}
+    number, text, moment = row
+    began = _read_entry(number, text).get("began", moment)
+    return {"began": began} if isinstance(began, int | float) else {}
 
 
 def _lock_of(path: Path) -> Path:

@@ -9,6 +9,7 @@ from typing import Any
 from rightofway.control.journal import UNFOLDED, Entry
 from rightofway.control.robot_ledger import APPLY_TO_ROBOT, RobotLedger
 from rightofway.control.routes import RouteToDrive
+from rightofway.errors import InputError, describe_error, quote
 from rightofway.precedence import Arrival, Part, ReleaseGraph
 
 Names = tuple[str, ...]
@@ -95,6 +96,45 @@ class Ledger:
         if start != f"{self.run}-{robot}" or not is_short or digits != str(int(digits)):
             return None
         return int(digits) if int(digits) < count else None
+
+    def read(self, number: int, entry: Entry) -> None:
+        """Take in an entry that a file has.
+
+        Parameters
+        ----------
+        number
+            Of the entry.
+        entry
+            The next entry of the journal.
+
+        Raises
+        ------
+        InputError
+            If it is of an unknown kind, or contradicts the entries before it.
+        """
+        try:
+            if entry["kind"] in APPLY_TO_ROBOT and entry["robot"] not in range(len(self.robots)):
+                raise IndexError(entry["robot"])  # noqa: TRY301 (negative ones, too)
+            self.apply(entry)
+            self._refuse_contradictions(entry)
+        except Exception as error:
+            message = (
+                f"{quote(str(entry))} cannot be read: {describe_error(error)[:200]}"
+                " (the file is damaged, or of another version: name another one)"
+            )
+            raise InputError.at(("entry", number), message) from error
+
+    def _refuse_contradictions(self, entry: Entry) -> None:
+        """Refuse robots that an entry has put off their routes; a control makes no such entry."""
+        if entry["kind"] == "placed":
+            return  # the splice with its route follows
+        is_of_robot = entry["kind"] in APPLY_TO_ROBOT
+        for own in [self.robots[entry["robot"]]] if is_of_robot else self.robots:
+            visits = (own.route.first, own.arrived, own.released, own.route.end)
+            if {*map(type, visits)} != {int} or not (
+                own.route.first <= own.arrived <= own.released < own.route.end
+            ):
+                raise ValueError(f"visits are not in their order: {visits}")
 
     def apply(self, entry: Entry) -> None:
         """Take in an entry.

@@ -191,7 +191,7 @@ class Recording:
         """Take in an entry; return the robots of which it may say something."""
         entry = row.entry
         kind = entry["kind"]
-        self._ledger.apply(entry)
+        self._ledger.read(row.number, entry)
         if kind == "notice":
             self._notice(entry, tick)
             return ()
