@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 
 import rightofway
 from rightofway.check import check
-from rightofway.cyclic import run_laps
+from rightofway.cyclic import find_best_timetable, run_laps
+from rightofway.cyclic.to_plan import unroll_laps
 from rightofway.errors import GaveUp, InputError, NoPlanExists, RightOfWayError
 from rightofway.io import parse_scenario
 from rightofway.model import Plan, PlannerRun, Scenario
@@ -135,3 +136,25 @@ def test_plans_have_no_rotation_and_what_is_proven_is_true(fleet: Scenario, plan
     assert plan.lower_bound <= least.flowtime <= plan.flowtime
     if plan.run.outcome is not None and plan.run.outcome.kind == "optimal":
         assert plan.flowtime == least.flowtime
+
+
+def works_away_from_home(fleet: Scenario) -> bool:
+    return all(robot.home != robot.stops[0].at for robot in fleet.robots)
+
+
+@law(crowds().filter(works_away_from_home), st.booleans())
+def test_laps_have_no_rotation(fleet: Scenario, is_chosen: bool) -> None:
+    fleet = replace(fleet, closures=(), rules=replace(fleet.rules, ends="home"))
+    try:
+        if is_chosen:
+            run = find_best_timetable(fleet, time_limit=None, rounds=2)
+        else:
+            run = run_laps(fleet, time_limit=5)
+        plan = unroll_laps(run, 4)
+    except RightOfWayError as reason:
+        leave(type(reason).__name__)
+    ends = min(int(track.enter[-1]) for track in plan.tracks)
+    assert not [fault for fault in check(plan).faults if fault.tick < ends]
+    for group in run.groups:  # only who would rotate keeps a headway
+        kept = group.context.booking_rules != fleet.problem.booking_rules
+        assert kept == group.context.is_apart
