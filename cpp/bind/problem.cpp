@@ -87,6 +87,8 @@ distance, distance_limbs : float64[K * K], uint32[K * K * L]
     same exactly, as coordinates are. [length unit]
 zone_first, zone_member : int32[Z + 1], int32[n]
     Zone ``z`` has the resources ``zone_member[zone_first[z]:zone_first[z + 1]]``.
+chain_first, chain_vertex : int32[C + 1] or None, int32[n] or None
+    Chain ``c`` is driven without a stop along ``chain_vertex[chain_first[c]:chain_first[c + 1]]``.
 
 Raises
 ------
@@ -141,7 +143,8 @@ ValueError
 
 void init_lists(BoundExcludedRows* self, const BoundRoads& roads, const BoundDrawing& drawing,
                 const ArrayIn<double>& distance, const ArrayIn<std::uint32_t>& distance_limbs,
-                const Ints& zone_first, const Ints& zone_member) {
+                const Ints& zone_first, const Ints& zone_member,
+                const std::optional<Ints>& chain_first, const std::optional<Ints>& chain_vertex) {
     const std::size_t n_coordinates = 2 * drawing.x.size();
     std::int32_t n_sizes = 1;
     while (index(n_sizes) * index(n_sizes) < distance.size()) {
@@ -158,6 +161,8 @@ void init_lists(BoundExcludedRows* self, const BoundRoads& roads, const BoundDra
         n_sizes,
         view(zone_first),
         view(zone_member),
+        view_or_empty(chain_first),
+        view_or_empty(chain_vertex),
         drawing.is_grid};
     std::shared_ptr<const RowFinder> finder;
     {
@@ -219,7 +224,8 @@ void bind_problem(nb::module_& module) {
              array("y"), array("limbs"), nb::arg("is_grid"));
     nb::class_<BoundExcludedRows>(module, "ExcludedRows", excluded_doc)
         .def("__init__", &init_lists, nb::arg("roads"), nb::arg("drawing"), array("distance"),
-             array("distance_limbs"), array("zone_first"), array("zone_member"))
+             array("distance_limbs"), array("zone_first"), array("zone_member"),
+             array("chain_first").none() = nb::none(), array("chain_vertex").none() = nb::none())
         .def_prop_ro(
             "n_rows", [](const BoundExcludedRows& self) { return self.finder->n_rows(); },
             "The number of rows.")

@@ -82,6 +82,7 @@ RowFinder::RowFinder(const DrawingArrays& arrays)
     require_range("rows", static_cast<std::int64_t>(n_sizes_) * n_resources(), 0,
                   std::numeric_limits<std::int32_t>::max() - 1);
     index_zones(arrays);
+    index_chains(arrays);
     if (*std::max_element(distance_.begin(), distance_.end()) > 0) {
         if (!arrays.is_grid) {
             index_lanes();
@@ -118,6 +119,34 @@ void RowFinder::index_zones(const DrawingArrays& arrays) {
         zones_.emplace_back(members.begin(), members.end());
     }
     std::sort(zone_of_.begin(), zone_of_.end());
+}
+
+// A chain has the resources that its vertices and the edges between them are, both ways.
+void RowFinder::index_chains(const DrawingArrays& arrays) {
+    if (arrays.chain_first.empty()) {
+        return;
+    }
+    require_lists("chain_first", arrays.chain_first, arrays.chain_vertex.size());
+    require_ids("chain_vertex", arrays.chain_vertex, graph_.n_vertices());
+    chain_inside_.assign(index(graph_.n_vertices()), none);
+    for (std::size_t c = 0; c + 1 < arrays.chain_first.size(); ++c) {
+        const auto begin = index(arrays.chain_first[c]);
+        const auto count = index(arrays.chain_first[c + 1]) - begin;
+        const auto vertices = arrays.chain_vertex.subspan(begin, count);
+        const auto chain = static_cast<std::int32_t>(c);
+        for (std::size_t k = 0; k < vertices.size(); ++k) {
+            chain_of_.emplace_back(vertices[k], chain);
+            if (k > 0 && k + 1 < vertices.size()) {
+                chain_inside_[index(vertices[k])] = chain;
+            }
+            const EdgeId edge = k == 0 ? none : graph_.edge(vertices[k - 1], vertices[k]);
+            if (edge >= 0) {
+                chain_of_.emplace_back(graph_.n_vertices() + edge, chain);
+            }
+        }
+        chains_.emplace_back(vertices.begin(), vertices.end());
+    }
+    std::sort(chain_of_.begin(), chain_of_.end());
 }
 
 void RowFinder::index_lanes() {
@@ -223,14 +252,58 @@ std::vector<std::int32_t> RowFinder::found(std::int32_t row) const {
     const std::int32_t size = row / n_resources();
     const std::int32_t resource = row % n_resources();
     std::vector<std::int32_t> rows;
+    const std::int32_t chain = resource < graph_.n_vertices() && !chain_inside_.empty()
+                                   ? chain_inside_[index(resource)]
+                                   : none;
+    if (chain == none) {
+        add_own(size, resource, rows);
+    } else {  // the whole chain is booked for as long as a robot drives along it
+        const std::vector<VertexId>& vertices = chains_[index(chain)];
+        for (std::size_t k = 0; k < vertices.size(); ++k) {
+            add_own(size, vertices[k], rows);
+            const EdgeId edge = k == 0 ? none : graph_.edge(vertices[k - 1], vertices[k]);
+            if (edge >= 0) {
+                add_own(size, graph_.n_vertices() + edge, rows);
+            }
+        }
+    }
+    add_chains(rows);
+    sort_unique(rows);
+    return rows;
+}
+
+void RowFinder::add_own(std::int32_t size, std::int32_t resource,
+                        std::vector<std::int32_t>& rows) const {
     add_zones(resource, rows);
     if (resource < graph_.n_vertices()) {
         add_vertex(size, resource, rows);
     } else if (!lanes_.empty()) {
         add_lane(size, lane_of_[index(resource - graph_.n_vertices())], rows);
     }
+}
+
+// What excludes a part of a chain, excludes all vertices between its ends.
+void RowFinder::add_chains(std::vector<std::int32_t>& rows) const {
+    if (chains_.empty()) {
+        return;
+    }
     sort_unique(rows);
-    return rows;
+    std::vector<std::pair<std::int32_t, std::int32_t>> touched;  // (size class, chain)
+    for (const std::int32_t row : rows) {
+        const std::int32_t part = row % n_resources();
+        auto own = std::lower_bound(chain_of_.begin(), chain_of_.end(), std::pair{part, 0});
+        for (; own != chain_of_.end() && own->first == part; ++own) {
+            touched.emplace_back(row / n_resources(), own->second);
+        }
+    }
+    std::sort(touched.begin(), touched.end());
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    for (const auto& [size, chain] : touched) {
+        const std::vector<VertexId>& vertices = chains_[index(chain)];
+        for (std::size_t k = 1; k + 1 < vertices.size(); ++k) {
+            rows.push_back(size * n_resources() + vertices[k]);
+        }
+    }
 }
 
 void RowFinder::add_zones(std::int32_t resource, std::vector<std::int32_t>& rows) const {

@@ -35,6 +35,10 @@ struct DrawingArrays {
     // Zone z has the resources zone_member[zone_first[z]] .. [zone_first[z + 1] - 1].
     std::span<const std::int32_t> zone_first = {};
     std::span<const std::int32_t> zone_member = {};
+    // Chain c is driven without a stop along the vertices chain_vertex[chain_first[c]] ..
+    // [chain_first[c + 1] - 1]. Those between its ends are on no other chain.
+    std::span<const std::int32_t> chain_first = {};
+    std::span<const std::int32_t> chain_vertex = {};
     // Whether lanes join the vertices of a grid: then they pass no vertex and cross no lane.
     bool is_grid = false;
 };
@@ -79,6 +83,7 @@ class RowFinder {
     void index_lanes();
     void index_places();
     void index_zones(const DrawingArrays& arrays);
+    void index_chains(const DrawingArrays& arrays);
     std::int64_t column(double x) const;
     std::int64_t row_of_cells(double y) const;
     template <class Use>
@@ -87,6 +92,8 @@ class RowFinder {
     void for_each_near(const Cells& cells, double x, double y, std::int64_t rings,
                        const Use& use) const;
     std::vector<std::int32_t> found(std::int32_t row) const;
+    void add_own(std::int32_t size, std::int32_t resource, std::vector<std::int32_t>& rows) const;
+    void add_chains(std::vector<std::int32_t>& rows) const;
     void add_zones(std::int32_t resource, std::vector<std::int32_t>& rows) const;
     void add_vertex(std::int32_t size, VertexId vertex, std::vector<std::int32_t>& rows) const;
     void add_lane(std::int32_t size, std::int32_t lane, std::vector<std::int32_t>& rows) const;
@@ -120,9 +127,12 @@ class RowFinder {
     std::vector<std::int32_t> lane_of_;  // of each edge
     std::vector<std::vector<std::int32_t>> zones_;
     std::vector<std::pair<std::int32_t, std::int32_t>> zone_of_;  // (resource, zone), sorted
-    double extent_ = 0;                                           // the largest coordinate
-    double side_ = 1;                                             // of a cell, and longest piece
-    std::int64_t width_ = 1;                                      // cells in a row
+    std::vector<std::vector<VertexId>> chains_;
+    std::vector<std::pair<std::int32_t, std::int32_t>> chain_of_;  // (resource, chain), sorted
+    std::vector<std::int32_t> chain_inside_;  // of each vertex the chain between whose ends it is
+    double extent_ = 0;                       // the largest coordinate
+    double side_ = 1;                         // of a cell, and longest piece
+    std::int64_t width_ = 1;                  // cells in a row
     Cells vertices_;
     Cells pieces_;
     bool may_exclude_edges_ = true;

@@ -117,6 +117,8 @@ class ExcludedRows:
         same exactly, as coordinates are. [length unit]
     zone_first, zone_member : int32[Z + 1], int32[n]
         Zone ``z`` has the resources ``zone_member[zone_first[z]:zone_first[z + 1]]``.
+    chain_first, chain_vertex : int32[C + 1] or None, int32[n] or None
+        Chain ``c`` is driven without a stop along ``chain_vertex[chain_first[c]:chain_first[c + 1]]``.
 
     Raises
     ------
@@ -124,7 +126,7 @@ class ExcludedRows:
         If the arrays do not fit together; names the array, the index and the value.
     """
 
-    def __init__(self, roads: Roads, drawing: Drawing, distance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], distance_limbs: Annotated[NDArray[numpy.uint32], dict(shape=(None,), order='C', device='cpu', writable=False)], zone_first: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], zone_member: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+    def __init__(self, roads: Roads, drawing: Drawing, distance: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], distance_limbs: Annotated[NDArray[numpy.uint32], dict(shape=(None,), order='C', device='cpu', writable=False)], zone_first: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], zone_member: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], chain_first: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, chain_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> None: ...
 
     @property
     def n_rows(self) -> int:

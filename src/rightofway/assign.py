@@ -51,7 +51,8 @@ def deal_homes(
     InputError
         If there are too few places, with their numbers and what to do.
     """
-    parking = sorted({*roadmap.drawing.parking, *roadmap.drawing.charging})
+    places = {*roadmap.drawing.parking, *roadmap.drawing.charging}
+    parking = sorted(place for place in places if not roadmap.is_passed(place))
     homeless = [robot for robot in robots if robot.home == HOMELESS]
     if homeless and not parking:
         message = "the map has no parking or charging place (give each robot a home)"

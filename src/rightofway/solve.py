@@ -33,6 +33,7 @@ from rightofway.model.given import (
     require_truths,
 )
 from rightofway.model.outcome import classify_cost
+from rightofway.model.passing import wait_before_chains
 from rightofway.phrases import Phrase
 from rightofway.planners import (
     DEFAULT_PLANNER,
@@ -275,7 +276,8 @@ def _run(
         start=None if old is None else compare_with_start(old, task.scenario, draft.tracks),
         alone=tuple(alone.tolist()),
     )
-    plan = Plan(scenario=task.scenario, tracks=draft.tracks, run=run)
+    tracks = wait_before_chains(task.scenario.problem, draft.tracks)
+    plan = Plan(scenario=task.scenario, tracks=tracks, run=run)
     report = check(plan)
     if any(kind != "swap conflict" or not draft.keeps_swaps for kind in report.counts):
         raise InvalidPlan(f"{spec.name} made a plan with {report}")
@@ -349,7 +351,8 @@ def _handing_over(
     least: list[tuple[Tick, Tick]] = []
 
     def hand_over(tracks: Callable[[], Sequence[Track]]) -> None:
-        plan = Plan(scenario=task.scenario, tracks=tuple(tracks()), run=run)
+        driven = wait_before_chains(task.scenario.problem, tracks())
+        plan = Plan(scenario=task.scenario, tracks=driven, run=run)
         rating = measure_worth(task, plan.tracks)
         if not least or rating < least[-1]:
             least.append(rating)

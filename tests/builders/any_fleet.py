@@ -36,6 +36,7 @@ FEATURES = (
     "no rotations",
     "one way",  # the trip ends at the last stop
     "one-way lanes",
+    "passed",  # vertices that robots only drive through
     "sizes",
     "spacing",  # lanes cut into pieces
     "speeds",  # own speeds of robots
@@ -47,6 +48,9 @@ FEATURES = (
     "zones",
 )
 """What a fleet may have; without any of them it is the paper's: points of speed 1 on a grid."""
+
+OF_LANES = {"barred", "limits", "one-way lanes", "passed", "spacing", "surcharges", "zones"}
+"""Features that grids do not have."""
 
 LAPS_REFUSE = {"closures", "one way"}
 """Features that repeated laps refuse (test_laps.py has the messages)."""
@@ -154,9 +158,7 @@ def _site(draw: st.DrawFn, has: set[str], side: int, *, joined: bool) -> tuple[D
             return _grid(_window(draw), joined=joined)
         roadmap, found = _layout(name)
         return _on_lanes(draw, has, roadmap, found, open_lanes=len(roadmap["edges"]) * joined)
-    if not has & {"barred", "limits", "one-way lanes", "spacing", "surcharges", "zones"} and draw(
-        st.booleans()
-    ):
+    if not has & OF_LANES and draw(st.booleans()):
         width = draw(st.integers(3, side))
         cells = st.lists(st.sampled_from("....@"), min_size=width, max_size=width).map("".join)
         rows = ["." * width, *draw(st.lists(cells, min_size=1, max_size=side - 1))]
@@ -292,6 +294,12 @@ def _on_lanes(
             }
             for k in range(draw(st.integers(1, 2)))
         ]
+    few = st.lists(st.sampled_from(places), min_size=1, max_size=3, unique=True)
+    passed = draw(few) if "passed" in has else []
+    drawn = {name: {"at": at, "pass": True} if name in passed else at
+             for name, at in roadmap["vertices"].items()}  # fmt: skip
+    changed["vertices"] = drawn
+    places = [place for place in places if place not in passed]
     spacing = {"spacing": draw(st.sampled_from([2, "4/3"]))} if "spacing" in has else {}
     return {"roadmap": changed, **spacing}, places
 

@@ -24,12 +24,17 @@ def _one_robot(scenario: Scenario, draw: random.Random, **change: Any) -> Scenar
 
 def _free(scenario: Scenario, draw: random.Random) -> VertexId:
     taken = {robot.home for robot in scenario.robots}
-    return VertexId(draw.choice([v for v in range(scenario.roadmap.n_vertices) if v not in taken]))
+    return draw.choice([place for place in _places(scenario) if place not in taken])
+
+
+def _places(scenario: Scenario) -> list[VertexId]:
+    """Return the vertices where robots may stop."""
+    roadmap = scenario.roadmap
+    return [VertexId(v) for v in range(roadmap.n_drawn) if not roadmap.is_passed(v)]
 
 
 def _stop(scenario: Scenario, draw: random.Random) -> Stop:
-    place = VertexId(draw.randrange(scenario.roadmap.n_vertices))
-    return Stop(at=place, work=Fraction(draw.randint(0, 6)))
+    return Stop(at=draw.choice(_places(scenario)), work=Fraction(draw.randint(0, 6)))
 
 
 def _added(scenario: Scenario, draw: random.Random) -> Scenario:
@@ -52,7 +57,7 @@ def _removed(scenario: Scenario, draw: random.Random) -> Scenario:
 def _closed(scenario: Scenario, draw: random.Random) -> Scenario:
     start = Fraction(draw.choice([0, 0, 3, 8]))
     until = draw.choice([None, start + draw.randint(1, 20)])
-    roadmap = scenario.roadmap
+    roadmap = scenario.roadmap.fold()
     edge = draw.randrange(roadmap.n_edges)
     tail = next(v for v in range(roadmap.n_vertices) if roadmap.indptr[v + 1] > edge)
     closure = Closure(

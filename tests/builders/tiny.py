@@ -12,6 +12,7 @@ import numpy as np
 
 from rightofway.model import Robot, Rules, Scenario, Stop
 from rightofway.site import VertexId, make_grid_roadmap
+from rightofway.site.passing import unfold
 from tests.builders.closures import with_closures
 from tests.builders.sizes import crowded_roadmap, has_room, tiny, zoned
 from tests.oracles import joint_space, turning
@@ -122,6 +123,25 @@ def charged(seed: int) -> Scenario:
     return replace(fleet, roadmap=roadmap)
 
 
+def passed(seed: int) -> Scenario:
+    """Return a fleet of another kind that only drives through some vertices of its roadmap."""
+    fleets = (_passed(seed + 1000 * k) for k in range(1000))
+    return next(fleet for fleet in fleets if fleet is not None and has_room(fleet))
+
+
+def _passed(seed: int) -> Scenario | None:
+    draw = random.Random(seed)  # noqa: S311 (no secret depends on it)
+    fleet = draw.choice([tiny, zoned, closed, trips, charged])(seed)
+    drawn = replace(fleet.roadmap, grid=None)
+    places = {at for robot in fleet.robots for at in (robot.home, *(s.at for s in robot.stops))}
+    free = sorted(set(range(drawn.n_vertices)) - places)
+    through = draw.sample(free, min(len(free), draw.choice([1, 1, 2, 3])))
+    roadmap = unfold(drawn, list(map(VertexId, through)))
+    if roadmap.passing is None or not roadmap.passing.chains:
+        return None
+    return replace(fleet, roadmap=roadmap, rules=replace(fleet.rules, occupancy="both"))
+
+
 KINDS: dict[str, Callable[[int], Scenario]] = {
     "sizes": tiny,
     "three": three,
@@ -131,6 +151,7 @@ KINDS: dict[str, Callable[[int], Scenario]] = {
     "turning": turning_fleet,
     "trips": trips,
     "surcharges": charged,
+    "passed": passed,
 }
 """Tiny fleets by seed; those that turn are one way trips without work, as their oracle knows."""
 

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import cache, partial
 from heapq import heappop, heappush
-from itertools import product
+from itertools import pairwise, product
 from typing import Any, NamedTuple, Protocol, TypeVar
 
 from rightofway.model import Objective, Scenario
@@ -25,8 +25,8 @@ class State(NamedTuple):
     """A robot at the start of a tick: where it stands or drives from, and what is left."""
 
     vertex: int
-    head: int = -1
-    left: int = 0  # ticks of the drive to the head
+    way: tuple[int, ...] = ()  # the vertices that it drives to without a stop
+    left: int = 0  # ticks of the drive to the last of them
     is_done: bool = False
     stage: int = 0  # the first stage that is not served
     dwell: int = 0  # ticks left of serving the stage before
@@ -60,6 +60,7 @@ class _Fleet:
         self.excludes = cache(partial(incompatible, scenario))
         self.clash = cache(self._clash)
         self.is_closed = cache(self._is_closed)
+        self.ways = cache(self._ways)
         self.actions = cache(lambda robot, state: list(self._actions(robot, state)))
 
     def _is_closed(self, robot: int, booked: Booked, tick: int) -> bool:
@@ -81,6 +82,19 @@ class _Fleet:
         """Return what an edge costs beside the time [ticks]."""
         by_class = self.scenario.problem.itineraries[robot].surcharges
         return int(by_class[self.scenario.roadmap.class_of_edge[edge]]) if by_class else 0
+
+    def _ways(self, vertex: int) -> list[tuple[int, ...]]:
+        """Return what robots can drive along from a vertex to the next one where they may stop."""
+        drawn, ended = self.scenario.roadmap.fold(), list[tuple[int, ...]]()
+        ways: list[tuple[int, ...]] = [(vertex,)]
+        while ways:
+            way = ways.pop()
+            for head in drawn.heads[drawn.indptr[way[-1]] : drawn.indptr[way[-1] + 1]].tolist():
+                if drawn.is_passed(head):
+                    ways += [(*way, head)] * (head not in way)
+                elif head != vertex:
+                    ended.append((*way[1:], head))
+        return sorted(ended)
 
     def costs_alone(self, robot: int) -> dict[State, int]:
         """Return what a robot alone still costs in each state it can come to, without closures."""
@@ -129,16 +143,19 @@ class _Fleet:
         elif state.dwell:
             yield state._replace(dwell=state.dwell - 1), here, self.parts
         elif state.left:
-            left, edge = state.left - 1, (state.vertex, state.head)
-            along, ahead = zones_with(roadmap, edge), zones_around(roadmap, state.head)
-            behind: Booked = (*here, edge, *((-1 - zone,) for zone in along))
-            booked: Booked = (*behind, *((-1 - zone,) for zone in ahead))
-            booked += ((state.head,),) if self.books_ahead else ()
+            left, edges = state.left - 1, list(pairwise((state.vertex, *state.way)))
+            *passed, head = state.way
+            zones = set().union(*(zones_with(roadmap, edge) for edge in edges))
+            zones = zones.union(*(zones_around(roadmap, vertex) for vertex in passed))
+            behind: Booked = (*here, *edges, *((-1 - zone,) for zone in zones))
+            behind += tuple((vertex,) for vertex in passed)
+            booked: Booked = (*behind, *((-1 - zone,) for zone in zones_around(roadmap, head)))
+            booked += ((head,),) if self.books_ahead else ()
             if left:
                 yield state._replace(left=left), booked, self.parts
                 return
             trail = (*state.trail, (behind, self.headway)) if self.headway else state.trail
-            yield State(state.head, stage=state.stage, trail=trail), booked, self.parts
+            yield State(head, stage=state.stage, trail=trail), booked, self.parts
         else:
             rest = stages[state.stage :]
             if all(stage.vertex == state.vertex for stage in rest):
@@ -150,14 +167,12 @@ class _Fleet:
                 yield from self._moves(robot, served)
             counts = self.parts > 1
             yield state._replace(waits=counts), here, self.parts + (counts and not state.waits)
-            first, end = roadmap.indptr[state.vertex : state.vertex + 2].tolist()
-            for lane in range(first, end):
-                head = int(roadmap.heads[lane])
-                ticks = int(drive(self.scenario, robot, state.vertex, head))
-                paid = counts + self.surcharge(robot, lane) * self.parts
-                for after, booked, cost in self._moves(
-                    robot, state._replace(head=head, left=ticks)
-                ):
+            for way in self.ways(state.vertex):
+                lanes = list(pairwise((state.vertex, *way)))
+                ticks = sum(int(drive(self.scenario, robot, *lane)) for lane in lanes)
+                extra = sum(self.surcharge(robot, roadmap.list_edges(*lane)[0]) for lane in lanes)
+                paid = counts * len(way) + extra * self.parts
+                for after, booked, cost in self._moves(robot, state._replace(way=way, left=ticks)):
                     yield after, booked, cost + paid
 
 

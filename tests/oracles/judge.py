@@ -58,7 +58,8 @@ class Site:
     """What the judge knows of a scenario."""
 
     def __init__(self, scenario: Scenario) -> None:
-        self.scenario, self.roadmap, self.rules = scenario, scenario.roadmap, scenario.rules
+        self.scenario, self.rules = scenario, scenario.rules
+        self.roadmap = scenario.roadmap.fold()
         self.tick = scenario.problem.clock.tick
         self.at = [_place(self.roadmap, vertex) for vertex in range(self.roadmap.n_vertices)]
         self.has_sizes = any(robot.radius > 0 for robot in scenario.robots)
@@ -174,7 +175,8 @@ def faults(plan: Plan, trace: ExecutionTrace | None = None) -> set[Fault]:
     """
     site, robots = Site(plan.scenario), plan.scenario.robots
     given = (plan if trace is None else trace).tracks
-    tracks = [list(map(int, track.vertices)) for track in given]
+    drawn = plan.scenario.roadmap.get_drawn
+    tracks = [[drawn(int(vertex)) for vertex in track.vertices] for track in given]
     times = [list(map(int, track.enter)) for track in given]
     found: set[Fault] = set()
     for k, robot in enumerate(robots):
@@ -266,26 +268,40 @@ def _makes_its_trip(
                 if at != vertex or time > rest:
                     break
                 done.add(number + 1)
-    return min(spare) >= 0 and len(stages) in done and vertices[-1] == stages[-1][0]
+    stops = any(
+        site.roadmap.is_passed(vertex) and rest
+        for vertex, rest in zip(vertices, spare, strict=True)
+    )
+    return min(spare) >= 0 and len(stages) in done and vertices[-1] == stages[-1][0] and not stops
 
 
 def _bookings(site: Site, way: Way) -> Iterator[Booking]:
     """Yield what a robot books."""
     zones = site.roadmap.zones
     edges = list(pairwise(way.vertices))
+    begins = [
+        enter - drive for enter, drive in zip(way.enter[1:], way.drives, strict=True)
+    ]  # of the drives
+    ends = list(way.enter[1:])
+    for visit in range(1, len(edges)):  # a drive goes on through a vertex without a stop
+        if site.roadmap.is_passed(way.vertices[visit]):
+            begins[visit] = begins[visit - 1]
+    for visit in reversed(range(1, len(edges))):
+        if site.roadmap.is_passed(way.vertices[visit]):
+            ends[visit - 1] = ends[visit]
     for visit, vertex in enumerate(way.vertices):
         came, goes = edges[visit - 1 : visit] if visit else [], edges[visit : visit + 1]
-        approach = way.drives[visit - 1] if came and site.is_both else 0
+        start = begins[visit - 1] if came and site.is_both else way.enter[visit]
         inside = {
             number
             for number, zone in enumerate(zones)
             if vertex in zone.vertices or sum(vertex in edge for edge in zone.edges) > 1
         }
-        end = way.enter[visit + 1] + site.headway if goes else inf
-        yield Booking((vertex,), frozenset(inside), way.enter[visit] - approach, end)
+        end = ends[visit] + site.headway if goes else inf
+        yield Booking((vertex,), frozenset(inside), start, end)
         if goes:
             along = frozenset(n for n, zone in enumerate(zones) if goes[0] in zone.edges)
-            yield Booking(goes[0], along, way.enter[visit + 1] - way.drives[visit], end)
+            yield Booking(goes[0], along, begins[visit], end)
 
 
 def _motions(site: Site, way: Way) -> Iterator[Motion]:

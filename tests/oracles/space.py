@@ -86,9 +86,7 @@ def incompatible(scenario: Scenario, i: int, one: Shape, j: int, other: Shape) -
 def drive(scenario: Scenario, robot: int, tail: int, head: int) -> Fraction:
     """Return the ticks of a drive."""
     roadmap = scenario.roadmap
-    edge = roadmap.find_edge(tail, head)
-    assert edge is not None
-    kind = roadmap.get_edge_class(edge)
+    kind = roadmap.get_edge_class(roadmap.list_edges(tail, head)[0])
     limit = dict(kind.max_speed_by_type).get(scenario.robots[robot].type or "", kind.max_speed)
     own, tick = scenario.robots[robot].speed, scenario.problem.clock.tick
     speed = own if limit is None else min(own, limit)

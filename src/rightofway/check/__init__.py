@@ -9,7 +9,7 @@ from rightofway.check.closures import judge_barred, judge_closures
 from rightofway.check.conflicts import judge_bookings, judge_rotations, judge_swaps
 from rightofway.check.faults import Fault, FaultCollector, FaultKind, Report
 from rightofway.check.space import judge_space
-from rightofway.check.tracks import judge_drives, judge_trips, judge_turns
+from rightofway.check.tracks import judge_drives, judge_stops, judge_trips, judge_turns
 from rightofway.check.visits import lay_out_visits
 from rightofway.check.zones import judge_zones
 from rightofway.model import Plan
@@ -49,6 +49,9 @@ def check(plan: Plan, *, limit: int = 1000) -> Report:
     than the radii and the clearance allow must not overlap either, and no two robots may ever be
     nearer than that, at any instant of stays and straight, uniform drives; both are judged exactly.
 
+    Robots only drive through a passed vertex. All that such a drive touches, both ends included, is
+    booked from the begin of the drive to its end.
+
     A closure is a booking of nobody without headway; a robot's booking has its own.
     """
     visits = lay_out_visits(require_plan(plan))
@@ -56,6 +59,7 @@ def check(plan: Plan, *, limit: int = 1000) -> Report:
     scenario, collector = plan.scenario, FaultCollector(limit)
     judge_drives(visits, scenario, collector)
     judge_turns(visits, scenario, collector)
+    judge_stops(visits, scenario, collector)
     judge_trips(plan, visits, scenario, collector)
     judge_bookings(plan, visits, scenario, collector)
     judge_swaps(visits, scenario, collector)

@@ -35,8 +35,8 @@ def judge_barred(visits: Visits, scenario: Scenario, collector: FaultCollector) 
             int(value) for value in (visits.robot[visit], visits.vertex[visit], following[visit])
         )
         robot_type = scenario.robots[robot].type
-        edge = roadmap.find_edge(tail, head)
-        is_barred = edge is not None and robot_type in roadmap.get_edge_class(edge).barred
+        kind = int(roadmap.class_of_edge[visits.edge[visit]])
+        is_barred = robot_type in roadmap.edge_classes[kind].barred
         collector.add(
             Fault(
                 kind="barred",
@@ -98,20 +98,16 @@ class _Booked(NamedTuple):
 def _bookings(plan: Plan, visits: Visits) -> _Booked:
     """Return what robots book: vertices, and edges while they drive along them."""
     headway = plan.scenario.problem.booking_rules.headway
-    ahead = plan.scenario.rules.occupancy == "both"
-    approach = np.where(np.roll(visits.last, 1), 0, np.roll(visits.drive, 1)) if ahead else 0
     never = max(visits.leave.max(), NEVER) + headway
     stays, drives = np.flatnonzero(visits.known), np.flatnonzero(visits.edge >= 0)
     tails, heads = visits.vertex[drives], np.roll(visits.vertex, -1)[drives]
     lanes = np.column_stack((np.minimum(tails, heads), np.maximum(tails, heads)))
-    ends = np.where(visits.last, never, visits.leave + headway)
+    ends = np.where(visits.last, never, visits.vertex_end + headway)
     return _Booked(
         robot=np.concatenate((visits.robot[stays], visits.robot[drives])),
         places=np.concatenate((visits.vertex[stays][:, None].repeat(2, axis=1), lanes)),
-        start=np.concatenate(
-            ((visits.enter - approach)[stays], (visits.leave - visits.drive)[drives])
-        ),
-        end=np.concatenate((ends[stays], ends[drives])),
+        start=np.concatenate((visits.vertex_start[stays], visits.edge_start[drives])),
+        end=np.concatenate((ends[stays], (visits.edge_end + headway)[drives])),
     )
 
 
@@ -130,7 +126,8 @@ class _Shut:
             yield [self.closure.at]
             return
         closed_tail, closed_head = self.closure.edge
-        indptr, heads = self.roadmap.indptr, self.roadmap.heads
+        drawn = self.roadmap.passing or self.roadmap
+        indptr, heads = drawn.indptr, drawn.heads
         if any(
             head in heads[indptr[tail] : indptr[tail + 1]]
             for tail, head in ((closed_tail, closed_head), (closed_head, closed_tail))

@@ -45,12 +45,9 @@ def judge_bookings(
 ) -> None:
     """Find vertex conflicts, and those that only the headway makes."""
     headway = plan.scenario.problem.booking_rules.headway
-    starts = visits.enter
-    if plan.scenario.rules.occupancy == "both":
-        starts = starts - np.roll(visits.drive, 1)  # the last visit before a first has no drive
-    crowded = _crowded(visits.vertex, starts, visits.leave + headway)
+    crowded = _crowded(visits.vertex, visits.vertex_start, visits.vertex_end + headway)
     robot, vertex, last = visits.robot[crowded], visits.vertex[crowded], visits.last[crowded]
-    start, leave = starts[crowded], visits.leave[crowded]
+    start, leave = visits.vertex_start[crowded], visits.vertex_end[crowded]
 
     def describe_conflict(first: int, second: int) -> Mapping[str, Any]:
         """Return both bookings; the last visit of a robot has no end."""

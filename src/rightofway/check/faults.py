@@ -33,6 +33,7 @@ FaultKind = Literal[
     "zone conflict",
     "closed",
     "barred",
+    "stop at pass",
 ]
 """The ways a plan can be wrong.
 
@@ -55,6 +56,7 @@ FaultKind = Literal[
 ``zone conflict``    two robots book one zone at the same time
 ``closed``           a robot books a vertex or an edge while that is closed
 ``barred``           a robot drives along an edge that is barred for its type, or into a wall
+``stop at pass``     a robot stays longer at a passed vertex than it needs to drive through
 ===================  ===============================================================================
 """
 

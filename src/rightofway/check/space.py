@@ -286,14 +286,12 @@ def _judge_bookings(
 ) -> None:
     headway = plan.scenario.problem.booking_rules.headway
     stays, drives = np.flatnonzero(visits.known), np.flatnonzero(visits.edge >= 0)
-    approach = np.roll(visits.drive, 1)  # the last visit before a first has no drive
-    begun = visits.leave - visits.drive
     bookings = _Times(
         shape=np.concatenate((visits.vertex[stays], shapes.of_drive[drives])),
         robot=np.concatenate((visits.robot[stays], visits.robot[drives])),
         visit=np.concatenate((stays, drives)),
-        start=np.concatenate(((visits.enter - approach)[stays], begun[drives])),
-        end=np.concatenate(((visits.leave + headway)[stays], (visits.leave + headway)[drives])),
+        start=np.concatenate((visits.vertex_start[stays], visits.edge_start[drives])),
+        end=np.concatenate((visits.vertex_end[stays], visits.edge_end[drives])) + headway,
     ).sort()
     pairs: list[tuple[Indices, Indices]] = []
     for first, second in shapes.together(bookings, shapes.near_without_common_vertex):

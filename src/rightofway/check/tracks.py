@@ -87,6 +87,26 @@ def judge_turns(visits: Visits, scenario: Scenario, collector: FaultCollector) -
     collector.add_all("turn cut short", visits.leave[where], (visits.robot[where],), fault)
 
 
+def judge_stops(visits: Visits, scenario: Scenario, collector: FaultCollector) -> None:
+    """Find stops at vertices that robots only drive through."""
+    spare = visits.leave - visits.enter - visits.drive - visits.turn
+    where = np.flatnonzero(visits.passed & (visits.edge >= 0) & (spare > 0))
+
+    def fault(position: int) -> Fault:
+        visit = int(where[position])
+        time, enter = int(spare[visit]), int(visits.enter[visit])
+        return Fault(
+            kind="stop at pass",
+            robots=(int(visits.robot[visit]),),
+            vertices=(VertexId(int(visits.vertex[visit])),),
+            tick=Tick(enter),
+            numbers={"time": time, "late": enter + time},
+            scenario=scenario,
+        )
+
+    collector.add_all("stop at pass", visits.enter[where], (visits.robot[where],), fault)
+
+
 def judge_trips(plan: Plan, visits: Visits, scenario: Scenario, collector: FaultCollector) -> None:
     """Find wrong homes, wrong ends, missed stops and work cut short."""
     spare = np.maximum(visits.leave - visits.enter - visits.drive - visits.turn, 0).tolist()

@@ -28,7 +28,7 @@ class Visits:
     """
 
     robot: NDArray[np.int64]
-    vertex: NDArray[np.int64]
+    vertex: NDArray[np.int64]  # as it is drawn
     enter: NDArray[Any]  # [ticks]
     leave: NDArray[Any]  # [ticks]; a last visit leaves later than anything happens
     last: NDArray[np.bool_]  # whether it is its robot's last visit
@@ -38,6 +38,11 @@ class Visits:
     barred: NDArray[np.bool_]  # whether that edge is barred for that robot
     angle: NDArray[np.int64]  # that the robot turns before that drive [1e-6 degrees]
     turn: NDArray[Any]  # how long that turn takes [ticks]
+    passed: NDArray[np.bool_]  # whether robots only drive through the vertex
+    vertex_start: NDArray[Any]  # when the booking of the vertex begins [ticks]
+    vertex_end: NDArray[Any]  # when it ends, without headway [ticks]
+    edge_start: NDArray[Any]  # when the booking of the edge begins [ticks]
+    edge_end: NDArray[Any]  # when it ends, without headway [ticks]
 
 
 def lay_out_visits(plan: Plan) -> Visits:
@@ -53,19 +58,63 @@ def lay_out_visits(plan: Plan) -> Visits:
     edge = _edges(roadmap, vertex, np.where(last, -1, np.roll(vertex, -1)))
     drive = _drives(plan, robot, edge, enter.dtype)
     angle, turn = compute_turns(plan, robot, vertex, edge)
+    known = (vertex >= 0) & (vertex < roadmap.n_vertices)
+    passed = np.zeros(len(vertex), bool)
+    if roadmap.passing is not None:
+        vertex[known] = roadmap.passing.drawn[vertex[known]]
+        passed = np.isin(vertex, list(roadmap.passing.vertices))
+    leave = np.where(last, enter.max() + 1, np.roll(enter, -1))
+    drive, barred = np.maximum(drive, 0), np.array(drive < 0, bool)
+    bookings = _book(plan, enter=enter, leave=leave, drive=drive, last=last, passed=passed)
     return Visits(
         robot=robot,
         vertex=vertex,
         enter=enter,
-        leave=np.where(last, enter.max() + 1, np.roll(enter, -1)),
+        leave=leave,
         last=last,
-        known=(vertex >= 0) & (vertex < roadmap.n_vertices),
+        known=known,
         edge=edge,
-        drive=np.maximum(drive, 0),
-        barred=np.array(drive < 0, bool),
+        drive=drive,
+        barred=barred,
         angle=angle,
         turn=turn.astype(enter.dtype),
+        passed=passed,
+        vertex_start=bookings[0],
+        vertex_end=bookings[1],
+        edge_start=bookings[2],
+        edge_end=bookings[3],
     )
+
+
+def _book(
+    plan: Plan,
+    *,
+    enter: NDArray[Any],
+    leave: NDArray[Any],
+    drive: NDArray[Any],
+    last: NDArray[np.bool_],
+    passed: NDArray[np.bool_],
+) -> list[NDArray[Any]]:
+    """Return when bookings of vertices begin and end, and those of the edges driven out of them.
+
+    A drive through passed vertices is one drive: all that it touches is booked from its begin, at
+    the visit before the first passed vertex, to its end, at the visit after the last one.
+    """
+    departure = leave - drive
+    # The last visit before a first has no drive.
+    starts = enter - np.roll(drive, 1) if plan.scenario.rules.occupancy == "both" else enter.copy()
+    ends, edge_starts, edge_ends = leave.copy(), departure.copy(), leave.copy()
+    is_first = np.roll(last, 1)
+    for visit in np.flatnonzero(passed & (is_first | ~np.roll(passed, 1))).tolist():
+        begin, end = visit if is_first[visit] else visit - 1, visit
+        while passed[end] and not last[end]:
+            end += 1
+        arrival = leave[end] if passed[end] else enter[end]
+        starts[begin + 1 : end + 1] = np.minimum(starts[begin + 1 : end + 1], departure[begin])
+        ends[begin:end] = np.maximum(ends[begin:end], arrival)
+        edge_starts[begin:end] = departure[begin]
+        edge_ends[begin:end] = arrival
+    return [starts, ends, edge_starts, edge_ends]
 
 
 def _integers(plan: Plan, enter: NDArray[np.int64]) -> np.dtype[Any]:

@@ -6,8 +6,6 @@ from collections.abc import Iterator
 from heapq import heappop, heappush
 from typing import NamedTuple
 
-import numpy as np
-
 from rightofway.check.faults import Fault, FaultCollector
 from rightofway.check.visits import Visits
 from rightofway.model import Plan, Scenario, Tick
@@ -45,19 +43,15 @@ def judge_zones(plan: Plan, visits: Visits, scenario: Scenario, collector: Fault
 
 def _stays(plan: Plan, visits: Visits, zone: Zone) -> Iterator[_Stay]:
     headway = plan.scenario.problem.booking_rules.headway
-    ahead = plan.scenario.rules.occupancy == "both"
     vertices, edges = set(zone.vertices), set(zone.edges)
-    vertex, robot = visits.vertex.tolist(), visits.robot.tolist()
-    enter, leave = visits.enter.tolist(), visits.leave.tolist()
-    drive, last = visits.drive.tolist(), visits.last.tolist()
-    first = np.roll(visits.last, 1).tolist()
+    vertex, robot, last = visits.vertex.tolist(), visits.robot.tolist(), visits.last.tolist()
+    start, end = visits.vertex_start.tolist(), (visits.vertex_end + headway).tolist()
+    edge_start, edge_end = visits.edge_start.tolist(), (visits.edge_end + headway).tolist()
     for k, at in enumerate(vertex):
-        goes = not last[k] and (at, vertex[k + 1]) in edges
-        approach = 0 if first[k] or not ahead else drive[k - 1]
         if at in vertices:
-            yield _Stay(enter[k] - approach, leave[k] + headway, robot[k], at)
-        if goes:
-            yield _Stay(leave[k] - drive[k], leave[k] + headway, robot[k], at)
+            yield _Stay(start[k], end[k], robot[k], at)
+        if not last[k] and (at, vertex[k + 1]) in edges:
+            yield _Stay(edge_start[k], edge_end[k], robot[k], at)
 
 
 def _fault(zone: Zone, stay: _Stay, other: _Stay, scenario: Scenario) -> Fault:

@@ -71,7 +71,9 @@ class ClockedClosures:
         path, drives, stays = self._list_times(robot, own, part)
         before, into = part - 1 - own.arrived, part - own.arrived
         earliest = now + sum(drives[1:before])
-        late = self._late if before else 0
+        # A drive through passed vertices is released as a whole.
+        is_ahead = any(not roadmap.is_passed(vertex) for vertex in path[1 : before + 1])
+        late = self._late if is_ahead else 0
         arrival = now + late + sum(drives[:into]) + sum(stays[:into])
         left = arrival + stays[into] + sum(drives[into:])
         edge = roadmap.find_edge(path[before], path[into])
@@ -95,7 +97,11 @@ class ClockedClosures:
         roadmap, route = self._scenario.roadmap, own.route
         itinerary = self._scenario.problem.itineraries[robot]
         begin, end = max(own.arrived - 1, route.first), min(part + 2, route.end)
-        path = [int(roadmap.get_vertex(place)) for place in route.stretch(begin, end)]
+        if roadmap.passing is None:
+            path = [int(roadmap.get_vertex(place)) for place in route.stretch(begin, end)]
+        else:  # chains may begin before the stretch, and end behind it
+            whole = roadmap.unfold_route(list(map(roadmap.get_vertex, route.places)))
+            path = list(map(int, whole[begin - route.first : end - route.first]))
         turns = compute_turns_along(roadmap, itinerary, np.array(path, np.int32)).tolist()
         turn_after_work = max((stage.turn for stage in itinerary.stages), default=0)
         stays = []

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -48,7 +48,12 @@ def list_stops_to_make(own: RobotLedger, released: int) -> list[StopToMake]:
     return stops
 
 
-def find_last_open(own: RobotLedger, last: int, closed: Collection[tuple[str, str]]) -> int:
+def find_last_open(
+    own: RobotLedger,
+    last: int,
+    closed: Collection[tuple[str, str]],
+    may_stop: Callable[[str], bool],
+) -> int:
     """Return the visit up to which a robot enters nothing that is closed, ``last`` at most.
 
     Parameters
@@ -59,11 +64,14 @@ def find_last_open(own: RobotLedger, last: int, closed: Collection[tuple[str, st
         A visit of its route.
     closed
         Edges that robots shall not enter any more, as names of their vertices.
+    may_stop
+        Tells whether robots may stop at a vertex, by its name.
     """
-    visit, route = own.released, own.route
+    visit, route, end = own.released, own.route, own.released
     while visit < last and (route.get_place(visit), route.get_place(visit + 1)) not in closed:
         visit += 1
-    return visit
+        end = visit if may_stop(route.get_place(visit)) else end
+    return end
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -95,7 +103,7 @@ def make_robot_commitment(
     route = own.route.cut_before(own.arrived)
     length = released - own.arrived + 1
     roadmap = scenario.roadmap
-    vertices = tuple(int(roadmap.get_vertex(place)) for place in route.places[:length])
+    vertices = tuple(roadmap.unfold_route(list(map(roadmap.get_vertex, route.places[:length]))))
     work = sum(
         ticks
         for names, times in zip(route.jobs[:length], route.work[:length], strict=True)

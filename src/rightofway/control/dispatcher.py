@@ -89,6 +89,7 @@ class Dispatcher:
         self.closures: ClockedClosures | None = None
         self._planned_round = set[Edge]()  # what closures closed when the rest was planned
         control.dispatch, control.may_drive = self._dispatch, cache(self._may_drive)
+        control.may_stop = self._rest.may_stop
 
     @property
     def ledger(self) -> Ledger:
@@ -122,14 +123,14 @@ class Dispatcher:
         scenario = self.plan.scenario
         roadmap, ticks = scenario.roadmap, scenario.problem.itineraries[robot].edge_ticks
         try:
-            edge = roadmap.find_edge(roadmap.get_vertex(tail), roadmap.get_vertex(head))
+            edges = roadmap.list_edges(roadmap.get_vertex(tail), roadmap.get_vertex(head))
         except InputError:
             return False
-        return edge is not None and bool(ticks[roadmap.class_of_edge[edge]] >= 0)
+        return any(ticks[roadmap.class_of_edge[edge]] >= 0 for edge in edges)
 
     def _dispatch(self) -> list[Message]:
         """Add laps where robots come to the end of theirs."""
-        robots = self.ledger.robots
+        robots = list(map(self._rest.begin_at_stop, self.ledger.robots))
         more = self._laps.extend(robots) if self._laps else None
         if more is None:
             return []
@@ -178,8 +179,11 @@ class Dispatcher:
         each time, and never get there. What was planned before ends with the visits ``planned``.
         """
         robots, closed = self.ledger.robots, self._list_closed_edges()
+        robots = [self._rest.begin_at_stop(own) for own in robots]
         ends = [
-            own.released if robot in self._passed else find_last_open(own, last, closed)
+            own.released
+            if robot in self._passed
+            else find_last_open(own, last, closed, self._rest.may_stop)
             for robot, (own, last) in enumerate(zip(robots, planned, strict=True))
         ]
         at_ends = [

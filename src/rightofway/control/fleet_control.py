@@ -90,6 +90,8 @@ class FleetControl:
     may_enter
         Tells of a robot whether a part of its route may be released, if all before it is; a
         dispatcher, which knows the closures of the scenario, sets it.
+    may_stop
+        Tells whether robots may stop at a vertex, by its name; a dispatcher sets it.
     """
 
     def __init__(
@@ -113,6 +115,7 @@ class FleetControl:
         self.dispatch: Callable[[], list[Message]] = list
         self.may_drive: Callable[[int, str, str], bool] = lambda *_: True
         self.may_enter: Callable[[int, int], bool] = lambda *_: True
+        self.may_stop: Callable[[str], bool] = lambda _: True
         self._since_snapshot = 0
         for number, entry in enumerate(journal.read_entries(), 1):
             self.ledger.read(number, entry)
@@ -404,7 +407,14 @@ class FleetControl:
         if not self.is_fit(robot):
             return None
         ahead = self._count_ahead(robot)
-        end = find_last_part(self.ledger, robot, ahead, self._is_in_base, self.may_enter)
+        end = find_last_part(
+            self.ledger,
+            robot,
+            ahead,
+            self._is_in_base,
+            may_enter=self.may_enter,
+            may_stop=self.may_stop,
+        )
         if end == own.released:
             return None
         # All that was released to it is driven and acknowledged, so it stands without an order.

@@ -294,7 +294,7 @@ def _graph_of_present(
     span = max(route.enter[-1] for route in routes) - begins + 1
     tracks = [
         Track.of(
-            [int(roadmap.get_vertex(place)) for place in route.places],
+            roadmap.unfold_route(list(map(roadmap.get_vertex, route.places))),
             [
                 tick - begins + span * (route.first + index > end)
                 for index, tick in enumerate(route.enter)

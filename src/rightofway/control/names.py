@@ -116,6 +116,7 @@ def list_edges_into(roadmap: Roadmap, names: Sequence[str]) -> list[Edge]:
 
     Robots between the ends of a lane that was split drive out of it.
     """
+    roadmap = roadmap.fold()
     vertices = [roadmap.get_vertex(name) for name in names]
     if len(vertices) == 1:
         tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))

@@ -194,7 +194,7 @@ class Operator:
             raise InputError.at("robot", f"{name} is on the floor ({remedy})")
         if at is None and not said:
             raise InputError.at("robot", f"{name} does not say where it is (give --at)")
-        place = self._name_vertex(at or said)
+        place = self._name_stop(at or said)
         first, stops = own.route.end, self._dispatcher.list_stops()
         # A lap that ends where the robot has arrived was counted, its work there may not be done.
         laps_ahead = tuple(end for end in own.route.lap_ends if end > own.arrived)
@@ -234,7 +234,7 @@ class Operator:
         GaveUp
             If no plan with it was found: the old one stands.
         """
-        at = self._name_vertex(at)
+        at = self._name_stop(at)
         robots, stops = self._ledger.robots, self._dispatcher.list_stops()
         candidates = range(len(robots)) if robot is None else [find_robot(self._ledger, robot)]
         if after is not None:
@@ -297,7 +297,7 @@ class Operator:
         GaveUp
             If no plan with it was found: the old one stands.
         """
-        at = None if at is None else self._name_vertex(at)
+        at = None if at is None else self._name_stop(at)
         stops = self._dispatcher.list_stops()
         number, index = find_open_job(self._ledger, stops, name)
         old = stops[number][index]
@@ -363,10 +363,17 @@ class Operator:
             {"kind": "skipped", **find_failed_job(self._ledger, name)}, text=f"{name} is skipped"
         )
 
-    def _name_vertex(self, name: str) -> str:
-        """Return the name of the vertex that a name means: its own, or that of a station."""
+    def _name_stop(self, name: str) -> str:
+        """Return the name of the vertex that a name means: its own, or that of a station.
+
+        Robots may stop there.
+        """
         roadmap = self._scenario.roadmap
-        return roadmap.name(roadmap.get_place(name))
+        vertex = roadmap.get_place(name)
+        if roadmap.is_passed(vertex):
+            message = f"{name} is driven through only (name a vertex without pass)"
+            raise InputError.at("place", message)
+        return roadmap.name(vertex)
 
     def _detour(self, robot: int, stops: Sequence[StopToMake], at: str) -> tuple[int, int]:
         """Return how much longer a robot drives for a job at best, and before which stop."""

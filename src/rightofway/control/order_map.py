@@ -157,10 +157,10 @@ class OrderMap:
     def _made_lane(self, tail: str, head: str) -> OrderLane | None:
         scenario, roadmap = self.scenario, self.scenario.roadmap
         start, end = self._vertex(tail), self._vertex(head)
-        edge = None if start is None or end is None else roadmap.find_edge(start, end)
-        if start is None or end is None or edge is None:
+        edges = [] if start is None or end is None else roadmap.list_edges(start, end)
+        if start is None or end is None or not edges:
             return None
-        kind = roadmap.get_edge_class(edge)
+        kind = roadmap.get_edge_class(edges[0])
         robot = scenario.robots[self.robot]
         speed = kind.limit_speed(robot.speed, robot.type)
         shape = self._shapes.get((start, end))

@@ -20,9 +20,13 @@ def find_last_part(
     robot: int,
     ahead: int,
     is_in_base: Callable[[RobotLedger, int], bool],
+    *,
     may_enter: Callable[[int, int], bool],
+    may_stop: Callable[[str], bool],
 ) -> int:
     """Return the last part that may be released now; that which is released if none may.
+
+    What is released ends at a vertex where the robot may stop.
 
     Parameters
     ----------
@@ -36,21 +40,27 @@ def find_last_part(
         Tells whether a robot holds the vertex of a part already.
     may_enter
         Tells of a robot whether nothing else keeps it from a part, if all before it is released.
+    may_stop
+        Tells whether robots may stop at a vertex, by its name.
     """
     own, end = ledger.robots[robot], ledger.robots[robot].released
     if own.is_on_hold or own.fault is not None:
         return end
     route, last, arrived = own.route, min(own.arrived + ahead, own.route.end - 1), list[int]()
+    while last < own.route.end - 1 and not may_stop(route.get_place(last)):
+        last += 1
+    part = end
     while (
-        end < last
-        and own.finished.issuperset(route.get_jobs(end))
-        and not is_in_base(own, end + 1)
-        and ledger.graph.may_go(Part(robot, end + 1), arrived := arrived or ledger.arrived)
-        and find_closed(ledger, route.get_place(end), route.get_place(end + 1)) is None
-        and not list_strayed_to(ledger, route.get_place(end + 1))
-        and may_enter(robot, end + 1)
+        part < last
+        and own.finished.issuperset(route.get_jobs(part))
+        and not is_in_base(own, part + 1)
+        and ledger.graph.may_go(Part(robot, part + 1), arrived := arrived or ledger.arrived)
+        and find_closed(ledger, route.get_place(part), route.get_place(part + 1)) is None
+        and not list_strayed_to(ledger, route.get_place(part + 1))
+        and may_enter(robot, part + 1)
     ):
-        end += 1
+        part += 1
+        end = part if may_stop(route.get_place(part)) else end
     return end
 
 

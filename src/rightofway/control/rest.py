@@ -34,6 +34,7 @@ from rightofway.planners.task import Task
 from rightofway.precedence import ReleaseGraph, build_graph
 from rightofway.search import Distances
 from rightofway.site import Roadmap, VertexId
+from rightofway.site.passing import list_next_stops
 from rightofway.solve import solve
 
 __all__ = ["RestPlanner"]
@@ -67,6 +68,35 @@ class RestPlanner:
         self._scenario = replace(scenario, rules=rules, clock=clock, closures=())
         self._planner, self._time_limit = planner, time_limit
 
+    def may_stop(self, place: str) -> bool:
+        """Return whether robots may stop at a vertex; they may at one that the map does not have.
+
+        Parameters
+        ----------
+        place
+            Its name.
+        """
+        roadmap = self._scenario.roadmap
+        try:
+            return not roadmap.is_passed(roadmap.get_vertex(place))
+        except InputError:
+            return True
+
+    def begin_at_stop(self, own: RobotLedger) -> RobotLedger:
+        """Return a robot as if it had arrived no further than where it last might stop.
+
+        A drive through passed vertices is planned as a whole.
+
+        Parameters
+        ----------
+        own
+            What is known of it.
+        """
+        visit = own.arrived
+        while visit > own.route.first and not self.may_stop(own.route.get_place(visit)):
+            visit -= 1
+        return own if visit == own.arrived else replace(own, arrived=visit)
+
     def plan(
         self,
         robots: Sequence[RobotLedger],
@@ -98,6 +128,7 @@ class RestPlanner:
         GaveUp
             If no plan was found, or the judge refuses it.
         """
+        robots = list(map(self.begin_at_stop, robots))
         commitments = [
             make_robot_commitment(self._scenario, robot, own, end)
             for robot, (own, end) in enumerate(zip(robots, released, strict=True))
@@ -140,6 +171,7 @@ class RestPlanner:
         stuck
             Robots that do not go on for now: others go first where they can.
         """
+        robots = list(map(self.begin_at_stop, robots))
         moving = [robot for robot, own in enumerate(robots) if not own.is_off]
         routes = [own.route.cut_before(own.arrived) for own in robots]
         commitments = {
@@ -173,7 +205,9 @@ class RestPlanner:
             make_route_through(
                 whole.roadmap,
                 itinerary,
-                [whole.roadmap.get_vertex(place) for place in routes[robot].places],
+                whole.roadmap.unfold_route(
+                    [whole.roadmap.get_vertex(place) for place in routes[robot].places]
+                ),
             )
             for robot, itinerary in zip(moving, itineraries, strict=True)
         ]
@@ -396,11 +430,11 @@ class RestPlanner:
         roadmap, place = self._scenario.roadmap, commitment.vertices[-1]
         stops_ahead = [*stops, StopToMake(own.route.places[-1])]
         if stops_ahead[0].job and roadmap.get_vertex(stops_ahead[0].place) == place:
-            heads = roadmap.heads[roadmap.indptr[place] : roadmap.indptr[place + 1]].tolist()
-            if not heads:
+            ends = list_next_stops(roadmap, place)
+            if not ends:
                 raise GaveUp(f"{stops_ahead[0].place} cannot be left and entered again")
             # From a neighbour on a one-way lane the planner finds a longer way back.
-            back = [head for head in heads if roadmap.find_edge(head, place) is not None] or heads
+            back = [stop for stop in ends if place in list_next_stops(roadmap, stop)] or ends
             stops_ahead.insert(0, StopToMake(roadmap.name(back[aside % len(back)])))
         return stops_ahead
 

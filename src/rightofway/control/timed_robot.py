@@ -61,9 +61,9 @@ class Durations:
     def _find_class(self, tail: str, head: str) -> int:
         """Return the class of the edge between two places."""
         roadmap = self._roadmap
-        edge = roadmap.find_edge(roadmap.get_vertex(tail), roadmap.get_vertex(head))
-        assert edge is not None, "a control has its routes from a dispatcher, which knows the map"
-        return int(roadmap.class_of_edge[edge])
+        edges = roadmap.list_edges(roadmap.get_vertex(tail), roadmap.get_vertex(head))
+        assert edges, "a control has its routes from a dispatcher, which knows the map"
+        return int(roadmap.class_of_edge[edges[0]])
 
     def _planned(self, robot: int, visit: int) -> tuple[int, int]:
         """Return the run that has the delays of a visit, and a visit of the plan."""

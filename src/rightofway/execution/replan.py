@@ -27,6 +27,7 @@ from fractions import Fraction
 from itertools import combinations, islice, pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rightofway.check import check
 from rightofway.errors import GaveUp, NoPlanExists
@@ -110,6 +111,8 @@ def find_commitment(forecast: Forecast, robot: int, stages: Sequence[Stage]) -> 
         is_closed = any(end > forecast.now for _, end in closed)
         is_driving = False
         index += not is_closed and all(forecast.entered[other + 1] for other in before)
+    while route.vertices[index] >= adg.scenario.roadmap.n_drawn:
+        index += 1  # the drive along a chain is finished
     ends = forecast.graph.enter(first + index) + forecast.graph.routes[robot].dwell[index]
     begun = sum(at <= index for at in route.serves)
     return Commitment(
@@ -427,6 +430,12 @@ def _turn_aside(
     return int(compute_turns_along(scenario.roadmap, scenario.problem.itineraries[robot], path)[1])
 
 
+def _number_arrivals(enter: NDArray[np.int64], arrives: int) -> NDArray[np.int64]:
+    """Return when committed visits begin; those that have not begun, in their order from a tick."""
+    is_ahead = enter > arrives
+    return np.where(is_ahead, arrives + np.maximum(np.cumsum(is_ahead) - 1, 0), enter)
+
+
 def _spliced(
     forecast: Forecast, commitments: Sequence[Commitment], plan: Plan
 ) -> ActionDependencyGraph:
@@ -435,6 +444,12 @@ def _spliced(
     # The arrival of a robot with a size comes after all that has ended until now, and before all
     # that is new. For points both begin at the vertex, and the order there is known.
     arrives = now if adg.scenario.problem.resources.are_points else now + 1
+    firsts = adg.first_visit.tolist()
+    begins_of_kept = [
+        _number_arrivals(forecast.progress.enter[first : first + commitment.visit + 1], arrives)
+        for first, commitment in zip(firsts[:-1], commitments, strict=True)
+    ]
+    latest = max(int(enter[-1]) for enter in begins_of_kept)
     routes, tracks, sinces = [], [], []
     for robot, (commitment, old) in enumerate(zip(commitments, adg.routes, strict=True)):
         itinerary, track = plan.scenario.problem.itineraries[robot], plan.tracks[robot]
@@ -463,13 +478,13 @@ def _spliced(
             serves=tuple(serves),
         )
         booked = slice(first := int(adg.first_visit[robot]), first + commitment.visit + 1)
-        enter = arrives + 1 + track.enter[begins + 1 - is_driving :]
+        enter = max(arrives, latest) + 1 + track.enter[begins + 1 - is_driving :]
         since = np.full(len(enter), now)
         next_visit = slice(commitment.visit + 1, commitment.visit + 2)
         turns_back = old.vertices[next_visit] != route.vertices[next_visit]
         if len(enter) and forecast.may_turn_back and forecast.has_set_off(robot) and turns_back:
             since[0] += route.drive[commitment.visit + 1]
-        enter = np.append(np.minimum(forecast.progress.enter[booked], arrives), enter)
+        enter = np.append(begins_of_kept[robot], enter)
         tracks.append(Track(vertices=np.array(route.vertices, np.int32), enter=enter))
         routes.append(route)
         sinces.append(np.append(adg.since[booked], since))

@@ -163,6 +163,7 @@ class FleetBuilder:
         *,
         barred: Iterable[str] = (),
         surcharge: Number = 0,
+        is_passed: bool = False,
     ) -> Self:
         """Add a vertex to the roadmap.
 
@@ -176,6 +177,8 @@ class FleetBuilder:
             Types of robots that may not be there.
         surcharge
             What makes each edge into it less liked, not slower [time unit].
+        is_passed
+            Whether robots only drive through, without a stop.
 
         Raises
         ------
@@ -184,7 +187,7 @@ class FleetBuilder:
             grid or robots were added already.
         """
         self._refuse_fixed_map(f"vertex {quote(name)}")
-        self._drawn.add_vertex(name, x, y, barred=barred, surcharge=surcharge)
+        self._drawn.add_vertex(name, x, y, barred=barred, surcharge=surcharge, is_passed=is_passed)
         return self
 
     def add_edge(

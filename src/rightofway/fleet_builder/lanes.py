@@ -25,7 +25,7 @@ from rightofway.site import (
 from rightofway.site.edges import make_roadmap_of_table
 from rightofway.site.spacing import split_lanes
 from rightofway.site.zones import NamedZone
-from rightofway.values import Number
+from rightofway.values import Number, read_at, read_truth
 from rightofway.values import read_length as exact_length
 
 
@@ -39,7 +39,7 @@ class DrawnLanes:
         Name and position of each vertex [length unit].
     edges
         Tail, head, length if it is given, and the other attributes of each directed edge.
-    barred, surcharges
+    barred, surcharges, passed
         What vertices were given.
     zones
         Zones by the names of their vertices and edges.
@@ -51,11 +51,19 @@ class DrawnLanes:
     edges: list[tuple[str, str, Fraction | None, dict[str, Any]]] = field(default_factory=list)
     barred: dict[str, frozenset[str]] = field(default_factory=dict)
     surcharges: dict[str, Fraction] = field(default_factory=dict)
+    passed: list[str] = field(default_factory=list)
     zones: list[NamedZone] = field(default_factory=list)
     is_drawn: bool = True
 
     def add_vertex(
-        self, name: str, x: Number, y: Number, *, barred: Iterable[str], surcharge: Number
+        self,
+        name: str,
+        x: Number,
+        y: Number,
+        *,
+        barred: Iterable[str],
+        surcharge: Number,
+        is_passed: bool,
     ) -> None:
         """Add a vertex, as `FleetBuilder.add_vertex`."""
         place = f"vertex {quote(name)}"
@@ -68,6 +76,8 @@ class DrawnLanes:
             self.barred[name] = types
         if more := read_surcharge((place, "surcharge"), surcharge):
             self.surcharges[name] = more
+        if read_at((place, "is_passed"), read_truth, is_passed):
+            self.passed.append(name)
 
     def add_edge(
         self,
@@ -133,6 +143,7 @@ class DrawnLanes:
             pieces=split.pieces,
             barred=self.barred,
             surcharges=self.surcharges,
+            passed=self.passed,
         )
 
     def _square(self, tail: str, head: str) -> Fraction:
@@ -148,7 +159,7 @@ def read_graph(graph: Any) -> DrawnLanes:
     lanes = DrawnLanes(is_drawn=is_drawn)
     for index, (node, position) in enumerate(at.items()):
         x, y = position if position and is_drawn else (index, 0)
-        lanes.add_vertex(str(node), x, y, barred=(), surcharge=0)
+        lanes.add_vertex(str(node), x, y, barred=(), surcharge=0, is_passed=False)
     for tail, head, data in graph.edges(data=True):
         lanes.add_edge(
             str(tail),

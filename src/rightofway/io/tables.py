@@ -42,6 +42,7 @@ SPOTS = ("parking", "charging")
 
 TRUTH_KEYS = {
     "both_ways",
+    "pass",
     *SPOTS,
     *(attribute.key for attribute in RULE_ATTRIBUTES if attribute.kind == "truth"),
 }

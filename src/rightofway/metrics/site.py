@@ -121,7 +121,7 @@ class Site:
     Attributes
     ----------
     roadmap
-        The roadmap.
+        The roadmap, as it is drawn.
     units
         Units of its lengths.
     stations, parking
@@ -138,6 +138,9 @@ class Site:
     parking: Mapping[str, int] = field(default_factory=dict)
     robots: Sequence[Robot] = ()
     rules: Rules = field(default_factory=Rules)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "roadmap", self.roadmap.fold())
 
     @cached_property
     def homes(self) -> dict[int, str]:

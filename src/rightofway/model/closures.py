@@ -96,10 +96,10 @@ def find_closure_faults(closure: Closure, roadmap: Roadmap) -> Iterator[InputFau
     unknown = [
         (key, place)
         for key, place in places
-        if place is not None and not 0 <= place < roadmap.n_vertices
+        if place is not None and not 0 <= place < roadmap.n_drawn
     ]
     for key, place in unknown:
-        last = roadmap.n_vertices - 1
+        last = roadmap.n_drawn - 1
         yield InputFault(key, f"vertex {place} is not on the roadmap (give 0 to {last})")
     if closure.edge is not None and not unknown and not roadmap.find_ways_along(closure.edge):
         tail, head = map(roadmap.name, closure.edge)
@@ -250,18 +250,35 @@ def _closed_resources(plane: _Plane, closure: Closure, reach: Fraction | None) -
     roadmap = plane.roadmap
     ways = [] if closure.edge is None else roadmap.find_ways_along(closure.edge)
     own = {ends for lane in ways for pair in pairwise(lane) for ends in (pair, pair[::-1])}
-    edges = (roadmap.find_edge(*ends) for ends in own)
-    closed: set[int] = {roadmap.n_vertices + edge for edge in edges if edge is not None}
+    edges = (edge for ends in own for edge in roadmap.list_edges(*ends))
+    closed: set[int] = {roadmap.n_vertices + edge for edge in edges}
     closed.update(place for lane in ways for place in lane[1:-1])
     if closure.at is not None:
         closed.add(closure.at)
+    copies = {} if roadmap.passing is None else roadmap.passing.copies
+    closed.update(at for place in [*closed] for at in copies.get(place, ()))
     if reach:
         at = plane.exact
         segments = [(at[tail], at[head]) for lane in ways for tail, head in pairwise(lane)]
         if closure.at is not None:
             segments.append((at[closure.at], at[closure.at]))
-        closed.update(plane.find_near(segments, reach, closure.edge or ()))
-    return closed
+        ends = [at for end in closure.edge or () for at in (end, *copies.get(end, ()))]
+        closed.update(plane.find_near(segments, reach, ends))
+    return closed if roadmap.passing is None else closed | _list_along_chains(roadmap, closed)
+
+
+def _list_along_chains(roadmap: Roadmap, closed: Collection[int]) -> set[int]:
+    """Return the vertices of chains of which a part is closed: a chain is booked as a whole."""
+    assert roadmap.passing is not None, "there are chains"
+    tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr)).tolist()
+    touched = set[int]()
+    for place in closed:
+        edge = place - roadmap.n_vertices
+        # An edge of a chain has an end of its own on the chain.
+        parts = [place] if edge < 0 else [tails[edge], int(roadmap.heads[edge])]
+        inside = [part for part in parts if edge < 0 or part >= roadmap.n_drawn]
+        touched.update(*(roadmap.passing.chains_at.get(part, ()) for part in inside))
+    return {vertex for chain in touched for vertex in roadmap.passing.chains[chain][1:-1]}
 
 
 def _boxed(

@@ -12,6 +12,7 @@ from rightofway.errors import InputError, find_nearest, quote
 from rightofway.model.figures import get_figures
 from rightofway.model.lost_time import LostTime
 from rightofway.model.outcome import ForcedLoss, Objective, Outcome
+from rightofway.model.passing import unfold_tracks
 from rightofway.model.robot import Robot
 from rightofway.model.route import Track
 from rightofway.model.scenario import Scenario
@@ -289,6 +290,7 @@ class Plan:
             raise InputError.at(
                 "robots", f"{tracks} tracks for {robots} robots (give one for each)"
             )
+        object.__setattr__(self, "tracks", unfold_tracks(self.scenario.roadmap, self.tracks))
         names = [robot.name for robot in self.scenario.robots]
         refuse_unknown_robots(self.steady, names, list(map(len, self.tracks)))
 

@@ -60,13 +60,16 @@ Exact = NDArray[Any]
 
 
 def refuse_sizes(resources: Resources, method: str, remedy: str) -> None:
-    """Refuse a fleet in which a robot has a size, or whose roadmap has zones.
+    """Refuse a fleet in which a robot has a size, or whose roadmap has zones or passed vertices.
 
     Raises
     ------
     InputError
-        If a robot has a size, or there is a zone.
+        If a robot has a size, or there is a zone or a passed vertex.
     """
+    if resources.roadmap.passing is not None:
+        message = f"{method} does not know vertices with pass ({remedy})"
+        raise InputError.at("", message)
     if not resources.are_points:
         message = f"{method} does not know robots with a size or zones ({remedy})"
         raise InputError.at("", message)
@@ -157,7 +160,8 @@ class Resources:
     n_vertices, n_edges
         Vertices and edges of the roadmap.
     are_points
-        Whether no robot has a size and there is no zone: a vertex excludes itself.
+        Whether no robot has a size, and there is neither a zone nor a passed vertex: a vertex
+        excludes itself.
     """
 
     roadmap: Roadmap
@@ -171,7 +175,8 @@ class Resources:
     def __post_init__(self) -> None:
         object.__setattr__(self, "n_vertices", self.roadmap.n_vertices)
         object.__setattr__(self, "n_edges", self.roadmap.n_edges)
-        object.__setattr__(self, "are_points", not any(self.sizes) and not self.roadmap.zones)
+        is_plain = not self.roadmap.zones and self.roadmap.passing is None
+        object.__setattr__(self, "are_points", not any(self.sizes) and is_plain)
 
     @property
     def n_rows(self) -> int:
@@ -226,7 +231,11 @@ def bind_resources(roadmap: Roadmap, radii: Sequence[Fraction], clearance: Fract
 def make_points(roadmap: Roadmap, n_robots: int) -> Resources:
     """Return the resources of a fleet of points."""
     return Resources(
-        roadmap=replace(roadmap, zones=()) if roadmap.zones else roadmap,
+        roadmap=(
+            replace(roadmap, zones=(), passing=None)
+            if roadmap.zones or roadmap.passing is not None
+            else roadmap
+        ),
         sizes=(Fraction(0),),
         clearance=Fraction(0),
         size_of=np.zeros(n_robots, np.int32),
@@ -239,8 +248,12 @@ def list_members(roadmap: Roadmap, zone: Zone) -> list[int]:
     An edge that ends at a vertex of the zone is left out, because the vertex is booked as long.
     """
     inside = {*zone.vertices}
-    numbers = [roadmap.find_edge(*ends) for ends in zone.edges if inside.isdisjoint(ends)]
-    return [*zone.vertices, *(roadmap.n_vertices + edge for edge in numbers if edge is not None)]
+    numbers = [
+        edge for ends in zone.edges if inside.isdisjoint(ends) for edge in roadmap.list_edges(*ends)
+    ]
+    copies = {} if roadmap.passing is None else roadmap.passing.copies
+    vertices = [at for vertex in zone.vertices for at in copies.get(vertex, [vertex])]
+    return [*vertices, *(roadmap.n_vertices + edge for edge in numbers)]
 
 
 def _refuse_large_zones(roadmap: Roadmap) -> None:

@@ -97,7 +97,7 @@ def _resolved(scenario: Scenario) -> Rules:
     if scenario.rules.occupancy is not None:
         return scenario.rules
     has_sizes = any(robot.radius > 0 for robot in scenario.robots)
-    ahead = has_sizes or bool(scenario.roadmap.zones)
+    ahead = has_sizes or bool(scenario.roadmap.zones) or scenario.roadmap.passing is not None
     return replace(scenario.rules, occupancy="both" if ahead else "one")
 
 
@@ -168,6 +168,9 @@ def _space_faults(scenario: Scenario) -> Iterator[InputFault]:
         yield InputFault(("rules", "clearance"), f"{rules.clearance} is negative (give 0 or more)")
     if scenario.roadmap.zones and rules.occupancy == "one":
         message = "'one' does not go with zones (give both, so that robots book ahead)"
+        yield InputFault(("rules", "occupancy"), message)
+    if scenario.roadmap.passing is not None and rules.occupancy == "one":
+        message = "'one' does not go with vertices that have pass (give both: robots book ahead)"
         yield InputFault(("rules", "occupancy"), message)
     if all(robot.radius <= 0 for robot in scenario.robots):
         if rules.clearance > 0:
@@ -273,6 +276,10 @@ def _place_faults(robot: Robot, roadmap: Roadmap) -> Iterator[InputFault]:
         elif robot.type in roadmap.barred_vertices.get(VertexId(vertex), frozenset()):
             message = f"{roadmap.name(vertex)} is barred for robots of type {robot.type}"
             yield InputFault(place, f"{message} (give the robot another place, or another type)")
+        elif roadmap.passing is not None and vertex in roadmap.passing.vertices:
+            message = f"{roadmap.name(vertex)} is driven through only"
+            remedy = "give the robot another place, or take pass out of the vertex"
+            yield InputFault(place, f"{message} ({remedy})")
     has_walls = roadmap.grid is not None and any(
         edge_class.max_radius is not None for edge_class in roadmap.edge_classes
     )

@@ -68,6 +68,10 @@ def _lists_of(
     n_bits = max(*x, *y, *needed).bit_length()
     n_limbs = max(1, -(-n_bits // LIMB))
     members = [list_members(roadmap, zone) for zone in roadmap.zones]
+    passing = roadmap.passing
+    chains = () if passing is None else passing.chains
+    if passing is not None:  # all vertices that stand for a passed one are one place
+        members += map(list[int], passing.copies.values())
     return _core.ExcludedRows(
         _core.Roads(
             roadmap.indptr,
@@ -85,6 +89,8 @@ def _lists_of(
         distance_limbs=_limbs(needed, n_limbs),
         zone_first=np.array([0, *accumulate(map(len, members))], np.int32),
         zone_member=np.array(list(chain.from_iterable(members)), np.int32),
+        chain_first=np.array([0, *accumulate(map(len, chains))], np.int32),
+        chain_vertex=np.array(list(chain.from_iterable(chains)), np.int32),
     )
 
 

@@ -21,7 +21,7 @@ class Feature(StrEnum):
     LEAVES_SWAPS
         Its plans may hold swaps; all other plans keep all rules.
     SIZES
-        It plans robots that have a size.
+        It plans robots that have a size, and keeps zones and passed vertices.
     CLOSURES
         It keeps clear of closures.
     BARRED_EDGES
@@ -53,10 +53,12 @@ def refuse_unknown(
     Raises
     ------
     InputError
-        For robots with a size, turn rates, closures or barred edges, with the first that is found.
+        For robots with a size, zones, passed vertices, turn rates, closures or barred edges, with
+        the first that is found.
     """
     if not problem.resources.are_points and Feature.SIZES not in features:
-        if Feature.LEAVES_SWAPS in features:
+        has_passed = problem.roadmap.passing is not None
+        if Feature.LEAVES_SWAPS in features and not has_passed:
             why = "it leaves swaps, and robots with a size collide in them"
             raise InputError.at("", f"{method} is for points: {why} ({remedy(Feature.SIZES)})")
         refuse_sizes(problem.resources, method, remedy(Feature.SIZES))

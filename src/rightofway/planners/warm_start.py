@@ -26,7 +26,7 @@ import math
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import pairwise
+from itertools import islice, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -102,7 +102,10 @@ def compare_with_start(old: Plan, scenario: Scenario, tracks: Sequence[Track]) -
     routes = times = 0
     for track, partner in zip(tracks, _partners(old, scenario, vertex), strict=True):
         before = None if partner is None else old.tracks[partner]
-        if before is None or not np.array_equal(vertex[before.vertices], track.vertices):
+        if before is None:
+            continue
+        visited = _list_visited(scenario.roadmap, vertex[before.vertices])
+        if not np.array_equal(visited, track.vertices):
             continue
         routes += 1
         enter = zip(before.enter.tolist(), track.enter.tolist(), strict=True)
@@ -114,15 +117,22 @@ def map_vertices(old: Roadmap, new: Roadmap) -> NDArray[np.int32]:
     """Return for each vertex of an old map the same vertex of a new one, -1 where there is none.
 
     Vertices with names are the same if their names are; others, as those of grids, if they lie at
-    the same place of the site.
+    the same place of the site. Vertices of another map are those that are drawn.
     """
     if old == new:
         return np.arange(old.n_vertices, dtype=np.int32)
     keys: list[Iterable[Hashable]] = [_places(old), _places(new)]
     if old.labels is not None and new.labels is not None:
         keys = [old.labels, new.labels]
-    known = {key: vertex for vertex, key in enumerate(keys[1])}
+    known = {key: vertex for vertex, key in enumerate(islice(keys[1], new.n_drawn))}
     return np.array([known.get(key, -1) for key in keys[0]], np.int32)
+
+
+def _list_visited(roadmap: Roadmap, vertices: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Return a route with the chains of a roadmap; -1 is no vertex of it."""
+    if roadmap.passing is None:
+        return vertices
+    return np.array(roadmap.unfold_route(vertices.tolist()), np.int32)
 
 
 def _places(roadmap: Roadmap) -> list[tuple[int, int]]:
@@ -156,7 +166,8 @@ def _kept_routes(scenario: Scenario, old: Plan) -> Iterator[tuple[int, _Kept]]:
     for robot, partner in enumerate(_partners(old, scenario, vertex)):
         if partner is None:
             continue
-        track, visited = old.tracks[partner], vertex[old.tracks[partner].vertices]
+        track = old.tracks[partner]
+        visited = _list_visited(scenario.roadmap, vertex[track.vertices])
         now, before = (fleet.problem.itineraries for fleet in (scenario, old.scenario))
         places = [stage.vertex for stage in now[robot].stages]
         old_places = [int(vertex[stage.vertex]) for stage in before[partner].stages]

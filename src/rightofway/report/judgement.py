@@ -162,6 +162,7 @@ _SHAPES: Mapping[tuple[str, str], Callable[[Values], Values]] = {
     },
     ("zone conflict", "reason"): lambda values: {"other_vertex": values["vertices"][1]},
     ("closed", "reason"): _shape_closed,
+    ("stop at pass", "remedy"): lambda values: {"moment": values["late"]},
     ("barred", "reason"): lambda values: {
         "why": Fact("near a wall")
         if values["type"] is None

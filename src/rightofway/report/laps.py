@@ -209,7 +209,7 @@ def _wait_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) 
     for site in sites[:MAX_LINES]:
         vertex, beside, waiting, awaited = site
         where = place(vertex)
-        if beside is not None:
+        if beside is not None and place(beside) != where:
             where = Phrase("{place} beside {other}", place=where, other=place(beside))
         when: list[str] = []
         if site in first:

@@ -19,6 +19,7 @@ from rightofway.arguments import checks_arguments
 from rightofway.deadline import READING, limit_loop
 from rightofway.errors import InputError, quote
 from rightofway.site.geometry import Frame, VertexId, find_fractions
+from rightofway.site.passing import unfold
 from rightofway.site.roadmap import EdgeClass, Lane, Roadmap
 from rightofway.site.zones import NamedZone, number_zones
 from rightofway.values import (
@@ -193,6 +194,7 @@ def make_roadmap(
     frame: Frame | None = None,
     barred: Mapping[str, Collection[str]] | None = None,
     surcharges: Mapping[str, Fraction] | None = None,
+    passed: Collection[str] = (),
 ) -> Roadmap:
     """Make a roadmap of named vertices and directed edges.
 
@@ -217,6 +219,8 @@ def make_roadmap(
         Names of vertices with the types of robots that may not be there.
     surcharges
         Names of vertices with what is added to the surcharge of each edge into them [time unit].
+    passed
+        Names of vertices that robots only drive through.
 
     Raises
     ------
@@ -234,6 +238,7 @@ def make_roadmap(
         frame=frame,
         barred=barred,
         surcharges=surcharges,
+        passed=passed,
     )
 
 
@@ -248,6 +253,7 @@ def make_roadmap_of_table(
     frame: Frame | None = None,
     barred: Mapping[str, Collection[str]] | None = None,
     surcharges: Mapping[str, Fraction] | None = None,
+    passed: Collection[str] = (),
 ) -> Roadmap:
     """Make a roadmap of a table of edges; otherwise as `make_roadmap`.
 
@@ -264,7 +270,7 @@ def make_roadmap_of_table(
     degrees = np.bincount(table.tails, minlength=len(ids))
     down = -1 if y_up else 1
     points = [(float(x), down * float(y)) for x, y in positions.values()]
-    return Roadmap(
+    roadmap = Roadmap(
         indptr=np.concatenate(([0], np.cumsum(degrees))).astype(np.int32),
         heads=table.heads[order],
         class_of_edge=kinds[order],
@@ -283,6 +289,7 @@ def make_roadmap_of_table(
         zones=number_zones(zones, ids, _list_ends(table), pieces or {}) if zones else (),
         lanes=_lanes((pieces or {}).values(), ids),
     )
+    return unfold(roadmap, [VertexId(ids[name]) for name in passed])
 
 
 def _list_ends(table: EdgeTable) -> set[tuple[str, str]]:

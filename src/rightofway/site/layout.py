@@ -37,12 +37,15 @@ class LayoutVertex:
         Where it lies in the site's frame [m].
     is_parking, is_charging
         Whether a robot may park, or can be charged, there.
+    is_passed
+        Whether robots only drive through, without a stop.
     """
 
     name: str
     at: Point
     is_parking: bool = False
     is_charging: bool = False
+    is_passed: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -234,7 +237,16 @@ def build_roadmap_of_level(
     }
     split = split_lanes(positions, table, spacing, shapes, distance=distance)
     roadmap = make_roadmap_of_table(
-        split.positions, split.edges, y_up=True, zones=zones, pieces=split.pieces
+        split.positions,
+        split.edges,
+        y_up=True,
+        zones=zones,
+        pieces=split.pieces,
+        passed=[
+            vertex.name
+            for vertex in level.vertices
+            if vertex.is_passed and vertex.name in positions
+        ],
     )
     bends = {lanes.get_ends(lane): shape.points for lane, shape in lanes.shapes.items()
              if shape.points}  # fmt: skip
@@ -350,7 +362,7 @@ def _drawing(
         curves=tuple(
             (ids[tail], ids[head], tuple((x * metre, y * metre) for x, y in points))
             for (tail, head), points in bends.items()
-            if {tail, head} <= ids.keys() and roadmap.find_edge(ids[tail], ids[head]) is not None
+            if {tail, head} <= ids.keys() and roadmap.is_drawn(ids[tail], ids[head])
         ),
         picture=level.picture and level.picture.scale(metre),
     )

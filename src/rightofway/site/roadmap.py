@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import pairwise
@@ -15,6 +15,7 @@ from rightofway.errors import InputError, InputFault, find_nearest, quote
 from rightofway.site.clustering import Obstacle
 from rightofway.site.drawing import Drawing
 from rightofway.site.geometry import Frame, Point, VertexId, read_shortest
+from rightofway.site.passing import Passing, fold
 from rightofway.site.zones import Zone
 from rightofway.values import TypeSpeeds
 
@@ -187,6 +188,9 @@ class Roadmap:
         on a grid.
     drawn_sides
         The same in floating point; float64, shape (V,), empty where vertices have none.
+    passing
+        The vertices that robots only drive through; None without such vertices. Several vertices
+        then stand for one passed vertex and have its name.
     """
 
     indptr: NDArray[np.int32]
@@ -204,6 +208,7 @@ class Roadmap:
     obstacles: tuple[Obstacle, ...] = ()
     drawing: Drawing = field(default_factory=Drawing)
     sides: tuple[Fraction, ...] | None = None
+    passing: Passing | None = None
     drawn_sides: NDArray[np.float64] = field(init=False, repr=False)
     _ids: Mapping[str, int] = field(init=False, repr=False)
     _stations: Mapping[str, VertexId] = field(init=False, repr=False)
@@ -213,7 +218,8 @@ class Roadmap:
         for array in (self.indptr, self.heads, self.class_of_edge, self.positions):
             array.flags.writeable = False
         object.__setattr__(self, "drawn_sides", np.array(self.sides or (), np.float64))
-        ids = {name: vertex for vertex, name in enumerate(self.labels or ())}
+        drawn = (self.labels or ())[: self.n_drawn]
+        ids = {name: vertex for vertex, name in enumerate(drawn)}
         object.__setattr__(self, "_ids", ids)
         object.__setattr__(self, "_stations", dict(self.drawing.stations))
         at = {joint: lane for lane in reversed(self.lanes) for joint in lane.joints}
@@ -236,6 +242,9 @@ class Roadmap:
             and np.array_equal(self.positions, other.positions)
             and self.fractions == other.fractions
             and self.sides == other.sides
+            and (
+                other.passing is None if not self.passing else self.passing.is_equal(other.passing)
+            )
         )
 
     def __hash__(self) -> int:
@@ -277,9 +286,7 @@ class Roadmap:
         One way for each drawing of the lane: its directions may be driven along different curves.
         Nothing if no edge or lane has these ends.
         """
-        ways = (
-            [ends] if any(self.find_edge(*pair) is not None for pair in (ends, ends[::-1])) else []
-        )
+        ways = [ends] if any(self.is_drawn(*pair) for pair in (ends, ends[::-1])) else []
         drawn: dict[frozenset[VertexId], tuple[VertexId, ...]] = {}
         for lane in self.lanes:  # both directions of one curve are one way
             if lane.ends in (ends, ends[::-1]):
@@ -303,6 +310,34 @@ class Roadmap:
     def n_edges(self) -> int:
         """Number of directed edges."""
         return len(self.heads)
+
+    @property
+    def n_drawn(self) -> int:
+        """Number of vertices as they are drawn, without those of chains through passed vertices."""
+        return self.n_vertices if self.passing is None else self.passing.n_drawn
+
+    @checks_arguments
+    def is_passed(self, vertex: int) -> bool:
+        """Return whether robots only drive through a vertex."""
+        return self.passing is not None and self.get_drawn(vertex) in self.passing.vertices
+
+    def get_drawn(self, vertex: int) -> int:
+        """Return the vertex that a vertex stands for; only those of chains stand for others."""
+        if self.passing is None:
+            return vertex
+        self._refuse_unknown("vertex", vertex)
+        return int(self.passing.drawn[vertex])
+
+    def fold(self) -> Roadmap:
+        """Return the roadmap as it is drawn, with edges to passed vertices and without chains."""
+        return fold(self)
+
+    @checks_arguments
+    def unfold_route(self, vertices: Sequence[int]) -> list[VertexId]:
+        """Return a route with the vertices of chains in place of passed vertices."""
+        if self.passing is None:
+            return list(map(VertexId, vertices))
+        return self.passing.unfold_route(vertices)
 
     @property
     def has_cells(self) -> bool:
@@ -402,9 +437,10 @@ class Roadmap:
     def exclude(self, closed: Collection[int], edges: Collection[tuple[int, int]] = ()) -> Roadmap:
         """Return the same vertices without some edges, and without those at closed vertices."""
         tails = np.repeat(np.arange(self.n_vertices), np.diff(self.indptr))
-        shut = np.fromiter(closed, np.int64, len(closed))
+        copies = {} if self.passing is None else self.passing.copies
+        shut = [at for vertex in closed for at in (vertex, *copies.get(vertex, ()))]
         is_open = ~(np.isin(tails, shut) | np.isin(self.heads, shut))
-        is_open[[index for ends in edges if (index := self.find_edge(*ends)) is not None]] = False
+        is_open[[edge for ends in edges for edge in self.list_edges(*ends)]] = False
         degree = np.bincount(tails[is_open], minlength=self.n_vertices)
         open_pairs = set(zip(tails[is_open].tolist(), self.heads[is_open].tolist(), strict=True))
         zones = (
@@ -427,6 +463,21 @@ class Roadmap:
             if self.heads[index] == head:
                 return index
         return None
+
+    def list_edges(self, tail: int, head: int) -> list[int]:
+        """Return the edges that stand for the edge drawn from ``tail`` to ``head``.
+
+        It is that edge, if there is one; of an edge at a passed vertex, one for each chain on it.
+        """
+        pairs = [(tail, head)] if self.passing is None else self.passing.list_pairs(tail, head)
+        edges = (self.find_edge(*pair) for pair in pairs)
+        return [edge for edge in edges if edge is not None]
+
+    def is_drawn(self, tail: int, head: int) -> bool:
+        """Return whether an edge is drawn from one vertex to another."""
+        if self.find_edge(tail, head) is not None:
+            return True
+        return self.passing is not None and self.passing.is_drawn(tail, head)
 
     @checks_arguments
     def find_edges(self, tails: NDArray[np.int32], heads: NDArray[np.int32]) -> NDArray[np.int32]:

@@ -38,7 +38,7 @@ class Moment:
 class Trip:
     """A track with what the robot does during each visit."""
 
-    vertices: tuple[int, ...]
+    vertices: tuple[int, ...]  # as they are drawn
     enter: tuple[int, ...]  # when each visit begins [ticks]
     drive: tuple[int, ...]  # of the edge into each visit, 0 for the first [ticks]
     stages: tuple[Stage, ...]
@@ -95,7 +95,7 @@ def make_trips(plan: Plan) -> tuple[Trip, ...]:
     for track, stays, itinerary in zip(plan.tracks, stays_of_all, itineraries, strict=True):
         missed = len(itinerary.stages) - len(stays.serves)
         trip = Trip(
-            vertices=tuple(track.vertices.tolist()),
+            vertices=tuple(map(plan.scenario.roadmap.get_drawn, track.vertices.tolist())),
             enter=tuple(track.enter.tolist()),
             drive=(0, *stays.drive[:-1].tolist()),
             stages=itinerary.stages,

@@ -77,7 +77,7 @@ def _drawing(scenario: Scenario) -> str:
 
 def _map_shapes(scenario: Scenario, plane: Plane) -> Iterator[str]:
     """Yield the walls of a grid, or the lanes of a roadmap."""
-    roadmap = scenario.roadmap
+    roadmap = scenario.roadmap.fold()
     if roadmap.grid is not None:
         runs = []
         for row, line in enumerate(roadmap.grid.as_lines()):

@@ -32,6 +32,7 @@ class Plane:
 
 def lay_out_roadmap(roadmap: Roadmap) -> Plane:
     """Lay out a roadmap; one unit is a (smallest) cell, or a short edge of the roadmap."""
+    roadmap = roadmap.fold()
     grid = roadmap.grid
     if grid is not None:
         rows, columns = np.divmod(grid.cells, grid.columns)
@@ -72,6 +73,7 @@ def lay_out_roadmap(roadmap: Roadmap) -> Plane:
 
 def make_edge_length(roadmap: Roadmap) -> Callable[[int, int], float]:
     """Return the function from the ends of an edge to its length [length unit]; 0 without one."""
+    roadmap = roadmap.fold()
 
     def length(tail: int, head: int) -> float:
         edge = None if tail == head else roadmap.find_edge(tail, head)

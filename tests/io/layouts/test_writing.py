@@ -7,6 +7,7 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.io import LAYOUT_WRITERS, format_layout, read_layout
+from rightofway.io.layouts.writing import PASSED_VERTICES
 from rightofway.site.layout import Layout, Level
 
 HERE = Path(__file__).parents[2] / "data" / "layouts"
@@ -36,6 +37,7 @@ def known_to(level: Level, says: frozenset[str]) -> list[object]:
         "stations": level.stations,
         "parking places": [vertex.is_parking for vertex in level.vertices],
         "charging places": [vertex.is_charging for vertex in level.vertices],
+        PASSED_VERTICES: [vertex.is_passed for vertex in level.vertices],
         "lanes longer than the straight line": [edge.length for edge in level.edges],
         "drawn curves": [edge.shape for edge in level.edges],
         "curves that robots drive along": [

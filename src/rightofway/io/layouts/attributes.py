@@ -18,6 +18,7 @@ PAIRS = ("pos", "coords", "coordinates", "position")
 LENGTHS = ("length", "distance", "weight")
 SPEEDS = ("max_speed", "maxspeed", "speed_limit")
 PARKING, CHARGING = ("parking", "is_parking"), ("charging", "is_charging")
+PASSED = ("pass", "is_passed")
 
 
 NAMES = ("name", "id", "node", "vertex", "nodeid", "node_id")
@@ -25,7 +26,7 @@ TAILS = ("from", "source", "start", "tail", "startid")
 HEADS = ("to", "target", "end", "head", "endid")
 BOTH_WAYS = ("both_ways", "bidirectional")
 
-OF_VERTICES = {"x", "y", "z", *PAIRS, *PARKING, *CHARGING, *NAMES}
+OF_VERTICES = {"x", "y", "z", *PAIRS, *PARKING, *CHARGING, *PASSED, *NAMES}
 OF_LANES = {"id", "directed", *TAILS, *HEADS, *LENGTHS, *SPEEDS, *BOTH_WAYS}
 """All names that are read."""
 
@@ -38,13 +39,14 @@ class Reading(NamedTuple):
 
 
 def add_vertex(reading: Reading, own: Source, name: str, at: Point) -> None:
-    """Add a vertex, which is a parking or charging place if its attributes say it."""
-    parking, charging = own.get(*PARKING), own.get(*CHARGING)
+    """Add a vertex: a parking or charging place, or passed only, if its attributes have it."""
+    parking, charging, passed = own.get(*PARKING), own.get(*CHARGING), own.get(*PASSED)
     vertex = LayoutVertex(
         name=name,
         at=at,
         is_parking=parking is not None and parking.read_flag(),
         is_charging=charging is not None and charging.read_flag(),
+        is_passed=passed is not None and passed.read_flag(),
     )
     reading.level.add(vertex, own)
     reading.draft.note_unused(own, name, OF_VERTICES)

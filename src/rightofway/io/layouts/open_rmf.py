@@ -218,6 +218,7 @@ def _add_vertex(reading: _Reading, vertex: Source, index: int, transform: Transf
             at=at,
             is_parking=own.get("is_parking_spot") is True,
             is_charging=own.get("is_charger") is True,
+            is_passed=own.get("is_passthrough_point") is True,
         ),
         vertex,
     )

@@ -22,6 +22,9 @@ from rightofway.site.layout import Layout, LayoutVertex, Level, name_lanes
 LISTS = {"layouts", "nodes", "edges", "stations", "features"}
 """Keys of lists that are spread over lines."""
 
+PASSED_VERTICES = "vertices that robots only drive through"
+"""What formats without a place for `LayoutVertex.is_passed` leave out."""
+
 FREE_FOR_ALL = "any"
 """The vehicle type of a LIF lane with a speed limit that is open to all, where no type is named."""
 
@@ -83,6 +86,7 @@ def list_losses(layout: Layout, says: frozenset[str]) -> Iterator[str]:
         "stations": [station.name for level in levels for station in level.stations],
         "parking places": [vertex.name for vertex in vertices if vertex.is_parking],
         "charging places": [vertex.name for vertex in vertices if vertex.is_charging],
+        PASSED_VERTICES: [vertex.name for vertex in vertices if vertex.is_passed],
         "lanes longer than the straight line": [
             name for level in levels for name in _name_curved(level)
         ],
@@ -300,6 +304,7 @@ def _rmf_level(level: Level) -> dict[str, Any]:
                     "name": vertex.name,
                     **({"is_charger": True} if vertex.is_charging else {}),
                     **({"is_parking_spot": True} if vertex.is_parking else {}),
+                    **({"is_passthrough_point": True} if vertex.is_passed else {}),
                     **({"mutex": of_vertex[vertex.name]} if vertex.name in of_vertex else {}),
                 },
             ]
@@ -324,6 +329,7 @@ def _rmf_level(level: Level) -> dict[str, Any]:
 
 
 NODE_KEYS = {"x": "double", "y": "double", "parking": "boolean", "charging": "boolean"}
+NODE_KEYS_OF_PASSED = {"pass": "boolean"}
 EDGE_KEYS = {"length": "double", "max_speed": "double"}
 
 
@@ -333,7 +339,9 @@ def _graphml(layout: Layout) -> str:
     level = layout.levels[0]
     lines = ['<?xml version="1.0" encoding="UTF-8"?>']
     lines.append('<graphml xmlns="http://graphml.graphdrawing.org/xmlns">')
-    for kind, keys in (("node", NODE_KEYS), ("edge", EDGE_KEYS)):
+    has_passed = any(vertex.is_passed for vertex in level.vertices)
+    node_keys = NODE_KEYS | NODE_KEYS_OF_PASSED if has_passed else NODE_KEYS
+    for kind, keys in (("node", node_keys), ("edge", EDGE_KEYS)):
         lines += [
             f'  <key id="{key}" for="{kind}" attr.name="{key}" attr.type="{type_}"/>'
             for key, type_ in keys.items()
@@ -341,7 +349,8 @@ def _graphml(layout: Layout) -> str:
     lines.append('  <graph id="G" edgedefault="directed">')
     for vertex in level.vertices:
         x, y = _pair(vertex.at)
-        data = {"x": x, "y": y, "parking": vertex.is_parking, "charging": vertex.is_charging}
+        data = {"x": x, "y": y, "parking": vertex.is_parking, "charging": vertex.is_charging,
+                "pass": vertex.is_passed}  # fmt: skip
         lines.append(f"    <node id={quoteattr(vertex.name)}>{_data(data)}</node>")
     for edge in level.edges:
         ends = f"source={quoteattr(edge.tail)} target={quoteattr(edge.head)}"
@@ -374,12 +383,12 @@ LAYOUT_WRITERS: dict[str, LayoutWriter] = {
     "open-rmf": LayoutWriter(
         summary="navigation graph of Open-RMF", write=_open_rmf,
         says=frozenset({"names of vertices", "levels", "parking places", "charging places",
-                        "zones"}),
+                        "zones", PASSED_VERTICES}),
     ),
     "graphml": LayoutWriter(
         summary="GraphML, metres", write=_graphml,
         says=frozenset({"names of vertices", "parking places", "charging places",
-                        "lanes longer than the straight line"}),
+                        "lanes longer than the straight line", PASSED_VERTICES}),
     ),
 }  # fmt: skip
 """The formats by name."""

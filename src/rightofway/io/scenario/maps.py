@@ -298,6 +298,7 @@ def _map_of_roadmap(
         surcharges={
             name: vertex.surcharge for name, vertex in document.vertices.items() if vertex.surcharge
         },
+        passed=[name for name, vertex in document.vertices.items() if vertex.is_passed],
     )
     drawing = replace(_places(document, roadmap), **_bends(curves, roadmap))
     error = max(curve.error for curve in curves.values()) if is_cut else Fraction(0)
@@ -335,7 +336,7 @@ def _bends(curves: Mapping[tuple[str, str], LaneCurve], roadmap: Roadmap) -> dic
     whole = [
         (roadmap.get_vertex(tail), roadmap.get_vertex(head), curve)
         for (tail, head), curve in curves.items()
-        if roadmap.find_edge(roadmap.get_vertex(tail), roadmap.get_vertex(head)) is not None
+        if roadmap.is_drawn(roadmap.get_vertex(tail), roadmap.get_vertex(head))
     ]
     return {
         "curves": tuple((tail, head, curve.points) for tail, head, curve in whole),

@@ -129,6 +129,11 @@ class VertexDocument(Document):
     surcharge: NotNegative = make_optional(
         "what makes each edge into it less liked, not slower [time unit]; 0 by default"
     )
+    is_passed: bool = Field(
+        alias="pass",
+        default=False,
+        description="true or false: do robots only drive through, without a stop?",
+    )
 
     @model_validator(mode="before")
     @classmethod

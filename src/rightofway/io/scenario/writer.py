@@ -182,11 +182,16 @@ def _shape(roadmap: Roadmap) -> dict[str, Any]:
 
 
 def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
+    passed = () if roadmap.passing is None else sorted(roadmap.passing.vertices)
+    roadmap = roadmap.fold()
     name = roadmap.name
     positions = _positions(roadmap)
     vertices: dict[str, Any] = {name(vertex): position for vertex, position in enumerate(positions)}
     for vertex, types in roadmap.barred_vertices.items():
         vertices[name(vertex)] = {"at": positions[vertex], "barred": sorted(types)}
+    for vertex in passed:
+        own = vertices[name(vertex)]
+        vertices[name(vertex)] = (own if isinstance(own, dict) else {"at": own}) | {"pass": True}
     curves = {
         (int(tail), int(head)): {
             "curve": [[format_number(part) for part in point] for point in points]

@@ -26,7 +26,10 @@ from rightofway.phrases import Phrase, say_count
 SHEETS = ("map", "robots", "rules", "vertices", "edges", "closures")
 """Sheets that are read, by lower-case name."""
 
-VERTEX_KEYS = ("name", "x", "y", "barred", "surcharge", *SPOTS)
+ATTRIBUTES = ("barred", "surcharge", "pass")
+"""Columns of vertices whose values are those of a document."""
+
+VERTEX_KEYS = ("name", "x", "y", *ATTRIBUTES, *SPOTS)
 
 MAX_CELLS = 1_000_000
 """Cells of a map, at most."""
@@ -249,7 +252,7 @@ def _roadmap(vertices: Sheet, edges: Sheet) -> CellDocument:
             faults.note(row, message, table.cells[first[name],])
         first.setdefault(name, index)
         position = [row_data.get("x", 0), row_data.get("y", 0)]
-        more = {key: row_data[key] for key in ("barred", "surcharge") if key in row_data}
+        more = {key: row_data[key] for key in ATTRIBUTES if key in row_data}
         positions[name] = {"at": position, **more} if more else position
         for key, names in spots.items():
             if not isinstance(row_data.get(key, False), bool):

@@ -64,7 +64,8 @@ HELP = (
     "Several stops: replace target and work by the columns stop 1, work 1, stop 2, work 2, …",
     "Instead of map, the sheets vertices (name, x, y) and edges (from, to, length, both_ways).",
     "A vertex with true in its column parking or charging is such a place: where the rule homes is",
-    "parking, robots without a home start there.",
+    "parking, robots without a home start there. With true in column pass, robots only drive",
+    "through the vertex.",
     "closures, if needed: a place in column at, or [A, B] in column edge; from, until, radius.",
     "rules: an empty value stands for the default. Other sheets are not read.",
 )

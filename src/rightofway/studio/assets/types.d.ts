@@ -103,7 +103,7 @@ export interface LaneMapping {
 export type LaneData = LaneMapping | [string, string, Numeral?];
 
 /** A vertex by its place, or as a mapping with what else is known of it. */
-export type VertexData = Pair | { at: Pair };
+export type VertexData = Pair | { at: Pair; pass?: boolean };
 
 export interface ZoneData {
   name: string;

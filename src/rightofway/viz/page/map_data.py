@@ -37,6 +37,7 @@ def map_data(
     InputError
         If the picture cannot be read.
     """
+    roadmap = roadmap.fold()
     plane, grid = lay_out_roadmap(roadmap), roadmap.grid
     decimals = DECIMALS["network" if grid is None else "grid"]
     data: dict[str, Any] = {
@@ -63,6 +64,7 @@ def map_data(
         "obstacles": [] if grid is None else _obstacles(roadmap, grid),
         "sides": np.round(sides, decimals).tolist(),
         "limits": _limits(roadmap),
+        "passed": [] if roadmap.passing is None else sorted(roadmap.passing.vertices),
         "zones": [(zone.name, list(zone.vertices), list(zone.edges)) for zone in roadmap.zones],
         "joints": _joints(roadmap),
         "curves": [

@@ -57,6 +57,7 @@ from rightofway.report.sentences import (
     summarize_decision,
     summarize_forced_loss,
 )
+from rightofway.site import Roadmap
 from rightofway.values import allow_none, list_of, make_class_reader, read_at, read_label
 from rightofway.viz.motion import Trip, end_of, make_trips
 from rightofway.viz.page.background import Background
@@ -134,7 +135,7 @@ def make_payload(
         "line": _line(plan, [other for other, _ in others]),
         "robots": _robots(plan, trips, metrics, lost),
         "losses": [
-            _loss(loss, book.add(describe_loss(words, loss)))
+            _loss(scenario.roadmap, loss, book.add(describe_loss(words, loss)))
             for robot_losses in lost
             for loss in robot_losses.losses
         ],
@@ -333,7 +334,7 @@ def _forced_loss(loss: ForcedLoss, words: Words, book: PhraseBook) -> ForcedLoss
         "head": book.add(head),
         "text": book.add(text),
         "robots": list(loss.robots),
-        "vertices": [int(loss.vertex)],
+        "vertices": [words.plan.scenario.roadmap.get_drawn(loss.vertex)],
         "tick": max(chain.from_iterable(comes), default=0),
     }
 
@@ -347,10 +348,10 @@ def _decision(decision: Decision, words: Words, book: PhraseBook) -> DecisionDat
         "reason": book.add(describe_reason(words, decision)),
         "tick": decision.tick,
         "kind": decision.kind,
-        "vertices": list(decision.vertices),
+        "vertices": list(map(words.plan.scenario.roadmap.get_drawn, decision.vertices)),
         "robots": decision.robots,
         "waits": decision.waits,
-        "waitsAt": decision.waits_at,
+        "waitsAt": words.plan.scenario.roadmap.get_drawn(decision.waits_at),
         "ticks": decision.ticks,
         "level": decision.level,
         "figures": [
@@ -447,7 +448,11 @@ def _execution(
         "end": max(1, *(stay.completion for stay in stays), *filter(None, actual.completion)),
         "robots": robots,
         "losses": [
-            _loss(loss, book.add(describe_executed_loss(words, loss, unplanned(loss))))
+            _loss(
+                plan.scenario.roadmap,
+                loss,
+                book.add(describe_executed_loss(words, loss, unplanned(loss))),
+            )
             for loss in join_waits(plan.scenario, actual.tracks, stays)
         ],
     }
@@ -509,14 +514,15 @@ def _sparse(numbers: Iterable[int]) -> list[TurnRow]:
     return [(index, number) for index, number in enumerate(numbers) if number]
 
 
-def _loss(loss: Loss, text: int) -> LossRow:
-    places = (loss.vertex, loss.until_vertex, loss.towards, loss.freed)
-    times = (loss.tick, loss.end, loss.ticks)
+def _loss(roadmap: Roadmap, loss: Loss, text: int) -> LossRow:
+    vertex, until, towards = map(roadmap.get_drawn, (loss.vertex, loss.until_vertex, loss.towards))
+    freed = None if loss.freed is None else roadmap.get_drawn(loss.freed)
+    places, times = (vertex, until, towards, freed), (loss.tick, loss.end, loss.ticks)
     return (LOSSES.index(loss.kind), loss.robot, loss.for_robot, *places, *times, text)
 
 
 def _faults(plan: Plan, report: Report, book: PhraseBook) -> FaultsData:
-    known = range(plan.scenario.roadmap.n_vertices)
+    known = range(plan.scenario.roadmap.n_drawn)
     described = ((fault, describe_fault(fault)) for fault in report.faults)
     return {
         "count": report.total,

@@ -109,6 +109,7 @@ class MapMarks(TypedDict):
     height: float
     frame: FrameData
     limits: NotRequired[list[tuple[str, list[int]]]]
+    passed: NotRequired[list[int]]
     zones: NotRequired[list[tuple[str, list[int], list[tuple[int, int]]]]]
     stations: NotRequired[list[tuple[str, int]]]
     parking: NotRequired[list[int]]

@@ -36,6 +36,7 @@ class Ground:
     """A roadmap prepared for drawing."""
 
     def __init__(self, roadmap: Roadmap, theme: Theme) -> None:
+        roadmap = roadmap.fold()
         self.roadmap, self.theme = roadmap, theme
         self.plane = lay_out_roadmap(roadmap)
         self.points: list[Point] = [(x, y) for x, y in self.plane.points.tolist()]

@@ -469,6 +469,36 @@ export function toggleUse(document, key, name) {
 }
 
 /**
+ * Whether robots only drive through a vertex.
+ * @param {ScenarioDocument} document
+ * @param {string} name
+ */
+export function isPassed(document, name) {
+  const vertex = roadmapOf(document).vertices[name];
+  return Boolean(vertex) && !Array.isArray(vertex) && vertex.pass === true;
+}
+
+/**
+ * Let robots only drive through a vertex, or stop there again.
+ * @param {ScenarioDocument} document
+ * @param {string} name
+ * @returns {ScenarioDocument}
+ */
+export function togglePass(document, name) {
+  const { vertices } = roadmapOf(document);
+  const vertex = vertices[name];
+  const mapping = Array.isArray(vertex) ? { at: vertex } : vertex;
+  const open = withoutKey(mapping, "pass");
+  const isShort = Object.keys(open).length === 1;
+  const changed = isPassed(document, name)
+    ? isShort
+      ? open.at
+      : open
+    : { ...mapping, pass: true };
+  return withRoadmap(document, { vertices: { ...vertices, [name]: changed } });
+}
+
+/**
  * The station at a vertex gets a name; an empty one takes it away.
  * @param {ScenarioDocument} document
  * @param {string} vertex

@@ -15,6 +15,8 @@ import {
   positionOf,
   removeZone,
   renameVertex,
+  isPassed,
+  togglePass,
   toggleUse,
   roadmapOf,
 } from "./network.js";
@@ -49,6 +51,7 @@ export function VertexPanel({ studio, name }) {
       <label>${words.station}<${Field} value=${station} onChange=${({ target }) => store.change((document) => nameStation(document, name, target.value.trim()))} /></label>
       ${check(words.parking, parking.includes(name), (document) => toggleUse(document, "parking", name))}
       ${check(words.charging, charging.includes(name), (document) => toggleUse(document, "charging", name))}
+      ${check(words.passed, isPassed(store.document, name), (document) => togglePass(document, name))}
       <${ClosureFields} studio=${studio} place=${{ at: name }} />
     </div>`;
 }

@@ -181,6 +181,7 @@ export const GERMAN = {
   station: "Station",
   parking: "Parkplatz",
   charging: "Ladestation",
+  passed: "nur Durchfahrt, kein Halt",
   robotsStay: "Roboter sind keine Wände: ausgewählt nimmt Entf sie weg.",
   strictWalls: "Roboter halten Abstand zu Wänden",
   strictWallsHint: "Ein Roboter, der breiter als eine Zelle ist, streift keine Wand",

@@ -180,6 +180,7 @@ export const ENGLISH = {
   station: "Station",
   parking: "parking place",
   charging: "charging place",
+  passed: "driven through only, no stop",
   robotsStay: "Robots are no walls: select one and press Delete to take it away.",
   strictWalls: "Robots keep out of walls",
   strictWallsHint: "A robot that is wider than a cell keeps its distance from walls",

@@ -1,5 +1,5 @@
 import { pointAlong } from "./roadmap.js";
-import { chevron, disc, line } from "./shapes.js";
+import { chevron, diamond, disc, line } from "./shapes.js";
 import { inkOn } from "./theme.js";
 
 /** @import { MapSizes } from "./map_sizes.js" */
@@ -218,13 +218,13 @@ export class MapGround {
   }
 
   /**
-   * The ends of lanes, and vertices without any.
+   * The ends of lanes, and vertices without any; those that are only driven through are open.
    *
    * @param {CanvasRenderingContext2D} context
    * @param {Lane[]} lanes
    */
   #vertices(context, lanes) {
-    const { x, y, lonely } = this.roadmap;
+    const { x, y, lonely, passed } = this.roadmap;
     const isMany = lanes.length > MOST_SIGNED; // then they are plain dots, which are drawn sooner
     const side = this.#pixels(this.sizes.vertex);
     context.fillStyle = isMany ? this.theme.muted : this.theme.paper;
@@ -233,7 +233,8 @@ export class MapGround {
     for (const vertex of new Set([...lanes.flat(), ...lonely])) {
       if (isMany) context.fillRect(x[vertex] - side / 2, y[vertex] - side / 2, side, side);
       else {
-        disc(context, x[vertex], y[vertex], side);
+        if (passed.has(vertex)) diamond(context, x[vertex], y[vertex], side);
+        else disc(context, x[vertex], y[vertex], side);
         context.stroke();
       }
     }

@@ -193,6 +193,7 @@ export interface GridData {
   height: number;
   frame: FrameData;
   limits?: [string, number[]][];
+  passed?: number[];
   zones?: [string, number[], [number, number][]][];
   stations?: [string, number][];
   parking?: number[];
@@ -246,6 +247,7 @@ export interface NetworkData {
   height: number;
   frame: FrameData;
   limits?: [string, number[]][];
+  passed?: number[];
   zones?: [string, number[], [number, number][]][];
   stations?: [string, number][];
   parking?: number[];

@@ -74,6 +74,7 @@ export class Roadmap {
       this.stations.set(at, [...(this.stations.get(at) ?? []), name]);
     this.parking = new Set(raw.parking);
     this.charging = new Set(raw.charging);
+    this.passed = new Set(raw.passed); // vertices that robots only drive through
     /** @type {Zone[]} */
     this.zones = (raw.zones ?? []).map(([name, vertices, edges]) => ({ name, vertices, edges }));
     if ("rows" in raw) this.#readGrid(raw.rows);
@@ -136,6 +137,7 @@ export class Roadmap {
       ),
       ...(this.parking.has(vertex) ? [texts.parking] : []),
       ...(this.charging.has(vertex) ? [texts.charging] : []),
+      ...(this.passed.has(vertex) ? [texts.passed] : []),
     ].join(", ");
   }
 

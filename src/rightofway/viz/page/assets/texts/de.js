@@ -349,6 +349,7 @@ export const GERMAN = {
   stationNamed: (name) => `Station ${name}`,
   parking: "Parkplatz",
   charging: "Ladestation",
+  passed: "nur Durchfahrt",
   closed: "gesperrt",
 
   vertices: (count) => counted(count, "Knoten", "Knoten"),

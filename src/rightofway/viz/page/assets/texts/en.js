@@ -434,6 +434,7 @@ export const ENGLISH = {
   stationNamed: (name) => `station ${name}`,
   parking: "parking",
   charging: "charging",
+  passed: "driven through only",
   closed: "closed",
 
   /** Around the map. */
