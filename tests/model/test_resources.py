@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache, partial
-from itertools import permutations, product
+from itertools import pairwise, permutations, product
 
 import numpy as np
 import pytest
@@ -116,7 +116,18 @@ def test_rows_exclude_what_the_definition_does_unless_the_ends_of_edges_do(
 def _incompatible(
     scenario: Scenario, i: int, j: int, one: tuple[int, ...], other: tuple[int, ...]
 ) -> bool:
-    return incompatible(scenario, i, one, j, other)
+    """Return whether parts exclude each other; a vertex of a chain has all parts of the chain."""
+    parts = (_list_parts(scenario.roadmap, shape) for shape in (one, other))
+    return any(incompatible(scenario, i, p, j, q) for p, q in product(*parts))
+
+
+def _list_parts(roadmap: Roadmap, shape: tuple[int, ...]) -> list[tuple[int, ...]]:
+    chains = () if roadmap.passing is None else roadmap.passing.chains
+    for chain in chains:
+        if len(shape) == 1 and shape[0] in chain[1:-1]:
+            drawn = [roadmap.get_drawn(vertex) for vertex in chain]
+            return [*((vertex,) for vertex in drawn), *pairwise(drawn)]
+    return [tuple(map(roadmap.get_drawn, shape))]
 
 
 def test_the_circle_around_a_robot_is_rounded_up() -> None:
