@@ -287,7 +287,6 @@ def test_a_plan_is_driven_and_watched_inside_the_studio(studio: StudioPage) -> N
     dialog = studio.page.get_by_role("dialog", name="Watch the robots")
     live = dialog.frame_locator("iframe")
     live.get_by_role("button", name="Hold all robots").click()
-    live.get_by_role("dialog").get_by_role("button", name="Yes").click()
     live.get_by_text("carried out").wait_for()
     robots = live.locator("#robot-list")
     robots.get_by_text("held by a person").first.wait_for()

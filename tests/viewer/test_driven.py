@@ -223,11 +223,21 @@ def test_a_page_that_has_lost_its_server_says_so_and_gets_what_it_has_missed(
         drive.let(3)
         shows(viewer, 3)
     expect(viewer.page.get_by_text("no connection; trying again")).to_be_visible()
-    assert row_of(viewer, "R2").is_visible()
+    lost = viewer.page.get_by_role("alert").get_by_text("No connection to the control.")
+    expect(lost).to_be_visible()
+    box = lost.bounding_box()
+    assert box is not None
+    assert box["width"] >= 600
+    for name in ("Hold all robots", "Let all robots go"):
+        expect(viewer.page.get_by_role("button", name=name)).to_be_disabled()
+    for name in ("R1", "R2"):
+        expect(row_of(viewer, name)).to_contain_text("unknown")
     drive.let(5)
     port = int(address.rstrip("/").rpartition(":")[2])
     stack.enter_context(watched(door(), journal, port=port))
     expect(row_of(viewer, "R2")).to_contain_text("waits for R1")
+    expect(lost).to_be_hidden()
+    expect(viewer.page.get_by_role("button", name="Hold all robots")).to_be_enabled()
     shows(viewer, 5)
     assert told(viewer).count("R2 has done its work at N8 (1 of 1)") == 1
 
@@ -241,13 +251,12 @@ def test_a_person_holds_robots_and_lets_them_go(
     viewer = opened(browser, stack, stack.enter_context(watched(door(), journal)))
     page = viewer.page
     page.get_by_role("button", name="Hold all robots").click()
+    is_asked(viewer, journal)
+    page.get_by_role("button", name="Let all robots go").click()
     dialog = page.get_by_role("dialog")
-    expect(dialog).to_contain_text("Hold all robots?")
+    expect(dialog).to_contain_text("Let all robots go?")
     dialog.get_by_role("button", name="Cancel").click()
     expect(dialog).to_be_hidden()
-    page.get_by_role("button", name="Hold all robots").click()
-    page.get_by_role("dialog").get_by_role("button", name="Yes").click()
-    is_asked(viewer, journal)
     drive.let(10**9)
     expect(row_of(viewer, "R2")).to_contain_text("held by a person")
     expect(page.get_by_text("carried out")).to_be_visible()

@@ -14,7 +14,9 @@ const MOST = 30;
 export function Waits({ studio }) {
   const { runs, stage } = studio;
   const chosen = stage.isPlan ? stage.choice.robot?.name : undefined;
-  const found = (runs.losses ?? []).filter(({ robot }) => chosen === undefined || robot === chosen);
+  const found = (runs.losses ?? [])
+    .filter(({ robot }) => chosen === undefined || robot === chosen)
+    .toSorted((one, other) => one.tick - other.tick);
   if (chosen !== undefined && !found.length) return null; // the card says that it loses no time
   return html`
     <section aria-labelledby="waits-title"><h2 id="waits-title">${chosen ? words.waitsOf(chosen) : words.waits}</h2>

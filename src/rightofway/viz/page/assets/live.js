@@ -62,7 +62,10 @@ export class Live {
       listenToFeed(this.feed, {
         take: (frame) => this.take(frame),
         connect: (isConnected) => {
-          this.#isConnected = isConnected;
+          if (isConnected !== this.#isConnected) {
+            this.#isConnected = isConnected;
+            this.choice.tell("fleet"); // what robots do is not known any more, or again
+          }
           this.refresh();
         },
       }),
@@ -124,6 +127,7 @@ export class Live {
             ? words.isLive
             : words.lookingBack;
     if (this.state.textContent !== state) this.state.textContent = state;
+    this.root.part("lost").hidden = this.#isConnected || !this.feed.stream || !driven.runs;
   }
 
   #showAlarms() {
@@ -182,6 +186,7 @@ export class Live {
     const { driven, clock, words } = this;
     const tick = clock.tick;
     if (driven.isOff(robot, tick)) return texts.driven.off;
+    if (!this.#isConnected && driven.runs && tick >= driven.now) return texts.driven.unknown;
     const alarms = this.#alarmsOf(robot);
     if (alarms.some(({ kind }) => kind === NOT_MOVING)) return texts.driven.still;
     if (alarms.length) return texts.driven.alarmed;

@@ -195,6 +195,7 @@ ${below(STATES, ["zoom-in", "zoom-out", "fit", "bottleneck", "corridor", "space"
 </main>
 
 <aside class="side" data-label="side">
+  <p id="lost" class="lost" role="alert" data-text="lost" hidden></p>
   <section id="alarms" class="alarms" aria-live="polite" aria-labelledby="alarm-title" hidden>
     <h2 id="alarm-title" data-text="alarms"></h2>
     <ul id="alarm-list"></ul>

@@ -27,7 +27,7 @@ export class Orders {
     this.place = root.part("place-one", HTMLButtonElement);
     this.at = root.part("order-at", HTMLInputElement);
     const { driven: own } = texts;
-    root.part("hold-all").addEventListener("click", () => this.#confirm(own.holdAllAsked, "hold"));
+    root.part("hold-all").addEventListener("click", () => this.#send("hold")); // safe: not asked first
     root.part("go-all").addEventListener("click", () => this.#confirm(own.goAllAsked, "go"));
     this.one.addEventListener("click", () => this.#send(this.#isHeld ? "go" : "hold", this.#name));
     this.clear.addEventListener("click", () =>
@@ -61,7 +61,8 @@ export class Orders {
    */
   refresh(tick, isConnected) {
     const { robot } = this.choice;
-    this.box.hidden = !(this.address && this.driven.runs && isConnected);
+    this.box.hidden = !(this.address && this.driven.runs);
+    for (const button of this.box.querySelectorAll("button")) button.disabled = !isConnected;
     this.one.hidden = !robot;
     const isFaulty =
       robot !== null &&

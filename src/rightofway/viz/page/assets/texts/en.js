@@ -69,6 +69,7 @@ export const ENGLISH = {
     findCompared: "Find a robot to compare",
     live: "Live",
     liveAtLength: "Show what robots do now",
+    lost: "No connection to the control. What is shown is the last that is known; robots may do something else.",
     alarms: "Alarms",
     orders: "Orders to the robots",
     holdAll: "Hold all robots",
@@ -292,6 +293,7 @@ export const ENGLISH = {
     alarm: "Alarm",
     alarmed: "alarm",
     still: "not moving",
+    unknown: "unknown",
     notYet: "to come",
     /** @param {string} name */
     holdOne: (name) => `Hold ${name}`,
@@ -301,7 +303,6 @@ export const ENGLISH = {
     clearOne: (name) => `${name} is where it is shown`,
     /** @param {string} name */
     removeOne: (name) => `${name} is off the floor`,
-    holdAllAsked: "Hold all robots? Each stops at the end of what is released to it.",
     goAllAsked: "Let all robots go? Those that were held go on.",
     /** @param {string} name */
     clearAsked: (name) =>
