@@ -9,9 +9,10 @@ from itertools import accumulate, pairwise
 from rightofway.deadline import limit_loop
 from rightofway.errors import GaveUp
 from rightofway.model import Itinerary, Route, Scenario, Track, join_route, make_route
-from rightofway.planners.impossible import refuse_the_impossible
+from rightofway.planners.impossible import refuse_stranded, refuse_the_impossible
 from rightofway.planners.task import Task
 from rightofway.search import Bookings, Congestion, Distances, find_earliest_track
+from rightofway.search.missing_ways import reaches_its_places
 from rightofway.site import Roadmap, VertexId
 
 ROUTING = "choosing routes"
@@ -52,12 +53,14 @@ def find_shortest_routes(scenario: Scenario, distances: Distances) -> list[Route
 
     Raises `NoPlanExists` as `refuse_the_impossible`.
     """
-    refuse_the_impossible(scenario, distances)
-    itineraries, roadmap = scenario.problem.itineraries, scenario.roadmap
-    return [
-        find_shortest_route(roadmap, itinerary, distances)
-        for itinerary in limit_loop(itineraries, ROUTING)
-    ]
+    routes, stranded = list[Route](), list[int]()
+    for robot, itinerary in enumerate(limit_loop(scenario.problem.itineraries, ROUTING)):
+        if reaches_its_places(itinerary, distances):  # by the tables that its route needs
+            routes.append(find_shortest_route(scenario.roadmap, itinerary, distances))
+        else:
+            stranded.append(robot)
+    refuse_stranded(scenario, stranded)
+    return routes
 
 
 def free_running_tracks(scenario: Scenario) -> tuple[Track, ...]:
