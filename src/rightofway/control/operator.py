@@ -363,17 +363,18 @@ class Operator:
             {"kind": "skipped", **find_failed_job(self._ledger, name)}, text=f"{name} is skipped"
         )
 
-    def _name_stop(self, name: str) -> str:
-        """Return the name of the vertex that a name means: its own, or that of a station.
-
-        Robots may stop there.
-        """
+    def _name_vertex(self, name: str) -> str:
+        """Return the name of the vertex that a name means: its own, or that of a station."""
         roadmap = self._scenario.roadmap
-        vertex = roadmap.get_place(name)
-        if roadmap.is_passed(vertex):
+        return roadmap.name(roadmap.get_place(name))
+
+    def _name_stop(self, name: str) -> str:
+        """Return the name of the vertex that a name means; robots may stop there."""
+        vertex = self._name_vertex(name)
+        if not self._dispatcher.control.may_stop(vertex):
             message = f"{name} is driven through only (name a vertex without pass)"
             raise InputError.at("place", message)
-        return roadmap.name(vertex)
+        return vertex
 
     def _detour(self, robot: int, stops: Sequence[StopToMake], at: str) -> tuple[int, int]:
         """Return how much longer a robot drives for a job at best, and before which stop."""
