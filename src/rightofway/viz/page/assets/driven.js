@@ -283,6 +283,28 @@ class DrivenRobot extends FloorRobot {
     return true;
   }
 
+  /**
+   * How much later than planned it is. On another way than planned it is measured at the stops that it has
+   * made, which the plan has in the same order, and is at least what has passed since the next one was due.
+   *
+   * @param {number} tick
+   * @param {number} visit
+   */
+  lateness(tick, visit) {
+    const asPlanned = super.lateness(tick, visit);
+    if (asPlanned !== null) return asPlanned;
+    const { enter, planned, stages } = this;
+    const made = stages.filter((stage) => stage.visit >= 0 && enter[stage.visit] <= tick);
+    if (made.length > planned.stages.length) return null; // the plan does not have its work
+    const on = Math.max(this.asPlanned - 1, 0); // the last visit that is in the plan
+    const last = made.at(-1)?.visit ?? -1;
+    const counterpart = last > on ? planned.stages[made.length - 1].visit : on;
+    const known = enter[Math.max(last, on)] - planned.enter[counterpart];
+    const next = planned.stages[made.length];
+    const due = next ? planned.enter[next.visit] : planned.completion;
+    return Math.max(known, tick - due);
+  }
+
   get way() {
     return this.asPlanned < this.vertices.length ? this.vertices : this.planned.vertices;
   }

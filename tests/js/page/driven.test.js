@@ -1,0 +1,58 @@
+/** A fleet that is driven: how late its robots are, also on other ways than planned. */
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { Driven } from "../../../src/rightofway/viz/page/assets/driven.js";
+import { Plan } from "../../../src/rightofway/viz/page/assets/plan.js";
+import { made } from "../made.js";
+
+/** @import { DrivenRow } from "../../../src/rightofway/viz/page/assets/payload.d.ts" */
+
+const payload = made("door");
+const { planned } = new Plan(payload);
+
+/**
+ * The first robot after it has driven so many visits, each later than planned, with other vertices from a visit on.
+ *
+ * @param {number} from
+ * @param {number} visits
+ * @param {number} late
+ */
+function driven(from, visits, late) {
+  const fleet = new Driven(payload.robots, planned);
+  const [robot] = planned;
+  const stops = new Set(robot.stages.map(({ visit }) => visit));
+  const other = Array.from(robot.vertices, (vertex, visit) =>
+    visit >= from && !stops.has(visit) ? 100 + visit : vertex,
+  );
+  /** @type {DrivenRow[]} */
+  const rows = [
+    [0, 0, "arrived", 0],
+    [0, 0, "route", 0, Array.from(robot.vertices)],
+    [0, 0, "route", from, other.slice(from)],
+  ];
+  let now = 0;
+  for (let visit = 1; visit <= visits; visit++) {
+    now = robot.enter[visit] + late;
+    rows.push([now, 0, "released", visit], [now, 0, "arrived", visit]);
+    if (stops.has(visit)) rows.push([robot.leave(visit) + late, 0, "done", visit]);
+  }
+  fleet.take({ number: 1, now, runs: true, begins: true, rows });
+  return { fleet, robot: fleet.robots[0], now };
+}
+
+const [{ vertices, enter, stages, completion }] = planned;
+const [stop] = stages;
+
+for (let from = 1; from < vertices.length - 1; from++)
+  for (const late of [0, 3, 50])
+    test(`a robot on another way from visit ${from} on, ${late} late, has a lateness everywhere`, () => {
+      for (let visits = from; visits < vertices.length - 1; visits++) {
+        const { robot, now } = driven(from, visits, late);
+        const found = robot.lateness(now, visits);
+        assert.ok(found !== null, `none in visit ${visits}`);
+        if (visits === stop.visit) assert.equal(found, late);
+        const due = visits < stop.visit ? enter[stop.visit] : completion;
+        assert.ok((robot.lateness(due + 90, visits) ?? 0) >= 90, `not overdue in visit ${visits}`);
+      }
+    });
