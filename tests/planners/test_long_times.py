@@ -1,4 +1,4 @@
-"""Times of up to 2**40 ticks: planners need no more memory for them than for short ones."""
+"""Times of up to 2**39 ticks: planners need no more memory for them than for short ones."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ resource.setrlimit(resource.RLIMIT_AS, (2**32, 2**32))
 from rightofway import FleetBuilder, solve
 from rightofway.planners.registry import PLANNERS
 
-for time in (10**6, 10**9, 2**40):
+for time in (10**6, 10**9, 2**39):
     long = {sys.argv[1]: time}
     rules, own = (long, {}) if sys.argv[1] == "headway" else ({}, long)
     fleet = FleetBuilder(grid=["...", "@.@", "..."], **rules)
