@@ -17,7 +17,7 @@ from tests.oracles.turning import turn
 HORIZON = 90
 
 # The oracle has bookings of vertices only, and drives a robot along every edge at its own pace.
-UNKNOWN = {"sizes", "zones", "closures", "barred", "laps", "spacing"}
+UNKNOWN = {"passed", "sizes", "zones", "closures", "barred", "laps", "spacing"}
 """Laps would outlast the horizon, as do lanes in pieces."""
 
 problems = any_fleet(robots=(1, 1), without=UNKNOWN, tiny=True).flatmap(

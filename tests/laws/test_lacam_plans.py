@@ -63,7 +63,7 @@ LARGE = {"spacing", "laps", "stops"}
 """Each multiplies the configurations of the oracle, so that a case would take seconds."""
 
 
-@law(any_fleet(robots=(1, 3), without={*UNKNOWN, *LARGE, "sizes", "zones"}, tiny=True))
+@law(any_fleet(robots=(1, 3), without={*UNKNOWN, *LARGE, "passed", "sizes", "zones"}, tiny=True))
 def test_the_planner_finds_a_plan_exactly_where_there_is_one(scenario: Scenario) -> None:
     """The oracle goes through all configurations of points on vertices."""
     rotates = scenario.problem.booking_rules.may_rotate

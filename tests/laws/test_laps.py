@@ -40,7 +40,9 @@ LAPS = any_fleet(
 The oracle knows zones by bookings of edges, which there are where robots book ahead.
 """
 
-POINTS = any_fleet(robots=(2, 4), without={*LAPS_REFUSE, "sizes", "zones"}, apart=True, joined=True)
+POINTS = any_fleet(
+    robots=(2, 4), without={*LAPS_REFUSE, "passed", "sizes", "zones"}, apart=True, joined=True
+)
 """Fleets of points without zones: their oracle knows orders at vertices."""
 
 TRIES = 8

@@ -58,7 +58,7 @@ def test_alone_detours_making_room_and_waiting_sum_up_to_the_completion(
 
 # The oracle has one holder of each vertex, and robots that hold nothing else.
 # The oracle of causes does not know what waits because a rotation is forbidden.
-@law(any_fleet(without={"sizes", "zones", "closures", "no rotations"}), planners)
+@law(any_fleet(without={"passed", "sizes", "zones", "closures", "no rotations"}), planners)
 def test_joined_waits_are_for_the_robots_that_hold_the_places(
     scenario: Scenario, planner: str
 ) -> None:

@@ -41,7 +41,7 @@ def test_the_timetable_of_a_plan_is_a_plan_and_nobody_is_later(
 
 
 # A graph of routes alone knows neither resources nor closures; `build_graph` gives it both.
-@law(any_fleet(without={"sizes", "zones", "closures"}), planners, delays)
+@law(any_fleet(without={"passed", "sizes", "zones", "closures"}), planners, delays)
 def test_an_order_kept_at_once_is_the_same_as_right_of_way_given_one_by_one(
     fleet: Scenario, planner: str, delays: list[int]
 ) -> None:

@@ -35,7 +35,7 @@ from tests.oracles.space import (
 DELAYS = ("exponential:0.5", "uniform:-0.6..1", "chance:0.3x7")
 
 
-FLEETS = any_fleet(robots=(2, 4), without={"closures", "zones"}, always={"both", "sizes"})
+FLEETS = any_fleet(robots=(2, 4), without={"closures", "passed", "zones"}, always={"both", "sizes"})
 """The oracle of delayed robots knows bookings that exclude each other by place, ahead of a drive.
 
 Closures and zones are held by the laws of plans, whose judge knows all features.
