@@ -25,7 +25,6 @@ EXTRAS = {
     "distributed": "dask",
     "matplotlib": "bench",
     "openpyxl": "xlsx",
-    "pyarrow": "bench",
 }
 """Optional libraries, and the extra that installs each."""
 

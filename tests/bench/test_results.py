@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import Any
 
@@ -24,12 +23,11 @@ def test_rows_come_back_as_they_were(tmp_path: Path) -> None:
         row("b", solved=False, valid=None, flowtime=None, ratio=None, message=""),
         row("c", message='a "quoted", long; → Zoë', limit=1e-7, flowtime=2**60),
     ]
-    for name in ("r.csv", "r.parquet"):
-        with Results(tmp_path / name) as results:
-            for each in rows:
-                results.add(each)
-        with Results(tmp_path / name) as results:
-            assert list(results.rows.values()) == rows
+    with Results(tmp_path / "r.csv") as results:
+        for each in rows:
+            results.add(each)
+    with Results(tmp_path / "r.csv") as results:
+        assert list(results.rows.values()) == rows
 
 
 def test_a_row_is_a_line_whatever_its_message(tmp_path: Path) -> None:
@@ -41,11 +39,10 @@ def test_a_row_is_a_line_whatever_its_message(tmp_path: Path) -> None:
 
 
 def test_a_row_is_in_the_file_as_soon_as_it_is_added(tmp_path: Path) -> None:
-    for name, journal in (("r.csv", "r.csv"), ("r.parquet", "r.parquet.csv")):
-        results = Results(tmp_path / name)
-        results.add(row("a"))
-        assert (tmp_path / journal).read_text(encoding="utf-8").count("\n") == 2
-        results.close()
+    results = Results(tmp_path / "r.csv")
+    results.add(row("a"))
+    assert (tmp_path / "r.csv").read_text(encoding="utf-8").count("\n") == 2
+    results.close()
 
 
 def test_a_key_is_kept_once(tmp_path: Path) -> None:
@@ -75,18 +72,6 @@ def test_wherever_a_write_was_cut_the_rows_before_it_are_kept(tmp_path: Path) ->
         assert path.read_bytes() == content
 
 
-def test_what_a_killed_run_left_of_a_parquet_file_is_taken_up(tmp_path: Path) -> None:
-    pytest.importorskip("pyarrow")
-    with Results(tmp_path / "r.parquet") as results:
-        results.add(row("a"))
-    killed = Results(tmp_path / "r.parquet")
-    killed.add(row("b"))
-    os.close(killed._file)  # and nothing else is done any more
-    with Results(tmp_path / "r.parquet") as results:
-        assert list(results.rows) == ["a", "b"]
-    assert [path.name for path in tmp_path.iterdir()] == ["r.parquet"]
-
-
 @pytest.mark.parametrize(
     ("content", "fault"),
     [
@@ -110,18 +95,6 @@ def test_another_file_is_refused_and_left_alone(tmp_path: Path, content: str, fa
         Results(path)
     assert str(caught.value).startswith(f"{path}:{fault}")
     assert path.read_text(encoding="utf-8") == content
-
-
-def test_another_parquet_file_is_refused(tmp_path: Path) -> None:
-    pyarrow = pytest.importorskip("pyarrow")
-    parquet = pytest.importorskip("pyarrow.parquet")
-    parquet.write_table(pyarrow.table({"name": ["Ada"]}), tmp_path / "r.parquet")
-    (tmp_path / "s.parquet").write_bytes(b"precious")
-    for name, fault in (("r", "this is no file of results"), ("s", "cannot be read: ")):
-        with pytest.raises(InputError, match=fault):
-            Results(tmp_path / f"{name}.parquet")
-    assert (tmp_path / "s.parquet").read_bytes() == b"precious"
-    assert len(list(tmp_path.iterdir())) == 2
 
 
 def test_a_file_that_cannot_be_opened_is_told(tmp_path: Path) -> None:

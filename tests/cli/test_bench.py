@@ -213,27 +213,12 @@ def test_two_runs_do_not_write_to_one_file(cli: Cli, half_done: subprocess.Popen
     )
 
 
-@pytest.mark.usefixtures("others")
-def test_parquet_has_the_same_rows_and_goes_on_too(cli: Cli) -> None:
-    parquet = pytest.importorskip("pyarrow.parquet")
-    write_suite("two-level", seeds=1)
-    cli("bench", "suite.toml", "-o", "results.parquet")
-    write_suite("two-level", "buggy", seeds=2)
-    ended = cli("bench", "suite.toml", "-o", "results.parquet", "--jobs", "1")
-    assert "1 of 4 cases are there already" in ended.err
-    table = parquet.read_table("results.parquet")
-    assert table.column("planner").to_pylist() == ["two-level", "buggy", "two-level", "buggy"]
-    assert table.column("solved").to_pylist() == [True, False, True, False]
-    assert table.column("seed").to_pylist() == [0, 0, 1, 1]
-    assert files() == ["results.parquet", "suite.toml"]
-
-
 @pytest.mark.parametrize(
     ("args", "message"),
     [
         (["nowhere.toml"], "nowhere.toml: there is no such file (check the path)"),
         (["door.yaml"], 'door.yaml: a suite is TOML (begin it with format = "rightofway-suite/1")'),
-        (["suite.toml", "-o", "rows.txt"], "'rows.txt' does not end in .csv or .parquet"),
+        (["suite.toml", "-o", "rows.txt"], "'rows.txt' does not end in .csv"),
         (["suite.toml", "-o", "no/rows.csv"], "there is no directory 'no' (make it first)"),
         (["suite.toml", "--report", "r.pdf"], "'r.pdf' does not end in .html or .md"),
         (["suite.toml", "--jobs", "0"], "0 does not fit (give a whole number of 1 or more)"),
@@ -254,7 +239,6 @@ def test_bad_use_ends_with_2_and_one_message(cli: Cli, args: list[str], message:
 @pytest.mark.parametrize(
     ("args", "message"),
     [
-        (["-o", "rows.parquet"], "a Parquet file needs pyarrow (pip install 'rightofway[bench]')"),
         (["--report", "r.html"], "a report needs matplotlib (pip install 'rightofway[bench]')"),
         (["--dask", "tcp://x:1"], "a cluster needs distributed (pip install 'rightofway[dask]')"),
     ],
@@ -272,7 +256,7 @@ def test_what_is_missing_is_told_before_any_case_is_run(
 def test_help_imports_nothing_heavy() -> None:
     code = (
         "import sys; from rightofway.cli.main import run; run(['bench', '--help']);"
-        "print(sorted({'matplotlib', 'pyarrow', 'distributed', 'pydantic', 'concurrent.futures',"
+        "print(sorted({'matplotlib', 'distributed', 'pydantic', 'concurrent.futures',"
         " 'rightofway.bench', 'rightofway._core'} & set(sys.modules)), file=sys.stderr)"
     )
     ended = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True, text=True)

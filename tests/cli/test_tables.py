@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import json
-import sys
 from pathlib import Path
 
 import pytest
@@ -65,8 +64,7 @@ def test_a_place_has_one_number_in_report_log_table_and_collisions(cli: Cli) -> 
             ["--events", "--decision", "1"],
             "--all, --events and --decision are different: choose one",
         ),
-        (["-o", "t.parquet"], "a Parquet file is for --events"),
-        (["-o", "t.pdf"], "'t.pdf' does not end in .txt, .csv, .xlsx or .parquet"),
+        (["-o", "t.pdf"], "'t.pdf' does not end in .txt, .csv or .xlsx"),
         (["-o", "-", "--json"], "--json and -o - both go to standard output"),
         (["--decision", "2"], "--decision: 2 is not there, the last one is 1"),
         (["--robots", "R3"], "no robot is named 'R3'"),
@@ -94,19 +92,6 @@ def test_events_go_to_text_csv_workbook_and_json(cli: Cli, plan: str) -> None:
         "robot": "R2", "visit": 2, "vertex": "N4", "purpose": "wait", "enter": 4, "leave": 7,
         "waits": 1, "waits_for": "R1", "to_leave": "N7",
     }  # fmt: skip
-
-
-def test_events_go_to_parquet_where_pyarrow_is_installed(
-    cli: Cli, plan: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    parquet = pytest.importorskip("pyarrow.parquet")
-    assert cli("table", plan, "--events", "-o", "e.parquet").code == 0
-    assert parquet.read_table("e.parquet").column("enter_tick").to_pylist()[:3] == [0, 1, 2]
-    monkeypatch.setitem(sys.modules, "pyarrow", None)
-    ended = cli("table", plan, "--events", "-o", "again.parquet")
-    assert ended.code == 2
-    assert "a Parquet file needs pyarrow (pip install 'rightofway[bench]')" in ended.err
-    assert not Path("again.parquet").exists()
 
 
 def test_both_movement_groups_of_a_decision_are_timetables(cli: Cli, plan: str) -> None:

@@ -1,7 +1,7 @@
 """Suites of cases, each run in a process of its own; their results, and reports on them.
 
 Time and memory of a case are measured in its own process, here or on a cluster. Only reports need
-matplotlib, only Parquet files pyarrow, only clusters distributed; they are imported there.
+matplotlib, only clusters distributed; they are imported there.
 """
 
 from rightofway.bench.cluster import run_on_cluster

@@ -11,8 +11,7 @@ from pathlib import Path
 from typing import Any, Literal, Self
 
 from rightofway.errors import InputError, Location, Where
-from rightofway.extras import load_library, need
-from rightofway.files import take_lock, write_whole
+from rightofway.files import take_lock
 
 Row = dict[str, Any]
 """A value for each column; None where there is none."""
@@ -73,7 +72,7 @@ class Results:
     Parameters
     ----------
     path
-        ``.parquet`` for Parquet, anything else for CSV.
+        A CSV file.
 
     Raises
     ------
@@ -83,21 +82,14 @@ class Results:
     Notes
     -----
     A row is one line and is written by one call, then flushed to the disk. What a kill leaves of a
-    line that was being written is cut off by the next run, which does the case again. Parquet
-    files cannot grow: rows are in a CSV file beside it, the journal, until the run ends.
+    line that was being written is cut off by the next run, which does the case again.
     """
 
     def __init__(self, path: Path | str) -> None:
-        self.path = self.journal = Path(path)
+        self.path = Path(path)
         self.rows: dict[str, Row] = {}
-        self._is_parquet = self.path.suffix.lower() == ".parquet"
-        if self._is_parquet:
-            need("pyarrow", "a Parquet file")
-            self.journal = self.path.with_name(f"{self.path.name}.csv")
-            if self.path.exists():
-                self.rows = {row["key"]: row for row in _read_parquet(self.path)}
         try:
-            self._file = os.open(self.journal, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o666)
+            self._file = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o666)
         except OSError as error:
             message = f"cannot be opened: {error.strerror} (check the path and its permissions)"
             raise self._fault(message) from None
@@ -116,12 +108,7 @@ class Results:
 
     def close(self) -> None:
         """Finish the file."""
-        try:
-            if self._is_parquet:
-                _write_parquet(self.path, list(self.rows.values()))
-                self.journal.unlink()
-        finally:
-            os.close(self._file)
+        os.close(self._file)
 
     def __enter__(self) -> Self:
         return self
@@ -130,11 +117,11 @@ class Results:
         self.close()
 
     def _mended_rows(self) -> Iterator[Row]:
-        """Lock the journal; begin it, or cut off a line that was being written; yield its rows."""
+        """Lock the file; begin it, or cut off a line that was being written; yield its rows."""
         if not take_lock(self._file):
             message = "another run is writing to it (wait for its end, or give another file)"
             raise self._fault(message)
-        content, header = self.journal.read_bytes(), _line(HEADER)
+        content, header = self.path.read_bytes(), _line(HEADER)
         if not content.startswith(header) and not header.startswith(content):
             raise self._fault(NOT_RESULTS, Location(line=1))
         whole = content.rfind(b"\n") + 1
@@ -163,7 +150,7 @@ class Results:
             raise self._fault(message) from None
 
     def _fault(self, message: str, where: Where = "") -> InputError:
-        return InputError.at(where, message, str(self.journal))
+        return InputError.at(where, message, str(self.path))
 
 
 def _line(cells: list[str]) -> bytes:
@@ -189,30 +176,3 @@ def _value(cell: str, kind: Kind) -> Any:
             raise ValueError(f"{cell!r} is not yes or no")
         return cell == "yes"
     return int(cell) if kind == "int" else float(cell)
-
-
-def _read_parquet(path: Path) -> list[Row]:
-    parquet = load_library("pyarrow.parquet", "a Parquet file")
-    arrow = load_library("pyarrow", "a Parquet file")
-    try:
-        table = parquet.read_table(path)
-    except (OSError, arrow.ArrowInvalid) as error:
-        message = f"cannot be read: {' '.join(str(error).split())} (give another file)"
-        raise InputError.at("", message, str(path)) from None
-    if table.column_names != HEADER:
-        raise InputError.at("", NOT_RESULTS, str(path))
-    rows: list[Row] = table.to_pylist()
-    return rows
-
-
-def _write_parquet(path: Path, rows: list[Row]) -> None:
-    arrow = load_library("pyarrow", "a Parquet file")
-    parquet = load_library("pyarrow.parquet", "a Parquet file")
-    kinds = {
-        "text": arrow.string(), "int": arrow.int64(), "float": arrow.float64(),
-        "bool": arrow.bool_(),
-    }  # fmt: skip
-    schema = arrow.schema([(column.name, kinds[column.kind]) for column in COLUMNS])
-    content = io.BytesIO()
-    parquet.write_table(arrow.Table.from_pylist(rows, schema=schema), content)
-    write_whole(path, content.getvalue())

@@ -28,7 +28,7 @@ Examples:
 @click.command(epilog=EXAMPLES)
 @click.argument("suite", type=click.Path(), shell_complete=complete_files(".toml"))
 @click.option("-o", "--output", metavar="RESULTS", default="results.csv", show_default=True,
-              callback=require_writable(".csv", ".parquet", stdout=False),
+              callback=require_writable(".csv", stdout=False),
               help="Add rows to this file; cases with a row in it are not run again.")  # fmt: skip
 @click.option("--report", metavar="REPORT", callback=require_writable(".html", ".md", stdout=False),
               help="Write a report with plots (HTML or Markdown) at the end.")  # fmt: skip

@@ -108,9 +108,8 @@ def _shown(
 @click.argument("plan", type=click.Path(), shell_complete=complete_files(*PLANS))
 @add_foreign_options
 @click.option("-o", "--output", metavar="FILE",
-              callback=require_writable(".txt", ".csv", ".xlsx", ".parquet"),
-              help="Write .txt, .csv, .xlsx or .parquet; - writes CSV to standard"
-                   " output.")  # fmt: skip
+              callback=require_writable(".txt", ".csv", ".xlsx"),
+              help="Write .txt, .csv or .xlsx; - writes CSV to standard output.")  # fmt: skip
 @click.option("--events", is_flag=True,
               help="List each visit instead: robot, place, purpose, enter, leave,"
                    " waits for.")  # fmt: skip
@@ -141,8 +140,6 @@ def table(
         raise click.UsageError("--all, --events and --decision are different: choose one")
     if everything and Path(output or "").suffix.lower() != ".xlsx":
         raise click.UsageError("--all is for a workbook (add -o FILE.xlsx)")
-    if Path(output or "").suffix.lower() == ".parquet" and not events:
-        raise click.UsageError("a Parquet file is for --events (end the file in .csv or .xlsx)")
     if as_json and output == "-":
         raise click.UsageError("--json and -o - both go to standard output")
     if events and given["step"]:
@@ -251,16 +248,13 @@ def describe_clock(quantities: Quantities) -> dict[str, Any]:
 
 def _events(plan: Plan, shown: _Shown, output: str | None, *, as_json: bool) -> None:
     from rightofway.metrics import make_event_columns
-    from rightofway.viz.table import as_parquet, choose_events, tabulate_events
+    from rightofway.viz.table import choose_events, tabulate_events
 
     chosen = choose_events(
         plan, first_tick=shown.first_tick, last_tick=shown.last_tick, robots=shown.robots
     )
     listing = tabulate_events(plan, chosen, shown.quantities)
-    if output and Path(output).suffix.lower() == ".parquet":
-        _write(output, as_parquet(make_event_columns(plan, chosen)))
-        say_written(output)
-    elif output:
+    if output:
         put_lists([listing], output)
     elif not as_json:
         click.echo(listing.as_text())

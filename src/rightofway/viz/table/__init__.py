@@ -1,6 +1,6 @@
 """The paper's table, a row for a robot and a column for a tick; lists of events and collisions."""
 
-from rightofway.viz.table.listing import ListColumn, Listing, as_parquet
+from rightofway.viz.table.listing import ListColumn, Listing
 from rightofway.viz.table.lists import (
     choose_events,
     count_conflicts_before,
@@ -29,7 +29,6 @@ __all__ = [
     "Row",
     "TimeSpaceTable",
     "as_csv",
-    "as_parquet",
     "as_text",
     "choose_events",
     "choose_robots",

@@ -1,4 +1,4 @@
-"""Lists with headings, as text, comma-separated values, a sheet or Parquet: events, collisions."""
+"""Lists with headings, as text, comma-separated values or a sheet: events, collisions."""
 
 from __future__ import annotations
 
@@ -6,9 +6,8 @@ import csv
 import io
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
-from rightofway.extras import load_library
 from rightofway.quantities import Quantities
 from rightofway.viz.table.terminal import MAX_LINES, measure_text
 
@@ -130,22 +129,3 @@ class Listing:
         writer.writerow(self.list_headings())
         writer.writerows(self.list_rows())
         return text.getvalue()
-
-
-def as_parquet(columns: dict[str, list[Any]]) -> bytes:
-    """Return columns as a Parquet file.
-
-    Parameters
-    ----------
-    columns
-        Equally long lists by name.
-
-    Raises
-    ------
-    InputError
-        If pyarrow is not installed.
-    """
-    arrow = load_library("pyarrow", "a Parquet file")
-    content = io.BytesIO()
-    load_library("pyarrow.parquet", "a Parquet file").write_table(arrow.table(columns), content)
-    return content.getvalue()
