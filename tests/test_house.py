@@ -102,7 +102,7 @@ TAKES_APART = {
     ),
 }
 TAKEN_APART = {"document.js: words in a pattern": "names of drafts, which this file makes itself"}
-"""Texts that scripts take apart, each with its reason; all others have fields (decision 21)."""
+"""Texts that scripts take apart, each with its reason; all others have fields (decision 17)."""
 
 
 def test_no_script_takes_english_apart() -> None:

@@ -7,13 +7,13 @@
 // node of least bound first; a node without conflicts is an optimal plan.
 //
 // What makes it fast can be switched (CbsOptions): of the children of a conflict of points, one
-// holds a robot to where it is and the other keeps it away (decision 54), conflicts that cost both
+// holds a robot to where it is and the other keeps it away (decision 9), conflicts that cost both
 // robots something are resolved first, tracks of equal cost with fewer conflicts replace others
 // without a split, and the losses of pairs of robots, each solved for itself, raise the bound of a
 // node by the least weighted vertex cover. Two symmetries are one split each: a robot that has
-// reached its end, and a pair of which one robot or the other has to complete later (decision 36).
+// reached its end, and a pair of which one robot or the other has to complete later (decision 9).
 // A fleet of few robots is searched by joint states in turn, which ends also where there is no plan
-// (decision 44).
+// (decision 10).
 //
 // With a factor above 1 it is a focal search: it takes in turn the node of least bound, and the
 // node with the fewest conflicts of those whose tracks cost little enough.

@@ -84,7 +84,7 @@ class Backjumping {
         SegmentOrder order;
     };
     // A segment: linked pairs of visits of two robots. One robot goes first in all of them
-    // (docs/decisions/0010-space.md).
+    // (docs/decisions/0003-robots-with-a-size.md).
     using LinkedVisits = std::vector<IncompatiblePair>;
     // The two ways to decide a segment, and the first visit of each robot that may start later.
     struct Choice {

@@ -1,7 +1,7 @@
 """What happened to a fleet that was driven, as pages show it: a fold over the rows of a journal.
 
 The journal may be that of a control that runs, in this process or another one, or of one that has
-ended: a page that is live and a replay are given the same rows (decision 45).
+ended: a page that is live and a replay are given the same rows (decision 15).
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ A first plan comes from `lns`. The search raises the proven bound, node by node,
 plan, or finds a better one: of least cost by construction. Both take turns, so that neither goes on
 where the other has proven enough; then the search goes on alone. Which constraints a
 conflict leads to, and why no plan is lost by them, is in ``cpp/cbs/track_conflicts.cpp`` and in
-decision 30.
+decision 9.
 
 References
 ----------
