@@ -6,11 +6,13 @@ import { writtenIn } from "../../../src/rightofway/studio/assets/robots/fleet.js
 import {
   addLane,
   bendLane,
+  isPassed,
   mapVertices,
   removeVertices,
   renameVertex,
   roadmapOf,
   splitLane,
+  togglePass,
 } from "../../../src/rightofway/studio/assets/draw/network.js";
 
 /** @import { ScenarioDocument } from "../../../src/rightofway/studio/assets/types.js" */
@@ -81,4 +83,20 @@ test("a lane that is there is not added again, the other way of a one-way lane i
   assert.equal(addLane(DOCUMENT, "B", "A", true), DOCUMENT);
   const { edges } = roadmapOf(addLane(DOCUMENT, "C", "B", false));
   assert.deepEqual(edges.at(-1), { from: "C", to: "B", both_ways: false });
+});
+
+test("robots only drive through a vertex, or may stop there again", () => {
+  for (const name of ["A", "C"]) {
+    const passed = togglePass(DOCUMENT, name);
+    assert.equal(isPassed(DOCUMENT, name), false);
+    assert.equal(isPassed(passed, name), true);
+    assert.deepEqual(
+      togglePass(passed, name).map.roadmap.vertices[name],
+      name === "A" ? [0, 0] : [4, 2],
+    );
+  }
+  const { vertices } = roadmapOf(togglePass(DOCUMENT, "A"));
+  assert.deepEqual(vertices.A, { at: [0, 0], pass: true });
+  assert.deepEqual(Object.keys(vertices), ["A", "B", "C"]);
+  assert.equal(isPassed(DOCUMENT, "unknown"), false);
 });
