@@ -56,3 +56,11 @@ for (let from = 1; from < vertices.length - 1; from++)
         assert.ok((robot.lateness(due + 90, visits) ?? 0) >= 90, `not overdue in visit ${visits}`);
       }
     });
+
+test("work and turning of a stop are told apart as in the plan", () => {
+  const { robot } = driven(1, vertices.length - 1, 3);
+  const [worked] = robot.stages;
+  const ticks = robot.leave(stop.visit) - robot.enter[stop.visit];
+  assert.ok(stop.turn > 0);
+  assert.deepEqual([worked.work, worked.turn], [ticks - stop.turn, stop.turn]);
+});

@@ -3,7 +3,7 @@ import { FloorRobot } from "./floor.js";
 import { DONE } from "./phases.js";
 
 /** @import { DrivenData, DrivenFrame, DrivenRow, PhraseData, RobotData, StageRow } from "./payload.d.ts" */
-/** @import { Robot } from "./robot.js" */
+/** @import { Robot, Stage } from "./robot.js" */
 
 /** @typedef {{ others: number[], text: PhraseData }} Wait For whom a robot waits, and why. */
 /** @typedef {{ kind: string, robot: number, from: number, to: number, text: PhraseData }} Alarm Trouble from when to when. */
@@ -232,6 +232,19 @@ class DrivenLog {
   }
 
   /**
+   * A stage that took some ticks: turning takes as long as planned, work the rest of the time.
+   *
+   * @param {Stage | undefined} stage
+   * @param {number} visit
+   * @param {number} ticks
+   * @returns {StageRow}
+   */
+  #worked(stage, visit, ticks) {
+    const turn = Math.min(stage?.turn ?? 0, ticks);
+    return [this.route[visit], ticks - turn, turn, visit - this.first];
+  }
+
+  /**
    * What it has worked, and until now; stages that it has not come to have no visit.
    *
    * @param {number} now
@@ -244,14 +257,14 @@ class DrivenLog {
     for (const [visit, tick] of [...this.done].sort(([one], [other]) => one - other)) {
       const index = visit - first;
       if (index >= 0 && index < this.enter.length)
-        worked.push([this.route[visit], tick - this.enter[index], 0, index]);
+        worked.push(this.#worked(this.#stage(visit), visit, tick - this.enter[index]));
     }
     const stage = this.#stage(arrived);
     if (stage && !this.done.has(arrived)) {
       const planned = stage.work + stage.turn;
-      const work = stage.work ? Math.max(planned, now - lastOf(this.enter)) : 0;
-      worked.push([stage.vertex, work, 0, arrived - first]);
-      if (work) this.isStale = true;
+      const ticks = stage.work ? Math.max(planned, now - lastOf(this.enter)) : 0;
+      worked.push(this.#worked(stage, arrived, ticks));
+      if (ticks) this.isStale = true;
     }
     const later = this.planned.stages.filter(({ visit }) => visit > arrived);
     return [
