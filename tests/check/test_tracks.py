@@ -9,6 +9,7 @@ import pytest
 
 from rightofway.check import Report, check
 from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track
+from rightofway.model.problem import MAX_TICKS
 from rightofway.site import Edge, VertexId, make_grid_roadmap, make_roadmap
 
 # The rows 0 1 2 and 3 4 5; robots drive an edge in one tick and turn at stops in another.
@@ -227,8 +228,14 @@ def test_the_largest_numbers_are_judged_exactly() -> None:
     assert kinds(report) == ["backwards", "wrong home", "work cut short"]
 
 
-def test_work_longer_than_64_bits_is_cut_short() -> None:
-    assert kinds(judged([(1, 10**30)], [0, 1, 0], [0, 1, 2**62])) == ["work cut short"]
+def test_the_longest_work_of_a_scenario_is_judged_exactly() -> None:
+    """The latest ticks: work that begins later than its length before 2**63 ends beyond 64 bits."""
+    work, latest = MAX_TICKS - 2, 2**63 - 1  # turning and the drive take one tick each
+    arrival = latest - MAX_TICKS
+    assert judged([(1, work)], [0, 1, 0], [0, arrival, latest]).ok
+    for late in (1, MAX_TICKS // 2, MAX_TICKS - 2):
+        report = judged([(1, work)], [0, 1, 0], [0, arrival + late, latest])
+        assert kinds(report) == ["work cut short"]
 
 
 def two_way_and_one_way() -> Scenario:

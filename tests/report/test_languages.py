@@ -52,11 +52,10 @@ def test_notes_of_a_reader_are_said_in_german() -> None:
     level = draft.begin_level()
     for name, x in (("A", 0), ("B", 2)):
         level.vertices[name] = LayoutVertex(name=name, at=(Fraction(x), Fraction(0)))
-    for _ in range(2):
-        draft.repair(Phrase("a number is written as text"))
+    draft.repair(Phrase("a number is written as text"), "A", "B")
     layout = draft.make_layout()
-    assert layout.notes == ("2 times: a number is written as text",)
-    assert translate(layout.notes[0], "de") == "2-mal: eine Zahl ist als Text geschrieben"
+    assert layout.notes == ("2 times: a number is written as text: A and B",)
+    assert translate(layout.notes[0], "de") == "2-mal: eine Zahl ist als Text geschrieben: A und B"
     assert describe_layout(layout) == "a LIF layout with 2 vertices"
     assert translate(describe_layout(layout), "de") == "LIF layout (2 Knoten)"
 

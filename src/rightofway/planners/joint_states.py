@@ -22,12 +22,15 @@ the number of robots.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.phrases import Phrase
 from rightofway.planners.impossible import explain_no_room, find_smallest_set
 from rightofway.planners.task import Draft, Task
-from rightofway.search import ConflictBasedSearch, JointPlan
+
+if TYPE_CHECKING:
+    from rightofway.search import JointPlan
 
 MOST_STATES, FEW_ROBOTS = 100_000, 4
 """States of a search at most, and the largest fleet that is searched."""
@@ -44,6 +47,9 @@ def plan_by_joint_states(task: Task) -> Draft | None:
     NoPlanExists
         With a small set of robots that have no plan.
     """
+    # Most fleets never come here: importing the planner must not import the search.
+    from rightofway.search import ConflictBasedSearch
+
     scenario, deadline = task.scenario, task.deadline.shorten(SHARE)
     everybody = range(len(scenario.robots))
     if len(everybody) > FEW_ROBOTS:

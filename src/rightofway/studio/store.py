@@ -204,9 +204,9 @@ class Store:
 
 def _read_through(database: sqlite3.Connection) -> None:
     """Raise an error where a page or a row of the file cannot be read."""
-    [found] = database.execute("PRAGMA quick_check(1)").fetchone()
-    if found != "ok":
-        raise ValueError(found)
+    [verdict] = database.execute("PRAGMA quick_check(1)").fetchone()
+    if verdict != "ok":
+        raise ValueError(verdict)
     tables = {name for (name,) in database.execute("SELECT name FROM sqlite_master")}
     for table, column in (("drafts", "document"), ("runs", "data")):
         if table not in tables:

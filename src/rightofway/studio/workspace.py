@@ -178,10 +178,10 @@ class Workspace:
         folders = deque([self.folder])
         while folders:
             try:
-                found = sorted(os.scandir(folders.popleft()), key=lambda entry: entry.name)
+                entries = sorted(os.scandir(folders.popleft()), key=lambda entry: entry.name)
             except OSError:
                 continue  # a folder that may not be read has nothing to open
-            inside = [entry for entry in found if not entry.is_symlink()]
+            inside = [entry for entry in entries if not entry.is_symlink()]
             folders += [
                 Path(entry.path)
                 for entry in inside
@@ -211,7 +211,7 @@ def _fits_address(name: str) -> bool:
 
 def make_portable(name: str) -> str:
     """Return the name of a file or a path in the folder as every system can have it."""
-    return "".join("-" if UNSAFE.match(each) or not each.isprintable() else each for each in name)
+    return "".join("-" if UNSAFE.match(sign) or not sign.isprintable() else sign for sign in name)
 
 
 def _refuse_unportable(part: str) -> None:
