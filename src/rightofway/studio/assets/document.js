@@ -64,7 +64,8 @@ export class ScenarioStore extends Observable {
   #known = ""; // revision of the draft that this page has read or written; empty if there must be none
   /** @type {ScenarioDocument | null} */
   #sent = null; // the draft that was sent last
-  #retry = 0; // the timer of the next attempt
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  #retry; // the timer of the next attempt
   #work = {
     survey: new Latest(() => this.#look()),
     findings: new Latest(() => this.#inspect()),
