@@ -218,7 +218,7 @@ def test_time_that_runs_out_ends_with_3(cli: Cli) -> None:
         (["plan", "nowhere.yaml", "--json", "--table"], "--table is for people, --json for"),
         (
             ["show", "nowhere.yaml", "-o", "a.gif", "--tick", "3"],
-            "--at, --tick and --diagram are",
+            "--at and --tick are",
         ),
         (["show", "nowhere.yaml", "-o", "a.png", "--tick", "3", "--at", "3"], "choose one"),
         (["show", "nowhere.yaml", "-o", "a.gif", "--background", "b.png"], "is for pages (give"),
@@ -300,7 +300,7 @@ def test_a_layout_without_a_picture_is_no_background(cli: Cli, door: Path) -> No
 
 def test_show_makes_pictures_and_films_of_scenarios_and_plans(cli: Cli, door: Path) -> None:
     cli("plan", door, "-o", "plan.json")
-    assert cli("show", "plan.json", "-o", "a.png", "--at", "3", "--diagram").code == 0
+    assert cli("show", "plan.json", "-o", "a.png", "--at", "3").code == 0
     ended = cli("show", door, "-o", "a.gif")
     assert "auto, planned in " in ended.err
     assert Path("a.png").read_bytes().startswith(b"\x89PNG")

@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -11,21 +10,18 @@ import numpy as np
 import pytest
 from PIL import Image, ImageColor
 
+from rightofway.check import check
 from rightofway.errors import InputError
 from rightofway.io import parse_scenario
-from rightofway.model import Plan, Robot, Scenario, Stop
-from rightofway.quantities import Quantities, Units
+from rightofway.model import Robot, Scenario, Stop, Track
 from rightofway.site import Edge, VertexId, make_roadmap
 from rightofway.site.drawing import Drawing, Picture
 from rightofway.solve import solve
 from rightofway.viz import Film, write_gif, write_png
 from rightofway.viz.palette import DARK, LIGHT, choose_colours
-from rightofway.viz.raster.canvas import Pen, Scene
-from rightofway.viz.raster.diagram import find_label_step
-from rightofway.viz.raster.map import draw_robots, to_the_right
-from rightofway.viz.raster.names import MapNames
-from rightofway.viz.raster.sizes import compute_sizes
-from tests.builders.plans import crowd, door, door_shifted, hostile, loop, yard
+from rightofway.viz.raster.canvas import Scene
+from rightofway.viz.raster.map import to_the_right
+from tests.builders.plans import door, door_shifted, hostile
 
 BLUE, CORAL = choose_colours(2)
 MARGIN = 24
@@ -39,40 +35,6 @@ def colour_at(path: Path, x: float, y: float, scale: int = 40) -> str:
         )
     assert isinstance(pixel, tuple)
     return "#" + bytes(int(channel) for channel in pixel).hex()
-
-
-def any_overlap(boxes: Sequence[tuple[float, float, float, float]]) -> bool:
-    """Return whether two of the boxes (left, top, right, bottom) have a common area."""
-    left, top, right, bottom = np.array(boxes).reshape(-1, 4).T
-    across = np.minimum.outer(right, right) - np.maximum.outer(left, left)
-    down = np.minimum.outer(bottom, bottom) - np.maximum.outer(top, top)
-    apart = (across <= 0) | (down <= 0)
-    np.fill_diagonal(apart, val=True)
-    return not apart.all()
-
-
-@pytest.mark.parametrize(
-    "plan", [door(), loop(), yard(), pytest.param(crowd(50), marks=pytest.mark.slow)]
-)
-@pytest.mark.parametrize("scale", [9, 45, 110])
-def test_no_name_covers_another_or_leaves_the_picture(plan: Plan, scale: float) -> None:
-    scene = Scene(plan, LIGHT)
-    size = round(scene.plane.width * scale), round(scene.plane.height * scale)
-    pen = Pen(Image.new("RGB", size), origin=(scale / 2, scale / 2), scale=scale, fineness=1)
-    bounds = (-scale / 2, -scale / 2, size[0] - scale / 2, size[1] - scale / 2)
-    sizes = compute_sizes(scene, scale)
-    names = MapNames(scene, sizes, scale, bounds)
-    for tick in (0, 3.5, 9):
-        found = draw_robots(pen, scene, sizes, names, tick)
-        assert found or scale < 10
-        assert not any_overlap([box for _, box in found])
-        robots = {robot.name for robot in plan.scenario.robots}
-        for name, (left, top, right, bottom) in found:
-            if name not in robots:
-                assert left >= bounds[0]
-                assert top >= bounds[1]
-                assert right <= bounds[2]
-                assert bottom <= bounds[3]
 
 
 def test_routes_on_one_way_lie_side_by_side() -> None:
@@ -103,37 +65,13 @@ def test_robots_are_where_they_are_at_the_tick(tmp_path: Path) -> None:
 
 def test_a_waiting_robot_is_hollow(tmp_path: Path) -> None:
     write_png(door(), tmp_path / "a.png", 0, scale=40)
-    assert colour_at(tmp_path / "a.png", 0, 0.15) == LIGHT.floor  # R1, beside its name
+    assert colour_at(tmp_path / "a.png", 0, 0.15) == LIGHT.floor  # R1
     assert colour_at(tmp_path / "a.png", 2, 0.25) == CORAL  # R2 drives
 
 
 def test_the_dark_theme_is_dark(tmp_path: Path) -> None:
     write_png(door(), tmp_path / "a.png", scale=40, theme=DARK)
     assert colour_at(tmp_path / "a.png", 0, 1) == DARK.wall
-
-
-@pytest.mark.parametrize("plan", [door(), loop(), crowd(8), crowd(90)])
-def test_the_diagram_comes_below(tmp_path: Path, plan: Plan) -> None:
-    """Each fleet has a diagram of its own kind: lines, rows, a census."""
-    write_png(plan, tmp_path / "a.png", 3, scale=8)
-    write_png(plan, tmp_path / "b.png", 3, scale=8, diagram=True)
-    with Image.open(tmp_path / "a.png") as bare, Image.open(tmp_path / "b.png") as full:
-        assert full.height > bare.height + 26
-        below = full.crop((0, bare.height, full.width, full.height))
-        assert len(below.getcolors(1 << 24) or []) > 4
-
-
-@pytest.mark.parametrize(
-    ("tick", "least", "label"),
-    [
-        (Fraction(361, 100_000), 6000, "30 s"),  # 8310.2… ticks, which nobody sees one by one
-        (Fraction(1, 3), 1.2, "1 s"),  # three ticks; half a second is no whole number of them
-        (Fraction(1, 3), 3.5, "2 s"),
-    ],
-)
-def test_labels_of_a_diagram_are_round_times(tick: Fraction, least: float, label: str) -> None:
-    quantities = Quantities(units=Units(time="s"), tick=tick)
-    assert quantities.format_duration(find_label_step(quantities, least)) == label
 
 
 def test_a_negative_tick_is_refused(tmp_path: Path) -> None:
@@ -190,7 +128,10 @@ def test_the_picture_of_a_faulty_plan_rings_its_robots_and_lists_its_faults(
 
 
 def test_any_name_can_be_drawn(tmp_path: Path) -> None:
-    write_png(hostile("half \ud800"), tmp_path / "a.png", diagram=True, scale=60)
+    """The robot takes no time for its first edge: a fault, which names it and both vertices."""
+    plan = replace(hostile("half \ud800"), tracks=(Track.of([0, 1, 0], [0, 0, 1]),))
+    assert "half \ud800" in str(check(plan).faults[0])
+    write_png(plan, tmp_path / "a.png", scale=60)
     assert (tmp_path / "a.png").exists()
 
 

@@ -143,7 +143,6 @@ def _report_data(plan: Plan, report: Report, quantities: Quantities) -> dict[str
               help="Time that the picture shows, in the scenario's unit; the start by default.",
               )  # fmt: skip
 @click.option("--tick", type=Whole(0), metavar="TICK", help="The same as a tick.")
-@click.option("--diagram", is_flag=True, help="Draw the space-time diagram under the picture.")
 @click.option("--background", type=click.Path(), metavar="FILE",
               help="Under the map of the page: a ROS map or a building (.yaml), whose picture lies"
               " where the file says; or a picture, its lower left corner on the map's.",
@@ -160,7 +159,6 @@ def show(
     page: str | None,
     at: Fraction | None,
     tick: int | None,
-    diagram: bool,
     background: str | None,
     background_scale: float | None,
 ) -> None:
@@ -178,7 +176,7 @@ def show(
     if not (output or page):
         raise click.UsageError("nothing to write (give --page FILE, or -o FILE for a picture)")
     is_picture = Path(output or "").suffix.lower() == ".png"
-    _check_picture(is_picture, at, tick, diagram=diagram)
+    _check_picture(is_picture, at, tick)
     if others and output not in (None, "-") and not output.lower().endswith(PAGE_SUFFIXES):
         raise click.UsageError("plans are compared on a page (give --page FILE)")
     if len(others) >= MAX_COMPARED:
@@ -210,7 +208,7 @@ def show(
 
         if at is not None:
             tick = floor(at / opened.scenario.problem.clock.tick)
-        write_png(opened, output or "", tick, diagram=diagram)
+        write_png(opened, output or "", tick)
         say_written(output)
     elif output:
         _write(opened, output, extras)
@@ -222,13 +220,10 @@ def _titles(paths: list[str]) -> list[str]:
     return titles if len(set(titles)) == len(titles) else paths
 
 
-def _check_picture(
-    is_picture: bool, at: Fraction | None, tick: int | None, *, diagram: bool
-) -> None:
+def _check_picture(is_picture: bool, at: Fraction | None, tick: int | None) -> None:
     """Refuse options of pictures where none is written, and two moments."""
-    if not is_picture and (diagram or at is not None or tick is not None):
-        message = "--at, --tick and --diagram are for pictures (end the file in .png)"
-        raise click.UsageError(message)
+    if not is_picture and (at is not None or tick is not None):
+        raise click.UsageError("--at and --tick are for pictures (end the file in .png)")
     if at is not None and tick is not None:
         raise click.UsageError("--at and --tick say the same: choose one")
 

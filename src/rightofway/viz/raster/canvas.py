@@ -11,7 +11,6 @@ from PIL import Image, ImageDraw, ImageFont
 
 from rightofway.model import Plan
 from rightofway.model.given import require_plan
-from rightofway.model.place_names import PlaceNames
 from rightofway.site import Roadmap
 from rightofway.values import make_class_reader, read_at
 from rightofway.viz.motion import end_of, make_trips
@@ -24,9 +23,6 @@ Point = tuple[float, float]
 
 SMALL_CELL = 13
 """Below this size of a cell [pixels] robots fill more of it, and homes and stops are faint."""
-
-HALO = 1.75
-"""Width of the outline around a name [pixels]."""
 
 CORNER = 0.16
 """Radius of a square's round corners, as a share of its side."""
@@ -56,7 +52,6 @@ class Scene(Ground):
         read_at("theme", make_class_reader(Theme, "no theme", "give a rightofway.Theme"), theme)
         super().__init__(require_plan(plan).scenario.roadmap, theme)
         self.plan = plan
-        self.where = PlaceNames(plan.scenario).describe_place
         self.trips = make_trips(plan)
         self.colours = choose_colours(len(self.trips))
         self.end = max(end_of(self.trips), 1)
@@ -134,19 +129,11 @@ class Pen:
         """Fill a polygon."""
         self.draw.polygon([self._at(point) for point in points], colour)
 
-    def write_text(
-        self, at: Point, text: str, colour: str, *, size: float, anchor: str, halo: str = ""
-    ) -> None:
-        """Write; ``size`` in pixels of the picture, ``anchor`` as in Pillow.
-
-        A halo is the colour that sets the letters apart from what is behind them.
-        """
+    def write_text(self, at: Point, text: str, colour: str, *, size: float) -> None:
+        """Write a line from its left middle on; ``size`` in pixels of the picture."""
         text = text.encode("utf-8", "replace").decode()  # a lone surrogate cannot be drawn
         font = _font(round(size * self.fineness))
-        width = round(HALO * self.fineness) if halo else 0
-        self.draw.text(
-            self._at(at), text, colour, font, anchor, stroke_width=width, stroke_fill=halo or None
-        )
+        self.draw.text(self._at(at), text, colour, font, "lm")
 
     def measure_text(self, text: str, size: float) -> float:
         """Return how wide a text is [units]."""

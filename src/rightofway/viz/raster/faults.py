@@ -28,7 +28,7 @@ class FaultList:
         theme = self.scene.theme
         for number, line in enumerate(self._lines):
             colour = theme.held if number == 0 else theme.ink
-            pen.write_text((PAD, (number + 0.5) * LINE), line, colour, size=TYPE, anchor="lm")
+            pen.write_text((PAD, (number + 0.5) * LINE), line, colour, size=TYPE)
 
 
 def _lines(scene: Scene, width: float) -> Iterator[str]:

@@ -17,7 +17,6 @@ from rightofway.viz.motion import Moment, Phase
 from rightofway.viz.page.background import explain_unreadable, find_background, place_of
 from rightofway.viz.palette import choose_ink
 from rightofway.viz.raster.canvas import Ground, Pen, Point, Scene
-from rightofway.viz.raster.names import Label, MapNames
 from rightofway.viz.raster.sizes import MOST_ROUTES, LaneSizes, Sizes
 
 ARROW_GAP = 56
@@ -205,8 +204,8 @@ def _stops(pen: Pen, scene: Scene, sizes: Sizes) -> None:
                 pen.fill_polygon([(middle + right, y + down) for right, down in corners], colour)
 
 
-def draw_robots(pen: Pen, scene: Scene, sizes: Sizes, names: MapNames, tick: float) -> list[Label]:
-    """Draw every robot where it is at an instant [ticks]; return the names that have room.
+def draw_robots(pen: Pen, scene: Scene, sizes: Sizes, tick: float) -> None:
+    """Draw every robot where it is at an instant [ticks].
 
     A disc drives, a ring waits, a filling arc works, two arcs turn, a faint disc is done. A wide
     ring in red is round each robot that has part in a fault.
@@ -222,7 +221,6 @@ def draw_robots(pen: Pen, scene: Scene, sizes: Sizes, names: MapNames, tick: flo
         wide = sizes.robots[robot] + 4 if has_size else sizes.robots[robot] * FAULT_RING
         radius = wide * pen.hairline
         pen.draw_ring(middles[robot], radius, WHOLE, scene.theme.held, radius * 0.15)
-    return names.draw(pen, moments, middles)
 
 
 def _middle(scene: Scene, moment: Moment) -> Point:

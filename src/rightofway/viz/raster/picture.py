@@ -15,21 +15,17 @@ from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.files import write_whole
 from rightofway.model import Plan
-from rightofway.model.given import require_truths
 from rightofway.values import allow_none, make_range_reader, read_at, read_whole_number
 from rightofway.viz.palette import LIGHT, Theme
-from rightofway.viz.raster.canvas import Pen, Point, Scene
-from rightofway.viz.raster.diagram import Diagram
+from rightofway.viz.raster.canvas import Pen, Scene
 from rightofway.viz.raster.faults import FaultList
 from rightofway.viz.raster.map import draw_ground, draw_robots
-from rightofway.viz.raster.names import Box, MapNames
 from rightofway.viz.raster.sizes import compute_sizes
 
 MARGIN = 24
 MOST_PIXELS = 60_000_000
 
 PICTURE_WIDTH, LARGEST_CELL, PICTURE_FINENESS = 1400, 110, 3
-LEAST_DIAGRAM_WIDTH = 720
 
 FILM_WIDTH, LARGEST_FILM_CELL, FILM_FINENESS = 800, 64, 2
 FRAME_MILLISECONDS, LAST_MILLISECONDS = 50, 1500
@@ -43,7 +39,6 @@ def make_png(
     tick: int | None = None,
     *,
     scale: float | None = None,
-    diagram: bool = False,
     theme: Theme = LIGHT,
 ) -> bytes:
     """Return a picture of a plan as PNG: the map with homes, stops, faint routes and the robots.
@@ -55,11 +50,9 @@ def make_png(
     plan
         The plan.
     tick
-        The instant to show [ticks]. None shows the robots at home, and no instant in the diagram.
+        The instant to show [ticks]. None shows the robots at home.
     scale
         Pixels for a cell. None chooses so that the picture is about as wide as a page.
-    diagram
-        Whether to draw the space-time diagram below.
     theme
         Colours of everything but the robots.
 
@@ -68,7 +61,6 @@ def make_png(
     InputError
         For a tick below 0, or a scale that makes the picture empty or too large to draw.
     """
-    require_truths(diagram=diagram)
     tick = read_at("tick", allow_none(read_whole_number), tick)
     if tick is not None and tick < 0:
         raise InputError.at("tick", f"{tick} is negative (give 0 or more)")
@@ -76,23 +68,15 @@ def make_png(
     scene, fineness = Scene(plan, theme), PICTURE_FINENESS
     if scale is None:
         scale = _fitting_scale(scene, PICTURE_WIDTH, LARGEST_CELL)
-    map_width, map_height = _map_size(scene, scale)
-    width = max(map_width, LEAST_DIAGRAM_WIDTH if diagram else 0)
-    below = Diagram(scene, width) if diagram else None
-    diagram_height = round(below.height) if below else 0
+    width, height = _map_size(scene, scale)
     faults = FaultList(scene, width)
-    height = map_height + diagram_height + round(faults.height)
-    image = _blank(scene, (width, height), fineness)
-    margin = _margin(scene, scale)
-    left = (width - map_width) / 2 + margin + scale / 2
-    pen = Pen(image, origin=(left, margin + scale / 2), scale=scale, fineness=fineness)
+    image = _blank(scene, (width, height + round(faults.height)), fineness)
+    first = _margin(scene, scale) + scale / 2
+    pen = Pen(image, origin=(first, first), scale=scale, fineness=fineness)
     sizes = compute_sizes(scene, scale)
     draw_ground(pen, scene, sizes, routes=True)
-    bounds = _bounds(pen.origin, (width, map_height))
-    draw_robots(pen, scene, sizes, MapNames(scene, sizes, scale, bounds), tick or 0)
-    if below:
-        below.draw(Pen(image, origin=(0, map_height), scale=1, fineness=fineness), tick)
-    faults.draw(Pen(image, origin=(0, map_height + diagram_height), scale=1, fineness=fineness))
+    draw_robots(pen, scene, sizes, tick or 0)
+    faults.draw(Pen(image, origin=(0, height), scale=1, fineness=fineness))
     content = io.BytesIO()
     image.reduce(fineness).save(content, "png", optimize=True)
     return content.getvalue()
@@ -104,14 +88,13 @@ def write_png(
     tick: int | None = None,
     *,
     scale: float | None = None,
-    diagram: bool = False,
     theme: Theme = LIGHT,
 ) -> None:
     """Write a picture of a plan: the map with homes, stops, faint routes and the robots.
 
     Parameters
     ----------
-    plan, tick, scale, diagram, theme
+    plan, tick, scale, theme
         As for `make_png`.
     path
         Where, usually ``….png``; the file is there whole or not at all.
@@ -121,7 +104,7 @@ def write_png(
     InputError
         As for `make_png`, or if the file cannot be written.
     """
-    write_whole(path, make_png(plan, tick, scale=scale, diagram=diagram, theme=theme))
+    write_whole(path, make_png(plan, tick, scale=scale, theme=theme))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -206,14 +189,12 @@ def _pictures(scene: Scene, scale: float, ticks: Sequence[float]) -> Iterator[Im
     ground = _blank(scene, _map_size(scene, scale), FILM_FINENESS)
     pen = Pen(ground, origin=origin, scale=scale, fineness=FILM_FINENESS)
     sizes = compute_sizes(scene, scale)
-    bounds = _bounds(origin, _map_size(scene, scale))
-    names = MapNames(scene, sizes, scale, bounds)
     draw_ground(pen, scene, sizes, routes=False)
 
     def picture(tick: float) -> Image.Image:
         image = ground.copy()
         pen = Pen(image, origin=origin, scale=scale, fineness=FILM_FINENESS)
-        draw_robots(pen, scene, sizes, names, tick)
+        draw_robots(pen, scene, sizes, tick)
         return image.reduce(FILM_FINENESS)
 
     palette = picture(ticks[len(ticks) // 2]).quantize(255, Image.Quantize.MEDIANCUT)
@@ -241,12 +222,6 @@ def _margin(scene: Scene, scale: float) -> int:
     """Return the margin of a map: robots at its border may reach beyond it [pixels]."""
     largest = max(float(robot.radius) for robot in scene.plan.scenario.robots)
     return MARGIN + max(math.ceil((largest / scene.plane.unit - 0.5) * scale), 0)
-
-
-def _bounds(origin: Point, size: tuple[float, float]) -> Box:
-    """Return where names may stand: a picture less a hairline, seen from ``origin`` [pixels]."""
-    (x, y), (width, height) = origin, size
-    return 2 - x, 2 - y, width - x - 2, height - y - 2
 
 
 def _blank(scene: Scene, size: tuple[int, int], fineness: int) -> Image.Image:
