@@ -102,6 +102,7 @@ def test_no_robots_collide_over_all_plans_of_a_run_and_the_rest_complete(
         assert completion < NEVER or robot in monitor.lost | monitor.cut_off or fleet.closures
         own = Counter(fault.kind for fault in report.faults if fault.robots == (robot,))
         assert bool(own.pop("closed", 0)) <= bool(monitor.execution.is_caught[robot])
+        own.pop("stop at pass", 0)  # a drive through takes longer than planned where it is late
         if completion < NEVER:
             assert not own, report
             assert completion >= int(tracks[robot].enter[-1])

@@ -289,7 +289,7 @@ def _boxed(
 ) -> list[int]:
     """Return which straight lines may come within reach of segments, by boxes around both."""
     points = np.array([[float(x) for x in point] for ends in segments for point in ends])
-    slack = float(reach) + LEEWAY * (np.abs(first).max() + float(reach))
+    slack = float(reach) + LEEWAY * (np.abs(first).max(initial=0) + float(reach))
     low, high = points.min(axis=0) - slack, points.max(axis=0) + slack
     meets = (np.maximum(first, other) >= low) & (np.minimum(first, other) <= high)
     return np.flatnonzero(meets.all(axis=1)).tolist()
