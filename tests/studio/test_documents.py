@@ -259,7 +259,9 @@ def test_a_survey_without_inspection_has_the_map_and_no_findings(client: httpx.C
 
 def test_every_example_is_a_document_that_names_no_other_file(client: httpx.Client) -> None:
     names = [each["name"] for each in client.get("/examples").json()["examples"]]
-    assert {"door", "floor", "warehouse"} <= set(names)
+    cases = {f"paper/door-{case}" for case in range(1, 6)}
+    cases |= {f"paper/cross-{case}" for case in range(1, 4)}
+    assert {"door", "floor", "warehouse", *cases} <= set(names)
     for name in names:
         document = client.get(f"/examples/{name}").json()["document"]
         assert client.post("/validate", json={"document": document}).json()["ok"], name

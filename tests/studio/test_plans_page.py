@@ -72,6 +72,25 @@ def give(studio: StudioPage, column: str, text: str) -> None:
     studio.tab("Plan")
 
 
+def test_a_press_anywhere_on_a_row_plays_its_plan(opened: Opener) -> None:
+    """Also waits are listed in order of time, whichever robot waits."""
+    studio = opened(BAY)
+    for _ in range(2):
+        studio.button("Plan").click()
+        studio.planned()
+    for number, column in ((1, "flowtime"), (2, "took"), (1, "took")):
+        at = {"flowtime": 4, "took": 5}[column]
+        studio.page.locator(f"tr[data-run='{number}'] td:nth-child({at})").click()
+        studio.shown(number)
+    times = [
+        int(found[1])
+        for text in studio.page.locator(".waits .watch").all_inner_texts()
+        if (found := re.search(r"At time (\d+)", text))
+    ]
+    assert len(times) > 1
+    assert times == sorted(times)
+
+
 def another(studio: StudioPage) -> None:
     """Draw another floor, a copy with another unit of time, which has no name."""
     studio.draw({**studio.document, "units": {"time": "s"}}, "new 2026-01-02 03:04:05 006")

@@ -56,6 +56,33 @@ def focused(table: StudioPage) -> str:
     return table.page.locator(":focus").get_attribute("aria-label") or ""
 
 
+def test_control_and_enter_plan_from_any_cell_with_what_is_written_in_it(
+    table: StudioPage,
+) -> None:
+    for count, (column, text) in enumerate((("Work", "7"), ("Speed", "0.5"), ("Name", "R9")), 1):
+        table.tab("Robots")
+        cell = field(table, column, "R1")
+        cell.click()
+        cell.fill(text)
+        cell.press("Control+Enter")
+        table.page.locator(f"tr[data-run='{count}']").wait_for()
+        robot = table.api(f"runs/{count}/document")["document"]["robots"][0]
+        key = {"Work": "work", "Speed": "speed", "Name": "name"}[column]
+        assert str(robot.get(key, robot.get("stops", [{}])[0].get(key))) == text
+        table.planned()
+
+
+def test_heads_have_the_units_of_the_document_and_cells_their_whole_text(
+    table: StudioPage,
+) -> None:
+    heads = [
+        head.split(" ↑")[0] for head in table.page.locator("table.robots th").all_inner_texts()
+    ]
+    assert heads[:5] == ["Name", "Home", "Stops", "Work [s]", "Speed [m/s]"]
+    home = field(table, "Home", "R1")
+    assert home.get_attribute("title") == home.input_value() != ""
+
+
 def test_arrows_and_enter_go_through_the_cells(table: StudioPage) -> None:
     keys = table.page.keyboard
     field(table, "Work", "R1").click()

@@ -63,7 +63,7 @@ function File({ studio }) {
    * @returns {void}
    */
   const enter = (event) => {
-    if (event.key !== "Enter") return;
+    if (event.key !== "Enter" || event.ctrlKey || event.metaKey) return;
     rename(event);
     shelf.save();
   };

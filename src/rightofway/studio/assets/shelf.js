@@ -88,7 +88,7 @@ export class Shelf {
   openExample(name) {
     return this.studio.attempt(async () => {
       const { document } = await get(`/examples/${inAddress(name)}`);
-      this.studio.open({ document, suggested: name, origin: ["example", name] });
+      this.studio.open({ document, suggested: name.split("/").at(-1), origin: ["example", name] });
     });
   }
 

@@ -113,7 +113,7 @@ const exampleCard = ({ name }) => ({
   source: "examples",
   name,
   revision: "",
-  title: words.examples[name] ?? name,
+  title: words.examples[name] ?? words.paperCase(name.split("/").at(-1) ?? name),
 });
 
 /**

@@ -20,8 +20,8 @@ Named = Annotated[str, Path(description="path of a file, name of a draft or of a
 
 
 def list_scenario_examples() -> dict[str, str]:
-    """Return the examples to begin with: their names, and what they show, in a sentence."""
-    names = [name for name in list_example_names() if "/" not in name]
+    """Return the examples to begin with, and those of the paper: names, and a sentence on each."""
+    names = [name for name in list_example_names() if "/" not in name or name.startswith("paper/")]
     files = {name: find_examples_folder() / f"{name}.yaml" for name in names}
     return {name: read_first_sentence(file) for name, file in files.items() if file.is_file()}
 
@@ -33,7 +33,7 @@ def list_examples() -> dict[str, Any]:
     return {"examples": [{"name": name, "sentence": text} for name, text in examples.items()]}
 
 
-@router.get("/examples/{name}", tags=["files"])
+@router.get("/examples/{name:path}", tags=["files"])
 async def get_example(studio: InStudio, name: Named) -> dict[str, Any]:
     """Return an example as a document that names no other file."""
     result, _ = await studio.ask("example", name=_known(name))

@@ -114,6 +114,19 @@ export const COLUMNS = [
 ];
 
 /**
+ * The unit of the numbers in a column; empty for text, and where the document has none.
+ * @param {Pick<Column, "key">} column
+ * @param {{length?: string, time?: string}} units
+ * @returns {string}
+ */
+export function unitOf({ key }, { length, time }) {
+  if (key === "work" || key === "turn") return time ?? "";
+  if (key === "radius") return length ?? "";
+  if (key === "speed") return length && time ? `${length}/${time}` : "";
+  return key === "turn_rate" && time ? `°/${time}` : "";
+}
+
+/**
  * The column of a fault of a robot: "target" is of the stops.
  * @param {Pick<DocumentFault, "path">} fault
  * @returns {string}

@@ -14,7 +14,7 @@ import {
   pasted,
   rowsOfText,
 } from "./block.js";
-import { columnOf } from "./columns.js";
+import { columnOf, unitOf } from "./columns.js";
 import { freeName, removeRobots, sortRobots, writtenIn } from "./fleet.js";
 /** @import { DocumentFault } from "../api_types.js" */
 /** @import { Block, Column, Edit, Props, RobotData, SheetCell } from "../types.js" */
@@ -164,6 +164,8 @@ export function Sheet({ studio, columns, wanted }) {
    */
   const key = (event, at) => {
     const isMany = block && !isSingle(block);
+    if ((event.ctrlKey || event.metaKey) && event.key === "Enter")
+      return write(at, event.target.value); // the page plans it
     if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "d")
       fill(isMany ? block.bottom : robots.length - 1);
     else if (isMany && ["Delete", "Backspace"].includes(event.key))
@@ -201,7 +203,7 @@ export function Sheet({ studio, columns, wanted }) {
     const [title, , usual = ""] = column.words(words);
     return html`<td key=${column.key} class=${`${column.key} ${holds(block, row, at) && !isSingle(/** @type {Block} */ (block)) ? "in" : ""}`}>
       <${Field} value=${robot ? column.text(robot) : ""} data-cell=${`${row} ${at}`} spellcheck="false"
-        aria-label=${robot ? `${title}, ${robot.name}` : `${title}, ${words.newRow}`} aria-invalid=${String(Boolean(fault))} title=${fault?.message ?? ""}
+        aria-label=${robot ? `${title}, ${robot.name}` : `${title}, ${words.newRow}`} aria-invalid=${String(Boolean(fault))} title=${fault?.message ?? (robot ? column.text(robot) : "")}
         placeholder=${robot ? usual : column.key === "name" ? freeName(robots) : ""}
         onFocus=${({ target }) => enter(place, target)} onInput=${({ target }) => (edited.current = target)} onDblClick=${({ target }) => edit(target)} onChange=${({ target }) => write(place, target.value)}
         onMouseDown=${(event) => press(event, place)}
@@ -220,12 +222,21 @@ export function Sheet({ studio, columns, wanted }) {
     else editor.select([{ kind: "robot", id: row }]);
     editor.changed();
   };
+  /**
+   * The title of a column, with the unit of its numbers where the document has units.
+   * @param {Column} column
+   * @returns {string}
+   */
+  const headOf = (column) => {
+    const unit = unitOf(column, store.document.units ?? {});
+    return unit ? `${column.words(words)[0]} [${unit}]` : column.words(words)[0];
+  };
   return html`
     <div class="sheet" ref=${sheet}><table class="robots">
       <thead><tr>${columns.map(
         (column) => html`
         <th scope="col" class=${column.key} aria-sort=${sorted.key === column.key ? (sorted.isDown ? "descending" : "ascending") : "none"}>
-          <button type="button" title=${column.words(words)[1]} onClick=${() => sort(column)}>${column.words(words)[0]}</button></th>`,
+          <button type="button" title=${column.words(words)[1]} onClick=${() => sort(column)}>${headOf(column)}</button></th>`,
       )}<th class="do"><span class="unseen">${words.remove}</span></th></tr></thead>
       <tbody>${rows.slice(0, most).map(
         ({ robot, row }) => html`

@@ -204,8 +204,15 @@ function Row({ studio, run, order, isOwn }) {
     void studio.attempt(() => runs.rename(number, target.value.trim()));
   const remove = html`<button type="button" class="quiet" title=${words.remove}
     aria-label=${named(words.remove)} onClick=${() => forget(studio, [number])}>✕</button>`;
+  /**
+   * A press on any other part of the row plays the plan, as its number does.
+   * @param {PageEvent} event
+   * @returns {unknown}
+   */
+  const play = (event) =>
+    canBeShown(run) && !event.target.closest("input, button") && studio.showRun(number);
   return html`
-    <tr class=${isShown ? "chosen" : ""} data-run=${number} data-state=${run.state}>
+    <tr class=${isShown ? "chosen" : ""} data-run=${number} data-state=${run.state} onClick=${play}>
       <td><input type="checkbox" checked=${isSelected} disabled=${!run.has_plan}
         aria-label=${named(words.compare)} title=${words.compareHint} onClick=${select} /></td>
       <td><button type="button" class="show" disabled=${!canBeShown(run)} title=${words.show}

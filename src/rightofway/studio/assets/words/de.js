@@ -73,6 +73,7 @@ export const GERMAN = {
     floor: "Werkstatt in Metern",
     warehouse: "Lager, fünfzig Roboter",
   },
+  paperCase: (name) => `Veröffentlichung: ${name}`,
   moreFiles: (count) => (count === 1 ? "Noch 1 Datei zeigen" : `Noch ${count} Dateien zeigen`),
   notRead: "lässt sich nicht öffnen",
   mapAlone: "Karte",

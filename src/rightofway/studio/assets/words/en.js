@@ -78,6 +78,7 @@ export const ENGLISH = {
     floor: "Workshop in metres",
     warehouse: "Warehouse, fifty robots",
   },
+  paperCase: (/** @type {string} */ name) => `Paper: ${name}`,
   moreFiles: (/** @type {number} */ count) => `Show ${counted(count, "more file")}`,
   notRead: "cannot be opened",
   mapAlone: "map",
