@@ -171,12 +171,11 @@ def draw_squares(axes: Axes) -> None:
     """Draw the squares over the map."""
     start = Spot(*START)
     roadmap = scenario(COARSER[-1], [(start, start)]).roadmap
-    assert roadmap.sides is not None
     x, y = (roadmap.positions * (1, -1)).T
-    low = np.column_stack((x, y)) - roadmap.sides[:, None] / 2
+    low = np.column_stack((x, y)) - roadmap.drawn_sides[:, None] / 2
     squares = [
         Rectangle((left, bottom), side, side)
-        for (left, bottom), side in zip(low.tolist(), roadmap.sides.tolist(), strict=True)
+        for (left, bottom), side in zip(low.tolist(), roadmap.drawn_sides.tolist(), strict=True)
     ]
     axes.add_collection(
         PatchCollection(squares, facecolor="white", edgecolor="#7a8794", linewidth=0.25)

@@ -11,6 +11,7 @@ import math
 import sys
 import tempfile
 import time
+from fractions import Fraction
 from pathlib import Path
 
 from rightofway.control import demo
@@ -45,7 +46,7 @@ def main() -> None:
             nonlocal largest
             largest = max(largest, len(letter.payload))
 
-        def take_down(tick: int) -> None:
+        def take_down(tick: Fraction) -> None:
             nonlocal largest, due
             journal.flush()
             hours = float(clock.convert_to_time(tick)) / 3600

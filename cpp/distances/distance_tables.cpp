@@ -19,9 +19,10 @@ constexpr Tick largest_distance = std::numeric_limits<std::int32_t>::max();
 
 std::int32_t narrow(Tick distance, VertexId vertex, VertexId target) {
     if (distance > largest_distance) {
-        throw std::overflow_error("distance from " + std::to_string(vertex) + " to " +
-                                  std::to_string(target) + ": " + std::to_string(distance) +
-                                  " ticks do not fit int32 (bring speeds and lengths closer together)");
+        throw std::overflow_error(
+            "distance from " + std::to_string(vertex) + " to " + std::to_string(target) + ": " +
+            std::to_string(distance) +
+            " ticks do not fit int32 (bring speeds and lengths closer together)");
     }
     return static_cast<std::int32_t>(distance);
 }

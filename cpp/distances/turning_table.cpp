@@ -58,9 +58,9 @@ TurningTable::TurningTable(const Problem& problem, RobotId robot)
                 continue;
             }
             if (ticks > largest_entry) {
-                throw std::overflow_error("trip of robot " + std::to_string(robot) + ": " +
-                                          std::to_string(ticks) +
-                                          " ticks do not fit int32 (bring speeds and lengths closer together)");
+                throw std::overflow_error(
+                    "trip of robot " + std::to_string(robot) + ": " + std::to_string(ticks) +
+                    " ticks do not fit int32 (bring speeds and lengths closer together)");
             }
             least[edge] = static_cast<std::int32_t>(ticks);
             if (problem.drive(robot, edge) < 0) {

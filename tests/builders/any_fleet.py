@@ -324,7 +324,7 @@ def _own(draw: st.DrawFn, has: set[str]) -> Document:
         robot["turn_rate"] = draw(st.sampled_from([45, 30, 90]))
     if "turns" in has:
         robot["turn"] = draw(st.sampled_from([0, "1/2", 2]))
-    if has & {"barred", "limits"} and draw(st.booleans()):
+    if not has.isdisjoint({"barred", "limits"}) and draw(st.booleans()):
         robot["type"] = "wide"
     if "weights" in has:
         robot["weight"] = draw(st.sampled_from([1, 3, "1/2"]))

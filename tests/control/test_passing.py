@@ -23,7 +23,7 @@ def make_plan() -> Plan:
         fleet.add_vertex(name, x, 0)
     for name, x in [("P", 2), ("Q", 4)]:
         fleet.add_vertex(name, x, 0, is_passed=True)
-    for tail, head in ["AP", "PQ", "QB", "BC"]:
+    for tail, head in [("A", "P"), ("P", "Q"), ("Q", "B"), ("B", "C")]:
         fleet.add_edge(tail, head)
     fleet.add_robot("R1", home="A", target="C", work=1)
     return solve(fleet.build_scenario(), "prioritized")

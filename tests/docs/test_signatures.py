@@ -46,7 +46,10 @@ def list_names(shown: ast.arguments) -> list[str]:
 
 def list_names_of(function: Any) -> list[str]:
     """Return the parameters of a function, with their stars."""
-    stars = {inspect.Parameter.VAR_POSITIONAL: "*", inspect.Parameter.VAR_KEYWORD: "**"}
+    stars: dict[Any, str] = {
+        inspect.Parameter.VAR_POSITIONAL: "*",
+        inspect.Parameter.VAR_KEYWORD: "**",
+    }
     parameters = inspect.signature(function).parameters.values()
     return [stars.get(each.kind, "") + each.name for each in parameters]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 from hypothesis import strategies as st
 
@@ -31,7 +32,7 @@ def forbid_rotations(fleet: Scenario) -> Scenario:
 
 def list_enters(fleet: Scenario, planner: str) -> list[list[int]] | str:
     """Return the enters of each robot, or why there is no plan."""
-    effort = {"iterations": 50} if planner == "lns" else {}
+    effort: dict[str, Any] = {"iterations": 50} if planner == "lns" else {}
     try:
         plan = rightofway.solve(fleet, planner, time_limit=20, **effort)
     except InputError:
@@ -115,7 +116,7 @@ def search_joint_states(fleet: Scenario) -> JointPlan:
 
 @law(crowds(), st.sampled_from([*PLANNERS, "auto", "random-priority"]))
 def test_plans_have_no_rotation_and_what_is_proven_is_true(fleet: Scenario, planner: str) -> None:
-    options = {"iterations": 50} if planner in {"lns", "auto"} else {}
+    options: dict[str, Any] = {"iterations": 50} if planner in {"lns", "auto"} else {}
     if planner == "auto":
         options["nodes"] = 50
     joint = search_joint_states(fleet)

@@ -66,10 +66,10 @@ def test_every_independent_fault_is_reported_at_once() -> None:
 def test_stages_of_a_fleet_are_counted_before_they_are_listed(laps: int, of_fleet: bool) -> None:
     """One stop and one way home in each lap."""
     [robot] = grid_fleet(ROW, [("N0", "N4")]).robots
-    fleet = {"rules": Rules(laps=laps)} if of_fleet else {}
+    rules = Rules(laps=laps if of_fleet else 1)
     robots = (robot if of_fleet else replace(robot, laps=laps),)
     with pytest.raises(InputError, match=rf"robots: {2 * laps} stops and ways home in all laps"):
-        replace(grid_fleet(ROW, [("N0", "N4")]), robots=robots, **fleet)
+        replace(grid_fleet(ROW, [("N0", "N4")]), robots=robots, rules=rules)
 
 
 def test_laps_need_a_way_back() -> None:

@@ -213,11 +213,7 @@ export class Summary {
         both(({ makespan }) => makespan),
         texts.allBothAtLength(endsAtHome),
       ],
-      [
-        texts.timeLost,
-        both(({ flowtime, alone }) => flowtime - alone),
-        texts.timeLostAtLength,
-      ],
+      [texts.timeLost, both(({ flowtime, alone }) => flowtime - alone), texts.timeLostAtLength],
       [texts.earlier, String(earlier), texts.earlierAtLength(title)],
       [texts.later, String(later), texts.laterAtLength(title)],
     ];
