@@ -49,7 +49,7 @@ def main() -> None:
         def take_down(tick: Fraction) -> None:
             nonlocal largest, due
             journal.flush()
-            hours = float(clock.convert_to_time(tick)) / 3600
+            hours = float(clock.tick * tick) / 3600
             is_over = hours >= given.hours or time.monotonic() > ends
             if hours < due and not is_over:
                 return
