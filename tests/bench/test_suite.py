@@ -16,7 +16,7 @@ from rightofway.bench import read_suite
 from rightofway.errors import InputError
 from rightofway.io import load, make_schema
 from rightofway.io.text import parse_toml
-from rightofway.planners import find
+from rightofway.planners import find, find_all
 
 ROOT = Path(__file__).parents[2]
 DATA = ROOT / "tests" / "data"
@@ -95,6 +95,17 @@ def test_what_is_left_out_has_a_default(tmp_path: Path) -> None:
     assert case.fleet_data == {"speeds": [1], "by_seed": False, "work": (0, 0), "rules": {}}
     spec = find("auto")
     assert (case.planner, case.options) == (spec.name, spec.settle({}))
+
+
+def test_every_planner_can_be_a_part_of_a_suite(tmp_path: Path) -> None:
+    """Options of some are fractions, which JSON does not have."""
+    planners = "".join(f'[[planners]]\nname = "{name}"\n' for name in find_all())
+    path = tmp_path / "suite.toml"
+    head = 'format = "rightofway-suite/1"\ncounts = [2]\n[[maps]]\nrandom = {size = [8, 8]}\n'
+    path.write_text(head + planners, encoding="utf-8")
+    cases = read_suite(path)
+    assert [case.planner for case in cases] == list(find_all())
+    assert len({case.key for case in cases}) == len(cases)
 
 
 def test_numbers_are_exact() -> None:

@@ -91,7 +91,7 @@ class Case:
             self.problem, self.fleet_data, self.robots, self.seed, str(self.limit),
             self.planner, dict(self.options),
         ]  # fmt: skip
-        text = json.dumps(definition, sort_keys=True, separators=(",", ":"))
+        text = json.dumps(definition, sort_keys=True, separators=(",", ":"), default=str)
         object.__setattr__(self, "key", hashlib.sha256(text.encode()).hexdigest()[:16])
 
     @property
