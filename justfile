@@ -182,9 +182,9 @@ suite name *args:
     mkdir -p build
     rightofway bench benchmarks/suites/{{ name }}.toml -o build/{{ name }}.csv --report build/{{ name }}.html {{ args }}
 
-# Measure: planners, kernels, start-up (see benchmarks/README.md)
+# Measure: kernels, start-up (see benchmarks/README.md)
 bench:
-    pytest benchmarks -o python_files='bench_*.py' --benchmark-columns=median,iqr,rounds --benchmark-sort=name
+    pytest -n 0 benchmarks/bench_kernels.py --benchmark-columns=median,iqr,rounds --benchmark-sort=name
     benchmarks/start_up.sh
 
 # How far planners are from the best right of way on their routes: tables and plot of docs/results/improvement.md

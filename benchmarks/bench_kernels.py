@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
@@ -12,13 +10,14 @@ from rightofway.planners.lacam import build_timetable
 from rightofway.planners.routing import find_shortest_routes
 from rightofway.precedence import PrecedenceGraph
 from rightofway.search import Bookings, Distances, find_earliest_track, plan_by_lacam
+from tests.builders.fleets import random_fleet
 
 ROBOTS = 200
 
 
-@pytest.fixture
-def scenario(fleet: Callable[[int], Scenario]) -> Scenario:
-    return fleet(ROBOTS)
+@pytest.fixture(scope="module")
+def scenario() -> Scenario:
+    return random_fleet(1, size=64, robots=ROBOTS, walls=0.1)
 
 
 def graph_of_routes(scenario: Scenario) -> PrecedenceGraph:
