@@ -27,7 +27,8 @@ REACHED = """() => {
     it.scrollIntoView({ block: "center", inline: "center" });
     const { left, top, width, height } = it.getBoundingClientRect();
     const over = document.elementFromPoint(left + width / 2, top + height / 2);
-    const named = it.ariaLabel || it.textContent.trim() || it.labels?.[0]?.textContent.trim();
+    const text = (it.querySelector(".name") ?? it).textContent.trim(); // of a card its name alone
+    const named = it.ariaLabel || text || it.labels?.[0]?.textContent.trim();
     if (over && (it.contains(over) || over.contains(it))) found.add(named);
   }
   return [...found].filter(Boolean);
