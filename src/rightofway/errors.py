@@ -20,6 +20,7 @@ from fractions import Fraction
 from itertools import takewhile
 from typing import TYPE_CHECKING
 
+from rightofway.facts import Fact
 from rightofway.phrases import Phrase, join_items
 
 if TYPE_CHECKING:
@@ -344,22 +345,22 @@ class Blockage:
     Attributes
     ----------
     reason
-        Which robots are blocked, where and why.
+        The fact that blocks robots; or an English sentence, from planners of other packages.
     robots
         Names of the robots that it concerns.
     vertices
         Names of the vertices that it concerns.
     remedy
-        What to do; empty where nothing is known to help.
+        The change that helps; empty where none is known.
     """
 
-    reason: str
+    reason: Fact | str
     robots: tuple[str, ...]
     vertices: tuple[str, ...]
-    remedy: str = ""
+    remedy: Fact | str = ""
 
     def __str__(self) -> str:
-        return f"{self.reason} ({self.remedy})" if self.remedy else self.reason
+        return f"{self.reason} ({self.remedy})" if self.remedy else str(self.reason)
 
 
 class NoPlanExists(RightOfWayError):
@@ -368,18 +369,19 @@ class NoPlanExists(RightOfWayError):
     Parameters
     ----------
     reasons
-        A sentence, or every blockage that was found.
+        A fact, an English sentence, or every blockage that was found.
     """
 
-    def __init__(self, reasons: str | Iterable[Blockage]) -> None:
-        blockages = [Blockage(reasons, (), ())] if isinstance(reasons, str) else reasons
-        self.blockages = tuple(blockages)
+    def __init__(self, reasons: Fact | str | Iterable[Blockage]) -> None:
+        if isinstance(reasons, Fact | str):
+            reasons = [Blockage(reasons, (), ())]
+        self.blockages = tuple(reasons)
         super().__init__(self.blockages)
 
     def __str__(self) -> str:
         listed = [str(blockage) for blockage in self.blockages[:MAX_REASONS]]
         more = len(self.blockages) - len(listed)
-        return "\n".join([*listed, *([f"and {more} more"] if more else [])])
+        return "\n".join([*listed, *([str(Fact("more reasons", number=more))] if more else [])])
 
     @property
     def robots(self) -> tuple[str, ...]:
@@ -398,6 +400,7 @@ class NoPlanExists(RightOfWayError):
         return {
             "reasons": [
                 {
+                    "kind": blockage.reason.kind if isinstance(blockage.reason, Fact) else "other",
                     "reason": str(blockage),
                     "robots": list(blockage.robots),
                     "vertices": list(blockage.vertices),
@@ -412,13 +415,24 @@ class NoPlanExists(RightOfWayError):
 class GaveUp(RightOfWayError):
     """No plan was found within the planner's means or the time limit; one may exist.
 
+    Parameters
+    ----------
+    reason
+        The fact that ended the search; or an English sentence, from planners of other packages.
+
     Attributes
     ----------
+    reason
+        As given.
     lower_bound
         No plan has a smaller flowtime [ticks]; None where none is proven.
     """
 
     lower_bound: int | None = None
+
+    def __init__(self, reason: Fact | str) -> None:
+        super().__init__(reason)
+        self.reason = reason
 
 
 class InvalidPlan(RightOfWayError):

@@ -5,6 +5,7 @@ import pytest
 import rightofway
 from rightofway import FleetBuilder, NoPlanExists
 from rightofway.errors import MAX_REASONS
+from rightofway.facts import Fact
 from rightofway.model import Scenario
 
 
@@ -54,8 +55,9 @@ def test_shared_ends_are_reported_beside_missing_ways() -> None:
         fleet.add_robot(name, home=home, target=target)
     way, end = no_plan(fleet.build_scenario()).blockages
     assert way.robots == ("R3",)
-    assert end.reason == "R1, R2 and R3 would all have to stay at N2 for ever"
-    assert end.remedy == "let others end elsewhere"
+    assert end.reason == Fact("shared end", robots=(0, 1, 2), place=2)
+    assert str(end.reason) == "R1, R2 and R3 would all have to stay at N2 for ever"
+    assert str(end.remedy) == "let others end elsewhere"
     assert str(end) == f"{end.reason} ({end.remedy})"
 
 

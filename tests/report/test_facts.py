@@ -7,7 +7,7 @@ import pytest
 
 from rightofway.check import check
 from rightofway.facts import Fact
-from rightofway.report.facts import VALUE, FactWriter, read_templates
+from rightofway.report.facts import VALUE, FactWriter, list_texts, read_templates
 from rightofway.report.judgement import describe_fault, write_fault
 from tests.builders.fleets import grid_fleet
 from tests.builders.plans import door_shifted
@@ -42,6 +42,23 @@ def test_facts_are_equal_by_kind_and_values() -> None:
     assert hash(one) == hash(Fact("until", end=7))
     assert one != Fact("until", end=8)
     assert pickle.loads(pickle.dumps(one)) == one  # noqa: S301 (our own bytes)
+
+
+def test_a_fact_has_a_template_for_each_number_of_things() -> None:
+    remedies = [str(Fact("end elsewhere", number=number)) for number in (2, 3)]
+    assert remedies == ["let one of them end elsewhere", "let others end elsewhere"]
+    ends = [Fact("shared end", ROW, robots=robots, place=0) for robots in ((0, 0), (0, 0, 0))]
+    assert list(map(str, ends)) == [
+        "R1 and R1 would both have to stay at N0 for ever",
+        "R1, R1 and R1 would all have to stay at N0 for ever",
+    ]
+
+
+@pytest.mark.parametrize("text", [text for text in list_texts() if VALUE.search(text)])
+def test_values_of_facts_have_known_forms(text: str) -> None:
+    """A form is one of the writer, or a fact about a number of things."""
+    known = {*FactWriter(ROW)._forms, *read_templates()["facts"]}
+    assert {form for _, form in VALUE.findall(text)} <= known
 
 
 @pytest.mark.parametrize("kind", read_templates()["faults"])

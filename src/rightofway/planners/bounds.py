@@ -18,6 +18,7 @@ from dataclasses import replace
 
 from rightofway.deadline import Deadline
 from rightofway.errors import NoPlanExists
+from rightofway.facts import Fact
 from rightofway.metrics import find_forced_losses, find_forced_makespan
 from rightofway.model import (
     ForcedLoss,
@@ -62,7 +63,7 @@ def prove_bound(
     search = ConflictBasedSearch(scenario.problem)
     search.run(nodes=nodes or None, time_limit=deadline.shorten(SHARE).measure_seconds_left())
     if search.bound is None:
-        raise NoPlanExists("the tree of constraints ends without a plan")
+        raise NoPlanExists(Fact("no plan in tree"))
     least, is_reached = search.bound, search.tracks is not None
     if not is_reached:
         least = max(least, compute_price_bound(scenario, deadline, steps))

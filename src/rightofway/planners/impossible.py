@@ -13,17 +13,17 @@ on Computing 3, 1991 (the deletion filter).
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 
 from rightofway.deadline import Deadline
-from rightofway.errors import MAX_REASONS, Blockage, GaveUp, NoPlanExists, join_names
+from rightofway.errors import MAX_REASONS, Blockage, GaveUp, NoPlanExists
+from rightofway.facts import Fact
 from rightofway.model import Outcome, OutcomeKind, Plan, PlannerRun, Scenario, Tick, Track
 from rightofway.model.closures import Closure
-from rightofway.model.place_names import PlaceNames
 from rightofway.model.resources import measure_distance
 from rightofway.native import find_clashes
 from rightofway.phrases import Phrase
@@ -81,80 +81,46 @@ def refuse_stranded(scenario: Scenario, stranded: Iterable[int]) -> None:
 
 def _shared_ends(scenario: Scenario) -> Iterator[Blockage]:
     """Yield where several robots would have to stay at one vertex for ever."""
-    holders: defaultdict[VertexId, list[str]] = defaultdict(list)
-    for robot, itinerary in zip(scenario.robots, scenario.problem.itineraries, strict=True):
-        holders[itinerary.last].append(robot.name)
-    for vertex, names in holders.items():
-        if len(names) > 1:
-            place = PlaceNames(scenario)(vertex)
-            values = {"robots": join_names(names), "place": place}
-            if len(names) == 2:  # noqa: PLR2004
-                reason = Phrase("{robots} would both have to stay at {place} for ever", **values)
-                remedy = Phrase("let one of them end elsewhere")
-            else:
-                reason = Phrase("{robots} would all have to stay at {place} for ever", **values)
-                remedy = Phrase("let others end elsewhere")
-            yield Blockage(reason, tuple(names), (scenario.roadmap.name(vertex),), remedy)
+    holders: defaultdict[VertexId, list[int]] = defaultdict(list)
+    for robot, itinerary in enumerate(scenario.problem.itineraries):
+        holders[itinerary.last].append(robot)
+    for vertex, robots in holders.items():
+        if len(robots) > 1:
+            names = _list_names(scenario, robots)
+            reason = Fact("shared end", scenario, robots=tuple(robots), place=vertex)
+            remedy = Fact("end elsewhere", number=len(robots))
+            yield Blockage(reason, names, (scenario.roadmap.name(vertex),), remedy)
 
 
 def _clashes(scenario: Scenario) -> Iterator[Blockage]:
     """Yield where two robots would start or end too near to each other."""
     itineraries, roadmap = scenario.problem.itineraries, scenario.roadmap
-    length, clearance = scenario.quantities.format_length, scenario.rules.clearance
     homes, ends = (
         [itinerary.home for itinerary in itineraries],
         [itinerary.last for itinerary in itineraries],
     )
     for when, places in (("start", homes), ("end", ends)):
         for pair in find_clashes(scenario.problem.resources, places):
-            start, other_start = (places[robot] for robot in pair)
-            if start == other_start:
+            here, there = (places[robot] for robot in pair)
+            if here == there:
                 continue  # a shared end
-            first, other = (scenario.robots[robot] for robot in pair)
-            ends_of_pair = roadmap.name(start), roadmap.name(other_start)
-            values = {
-                "one": first.name,
-                "here": PlaceNames(scenario).describe_place(start),
-                "other": other.name,
-                "there": PlaceNames(scenario).describe_place(other_start),
-            }
-            zone = next((z for z in roadmap.zones if {start, other_start} <= {*z.vertices}), None)
+            one, other = (int(robot) for robot in pair)
+            values = {"one": one, "here": here, "other": other, "there": there}
+            zone = next((z for z in roadmap.zones if {here, there} <= {*z.vertices}), None)
             if zone is not None:
-                reason = _in_one_zone(values, zone.name, does_start=when == "start")
+                reason = Fact(f"{when} in one zone", scenario, **values, zone=zone.name)
             else:
-                needed = first.radius + other.radius
-                values["needed"] = length(needed + (clearance if needed else 0))
-                values["distance"] = length(measure_distance(roadmap, start, other_start))
-                reason = _too_near(values, does_start=when == "start")
-            remedy = Phrase("let one of them end elsewhere")
-            if when == "start":
-                remedy = Phrase("let one of them start elsewhere")
-            yield Blockage(reason, (first.name, other.name), ends_of_pair, remedy)
-
-
-def _in_one_zone(values: Mapping[str, str], zone: str, *, does_start: bool) -> Phrase:
-    if does_start:
-        return Phrase(
-            "{one} at {here} and {other} at {there} would both start in zone {zone}",
-            **values,
-            zone=zone,
-        )
-    return Phrase(
-        "{one} at {here} and {other} at {there} would both end in zone {zone}", **values, zone=zone
-    )
-
-
-def _too_near(values: Mapping[str, str], *, does_start: bool) -> Phrase:
-    if does_start:
-        return Phrase(
-            "{one} at {here} and {other} at {there} would start {distance} apart, but need"
-            " {needed}",
-            **values,
-        )
-    return Phrase(
-        "{one} at {here} and {other} at {there} would end {distance} apart, but need {needed}",
-        **values,
-    )
+                needed = scenario.robots[one].radius + scenario.robots[other].radius
+                reason = Fact(
+                    f"{when} too near",
+                    scenario,
+                    **values,
+                    distance=measure_distance(roadmap, here, there),
+                    needed=needed + (scenario.rules.clearance if needed else 0),
+                )
+            names = _list_names(scenario, (one, other))
+            vertices = roadmap.name(here), roadmap.name(there)
+            yield Blockage(reason, names, vertices, Fact(f"{when} elsewhere", number=2))
 
 
 def refuse_closed_ways(
@@ -203,34 +169,24 @@ def _closed_in(
             left = left if _has_track_alone(trial, robot, distances, deadline) else fewer
         except GaveUp:
             break
-    closed = [_closed_text(scenario, closure) for closure in left[:MAX_REASONS]]
     itinerary = scenario.problem.itineraries[robot]
     places = dict.fromkeys([itinerary.home, *(stage.vertex for stage in itinerary.stages)])
-    remedy = Phrase("open one of them earlier, or give the robot other places")
-    if len(left) == 1:
-        remedy = Phrase("open it earlier, or give the robot other places")
-    reason = Phrase(
-        "{robot} cannot make its trip, even alone: {closures}",
-        robot=name,
-        closures=join_names(closed),
-    )
+    closures = tuple(_describe_closure(scenario, closure) for closure in left[:MAX_REASONS])
+    reason = Fact("closed in", scenario, robot=robot, closures=closures)
+    remedy = Fact("open closures", number=len(left))
     return Blockage(reason, (name,), tuple(map(scenario.roadmap.name, places)), remedy)
 
 
-def _closed_text(scenario: Scenario, closure: Closure) -> Phrase:
-    """Return what is closed, and when."""
-    name, quantities = PlaceNames(scenario), scenario.quantities
-    ticks, tick = scenario.problem.clock.count_ticks, scenario.problem.clock.tick
-    ends = closure.edge or ((closure.at,) if closure.at is not None else ())
-    places = [name(end) for end in ends]
-    place = places[0]
-    if len(places) > 1:
-        place = Phrase("{first} to {last}", first=place, last=places[-1])
-    values = {"way": place, "begin": quantities.format_moment(int(closure.from_ // tick))}
+def _describe_closure(scenario: Scenario, closure: Closure) -> Fact:
+    """Return the place and the time of a closure."""
+    clock = scenario.problem.clock
+    place = Fact("place", vertex=closure.at)
+    if closure.edge is not None:
+        place = Fact("way", first=closure.edge[0], last=closure.edge[-1])
+    begin = int(closure.from_ // clock.tick)
     if closure.until is None:
-        return Phrase("{way} is closed from {begin} on", **values)
-    end = quantities.format_moment(ticks(closure.until))
-    return Phrase("{way} is closed from {begin} to {end}", **values, end=end)
+        return Fact("closed from", way=place, begin=begin)
+    return Fact("closed between", way=place, begin=begin, end=clock.count_ticks(closure.until))
 
 
 def refuse_blocked_parts(scenario: Scenario, *, seed: int, deadline: Deadline) -> None:
@@ -308,21 +264,26 @@ def make_fleet_of(scenario: Scenario, robots: Iterable[int]) -> Scenario:
 
 def explain_no_room(scenario: Scenario, robots: Sequence[int]) -> Blockage:
     """Return why robots that are proven to have no plan together have none."""
-    names = tuple(scenario.robots[robot].name for robot in robots)
-    blocked_robots = join_names(names)
-    if len(names) > LARGEST_SET:
-        blocked_robots = Phrase("all {number} robots", number=str(len(names)))
-        if len(names) < len(scenario.robots):
-            blocked_robots = Phrase("{number} robots", number=str(len(names)))
-    reason = Phrase("{robots} have no room to pass each other", robots=blocked_robots)
-    if scenario.problem.closures is not None:
-        reason = Phrase(
-            "{robots} have no room to pass each other at the times that closures leave them",
-            robots=blocked_robots,
-        )
-    if len(names) < len(scenario.robots):
-        reason = Phrase("{fact}, whatever the other robots do", fact=reason)
-    return Blockage(reason, names, (), Phrase("give more room, or other places"))
+    has_others = len(robots) < len(scenario.robots)
+    blocked = Fact("these robots", robots=tuple(robots))
+    if len(robots) > LARGEST_SET:
+        blocked = Fact("some robots" if has_others else "all robots", number=len(robots))
+    is_open = scenario.problem.closures is None
+    reason = _add_others(
+        scenario,
+        Fact("no room" if is_open else "no room among closures", scenario, robots=blocked),
+        has_others=has_others,
+    )
+    return Blockage(reason, _list_names(scenario, robots), (), Fact("give room or places"))
+
+
+def _add_others(scenario: Scenario, fact: Fact, *, has_others: bool) -> Fact:
+    """Return a fact on some robots as one that holds for all actions of the others."""
+    return Fact("whatever others do", scenario, fact=fact) if has_others else fact
+
+
+def _list_names(scenario: Scenario, robots: Iterable[int]) -> tuple[str, ...]:
+    return tuple(scenario.robots[robot].name for robot in robots)
 
 
 def put_fleet_at_home(scenario: Scenario) -> Plan:
@@ -363,23 +324,20 @@ def _is_blocked(
 
 
 def _described(scenario: Scenario, robots: Sequence[int]) -> Blockage:
-    roadmap, names = scenario.roadmap, tuple(scenario.robots[robot].name for robot in robots)
-    blocked = Phrase("{robots} block each other", robots=join_names(names))
-    if len(names) < len(scenario.robots):
-        blocked = Phrase("{fact}, whatever the other robots do", fact=blocked)
-    narrow = _narrow_places(scenario, robots)
-    if narrow:
-        passed = {"fact": blocked, "places": join_names(list(map(PlaceNames(scenario), narrow)))}
-        reason = Phrase("{fact}: all of them have to pass {places}", **passed)
-        if len(names) == 2:  # noqa: PLR2004
-            reason = Phrase("{fact}: both have to pass {places}", **passed)
-        places = tuple(map(roadmap.name, narrow))
-        return Blockage(reason, names, places, Phrase("give more room there"))
+    roadmap, names = scenario.roadmap, _list_names(scenario, robots)
+    blocked = _add_others(
+        scenario,
+        Fact("block each other", scenario, robots=tuple(robots)),
+        has_others=len(robots) < len(scenario.robots),
+    )
+    if narrow := tuple(_narrow_places(scenario, robots)):
+        reason = Fact("narrow places", scenario, fact=blocked, places=narrow, number=len(robots))
+        return Blockage(reason, names, tuple(map(roadmap.name, narrow)), Fact("give room there"))
     itineraries = [scenario.problem.itineraries[robot] for robot in robots]
     ends = dict.fromkeys(
         roadmap.name(end) for itinerary in itineraries for end in (itinerary.home, itinerary.last)
     )
-    return Blockage(blocked, names, tuple(ends), Phrase("give more room, or other places"))
+    return Blockage(blocked, names, tuple(ends), Fact("give room or places"))
 
 
 def _narrow_places(scenario: Scenario, robots: Sequence[int]) -> list[VertexId]:

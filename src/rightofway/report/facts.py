@@ -15,6 +15,7 @@ from functools import cache, cached_property
 from importlib.resources import files
 from typing import Any
 
+from rightofway.errors import join_names
 from rightofway.facts import Fact
 from rightofway.model import Scenario
 from rightofway.model.place_names import PlaceNames
@@ -47,6 +48,17 @@ def list_forms(template: str) -> tuple[tuple[str, str], ...]:
     return tuple(VALUE.findall(template))
 
 
+def choose_template(template: str | Mapping[str, str], values: Mapping[str, Any]) -> str:
+    """Return a template; of several, that for the number of things, or else the one for others.
+
+    That is the value ``number``, or how many ``robots`` there are.
+    """
+    if isinstance(template, str):
+        return template
+    number = values["number"] if "number" in values else len(values["robots"])
+    return template.get(str(number), template["other"])
+
+
 class FactWriter:
     """Writes facts about one scenario.
 
@@ -62,14 +74,23 @@ class FactWriter:
         self._scenario = scenario
         self._quantities = quantities
 
-    def write(self, fact: Fact) -> Phrase:
-        """Return the sentence of a fact."""
-        return self.fill(read_templates()["facts"][fact.kind], fact.values)
+    def write(self, fact: Fact | str) -> str:
+        """Return the sentence of a fact; English text of other packages stays as it is."""
+        if isinstance(fact, str):
+            return fact
+        template = read_templates()["facts"][fact.kind]
+        return self.fill(choose_template(template, fact.values), fact.values)
 
     def fill(self, template: str, values: Mapping[str, Any]) -> Phrase:
         """Return a template with its values in their forms."""
-        texts = {name: self._forms[form](values[name]) for name, form in list_forms(template)}
+        texts = {name: self._show(form, values[name]) for name, form in list_forms(template)}
         return Phrase(strip_forms(template), **texts)
+
+    def _show(self, form: str, value: Any) -> str:
+        """Return a value in a form; all other forms are facts about a number of things."""
+        if form in self._forms:
+            return self._forms[form](value)
+        return self.write(Fact(form, number=value))
 
     @property
     def scenario(self) -> Scenario:
@@ -89,9 +110,18 @@ class FactWriter:
         return PlaceNames(self.scenario, numbered=True)
 
     @cached_property
+    def _plain_places(self) -> PlaceNames:
+        return PlaceNames(self.scenario)
+
+    @cached_property
     def _forms(self) -> Mapping[str, Callable[[Any], str]]:
         return {
             "": self._write_text,
+            "few": lambda facts: join_names([self.write(fact) for fact in facts]),
+            "few_places": lambda vertices: join_names(list(map(self._name_place, vertices))),
+            "few_robots": lambda robots: join_names(list(map(self.name_robot, robots))),
+            "place": self._name_place,
+            "spot": self._describe_place,
             "and": lambda facts: join_items([self.write(fact) for fact in facts]),
             "angle": lambda degrees: format_decimal(degrees, 6),
             "duration": cache(self.quantities.format_duration),
@@ -106,7 +136,7 @@ class FactWriter:
         }
 
     def _write_text(self, value: Fact | Fraction | str | int) -> str:
-        return self.write(value) if isinstance(value, Fact) else str(value)
+        return self.write(value) if isinstance(value, Fact | str) else str(value)
 
     def name_robot(self, robot: int) -> str:
         """Return a robot's name."""
@@ -118,6 +148,12 @@ class FactWriter:
             return self._places(vertex)
         return Phrase("vertex {number}", number=str(vertex))
 
+    def _name_place(self, vertex: int) -> str:
+        return self._plain_places(vertex)
+
+    def _describe_place(self, vertex: int) -> str:
+        return self._plain_places.describe_place(vertex)
+
     def _write_until(self, tick: int) -> str:
         """Return a point in time that follows another one in a sentence: ``2``, ``6 min 23 s``."""
         quantities = self.quantities
@@ -125,10 +161,20 @@ class FactWriter:
         return quantities.format_moment(tick) if has_unit else quantities.format_cell(tick)
 
 
-def list_template_texts() -> Sequence[str]:
-    """Return the English texts of all facts, without forms."""
+def list_texts() -> Sequence[str]:
+    """Return the English templates of all faults and facts."""
     templates = read_templates()
     faults = templates["faults"].values()
     texts = [text for fault in faults for text in (fault["reason"], fault["remedy"])]
     names = [name for fault in faults for name in fault.get("names", ())]
-    return [strip_forms(text) for text in (*texts, *names, *templates["facts"].values())]
+    facts = [
+        text
+        for fact in templates["facts"].values()
+        for text in ([fact] if isinstance(fact, str) else fact.values())
+    ]
+    return [*texts, *names, *facts]
+
+
+def list_template_texts() -> Sequence[str]:
+    """Return the English texts of all faults and facts, without forms."""
+    return list(map(strip_forms, list_texts()))

@@ -533,8 +533,9 @@ export interface Ranks {
   flowtime: Array<number | null>;
 }
 
-/** A proof that no plan exists, and the vertices that it names. */
+/** A proof that no plan exists: its kind, its English sentence, and the vertices in it. */
 export interface Reason {
+  kind: string;
   reason: string;
   robots: Array<string>;
   vertices: Array<string>;

@@ -53,8 +53,9 @@ class DocumentFault(TypedDict):
 
 
 class Reason(TypedDict):
-    """A proof that no plan exists, and the vertices that it names."""
+    """A proof that no plan exists: its kind, its English sentence, and the vertices in it."""
 
+    kind: str
     reason: str
     robots: list[str]
     vertices: list[str]

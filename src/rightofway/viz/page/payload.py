@@ -39,6 +39,7 @@ from rightofway.model.place_names import PlaceNames
 from rightofway.model.steady_state import refuse_unknown_robots
 from rightofway.phrases import Phrase, PhraseBook, to_parts
 from rightofway.report.circuits import describe_circuit, summarize_circuit
+from rightofway.report.facts import FactWriter
 from rightofway.report.judgement import describe_fault, name_fault
 from rightofway.report.sentences import (
     Words,
@@ -233,7 +234,7 @@ def _refuse_other_kinds(
 def _blockages(scenario: Scenario, no_plan: NoPlanExists, book: PhraseBook) -> FaultsData:
     """Return why there is no plan, as faults with the robots and vertices that they concern."""
     robot_of = {robot.name: index for index, robot in enumerate(scenario.robots)}
-    name = book.add(Phrase("no plan"))
+    name, writer = book.add(Phrase("no plan")), FactWriter(scenario)
     return {
         "count": len(no_plan.blockages),
         "kinds": [(name, len(no_plan.blockages))],
@@ -241,8 +242,8 @@ def _blockages(scenario: Scenario, no_plan: NoPlanExists, book: PhraseBook) -> F
             {
                 "kind": "no plan",
                 "name": name,
-                "reason": book.add(blockage.reason),
-                "remedy": book.add(blockage.remedy),
+                "reason": book.add(writer.write(blockage.reason)),
+                "remedy": book.add(writer.write(blockage.remedy)),
                 "tick": 0,
                 "robots": [robot_of[name] for name in blockage.robots],
                 "vertices": [int(scenario.roadmap.get_vertex(name)) for name in blockage.vertices],
