@@ -1,8 +1,11 @@
-"""Words of a language that must not stand on a page of another one."""
+"""Words of a language that no page of another language may have, and phrases in German."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
+
+from rightofway.languages import read_tables
+from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
     from tests.builders.browsers import Viewer
@@ -51,3 +54,17 @@ def english_on(viewer: Viewer) -> list[str]:
     """
     found: list[str] = viewer.page.evaluate(SAID, list(ENGLISH))
     return found
+
+
+def translate(text: str) -> str:
+    """Return a phrase in German, as pages show it.
+
+    Parameters
+    ----------
+    text
+        Text for people; text that is no phrase is returned as it is.
+    """
+    if not isinstance(text, Phrase):
+        return str(text)
+    template = read_tables()["de"][text.template]
+    return template.format(**{name: translate(value) for name, value in text.values.items()})

@@ -12,8 +12,7 @@ from rightofway.cli.completion import SCENARIOS, complete_files, complete_planne
 from rightofway.cli.inputs import add_foreign_options, count_option, read_either
 from rightofway.cli.options import as_json_option, choose_quantities, require_writable, ticks_option
 from rightofway.cli.tables import describe_clock, put_lists
-from rightofway.cli.terminal import get_language, put_json, show_progress
-from rightofway.languages import translate
+from rightofway.cli.terminal import put_json, show_progress
 from rightofway.phrases import Phrase, say_count
 
 if TYPE_CHECKING:
@@ -105,7 +104,7 @@ def collisions(
             left = name_collisions(scenario, plan.tracks)
             parts.append(Phrase("Left in the plan: {collisions}.", collisions=_counted(left)))
             parts += _texts([tabulate_collisions(left, quantities)])
-        click.echo("\n\n".join(translate(part, get_language()) for part in parts))
+        click.echo("\n\n".join(parts))
 
 
 def _headline(listed: Sequence[NamedCollision], ticks: int, *, is_planned: bool) -> str:

@@ -33,7 +33,6 @@ from rightofway.cli.options import (
 )
 from rightofway.cli.outputs import make_page_option, put_page
 from rightofway.cli.terminal import (
-    get_language,
     make_title,
     put_json,
     put_report,
@@ -227,7 +226,7 @@ class _Output:
         else:
             from rightofway.control.report import report
 
-            put_report(report(result, self.quantities, get_language()))
+            put_report(report(result, self.quantities))
 
 
 def _replay(journal: Path, output: _Output) -> int:

@@ -13,7 +13,6 @@ from rightofway.cli.options import Whole, as_json_option, require_writable
 from rightofway.cli.outputs import PAGE_SUFFIXES, put_text, refuse_outputs
 from rightofway.cli.terminal import (
     format_json,
-    get_language,
     make_title,
     put_json,
     put_report,
@@ -115,7 +114,7 @@ def inspect(
         return
     report = report_inspection(source, sites.description, sites.notes, results, limit)
     if output not in (None, "-"):
-        put_text(f"{lay_out(report, get_language())}\n", output)
+        put_text(f"{lay_out(report)}\n", output)
     else:
         put_report(report)
 

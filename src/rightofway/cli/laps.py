@@ -27,7 +27,6 @@ from rightofway.cli.outputs import (
 )
 from rightofway.cli.terminal import (
     choose_deadline,
-    get_language,
     make_title,
     put_json,
     put_report,
@@ -148,7 +147,7 @@ def laps(
         put_json(make_laps_data(run))
     elif output != "-":
         quantities = choose_quantities(problem, in_ticks=in_ticks)
-        put_report(report_laps(run, quantities, get_language()))
+        put_report(report_laps(run, quantities))
     if page:
         plan, steady = make_excerpt(run)
         put_page(plan, page, steady=steady, title=make_title(scenario))

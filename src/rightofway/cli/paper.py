@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rightofway.cli.options import Whole, as_json_option, choose_quantities
-from rightofway.cli.terminal import get_language, put_json, put_report
+from rightofway.cli.terminal import put_json, put_report
 from rightofway.phrases import Phrase
 from rightofway.report.examples import find_examples_folder, read_first_sentence
 
@@ -137,9 +137,7 @@ def _print(table: _Table, *, log: bool) -> None:
     if log:
         put_report(
             "\n"
-            + report_decisions(
-                table.plan, choose_quantities(table.plan.scenario, in_ticks=True), get_language()
-            )
+            + report_decisions(table.plan, choose_quantities(table.plan.scenario, in_ticks=True))
         )
     put_report("")
 

@@ -36,7 +36,6 @@ from rightofway.cli.outputs import (
 from rightofway.cli.terminal import (
     choose_deadline,
     complain,
-    get_language,
     make_title,
     measure_width,
     put_json,
@@ -349,10 +348,10 @@ def _report(
     if as_json:
         put_json(make_summary_data(plan))
         return
-    text = summarize_plan(plan, quantities, get_language(), with_lost_time=with_lost_time)
+    text = summarize_plan(plan, quantities, with_lost_time=with_lost_time)
     put_report(text)
     if log:
-        put_report("\n" + report_decisions(plan, quantities, get_language()))
+        put_report("\n" + report_decisions(plan, quantities))
     if table:
         from rightofway.viz.table import as_text, make_table
 

@@ -21,7 +21,6 @@ from rightofway.cli.options import (
 from rightofway.cli.outputs import make_page_option, put_page, put_text
 from rightofway.cli.terminal import (
     format_json,
-    get_language,
     make_title,
     put_json,
     put_report,
@@ -100,7 +99,7 @@ def simulate(
         put_json(data)
     else:
         quantities = choose_quantities(opened.scenario, in_ticks=in_ticks)
-        put_report(report(outcome, quantities, get_language()))
+        put_report(report(outcome, quantities))
     if output not in {None, "-"}:
         put_text(format_json(data) + "\n", str(output))
     if page:

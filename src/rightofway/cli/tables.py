@@ -21,9 +21,8 @@ from rightofway.cli.options import (
     require_writable,
     ticks_option,
 )
-from rightofway.cli.terminal import get_language, measure_width, put_json, say_written
+from rightofway.cli.terminal import measure_width, put_json, say_written
 from rightofway.errors import InputError
-from rightofway.languages import translate
 from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import Phrase, chain_items
 from rightofway.values import format_number
@@ -208,7 +207,7 @@ def _put_table(
         put_json({**_table_data(table), **(more or {})})
     elif not output:
         texts = [*words[:1], as_text(table, measure_width()), *words[1:]]
-        click.echo("\n\n".join(translate(text, get_language()) for text in texts))
+        click.echo("\n\n".join(texts))
 
 
 def _write(path: str, content: str | bytes) -> None:

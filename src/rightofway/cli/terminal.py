@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rightofway.deadline import Deadline
-from rightofway.errors import escape_text, find_nearest
+from rightofway.errors import escape_text
 from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
@@ -23,12 +23,6 @@ if TYPE_CHECKING:
 
 QUIET = "rightofway.quiet"
 """Where a command keeps whether the user wants no messages."""
-
-LANGUAGE = "rightofway.language"
-"""Where a command keeps the language of reports and messages."""
-
-LANGUAGE_VARIABLE = "RIGHTOFWAY_LANGUAGE"
-"""The variable of the environment that names it where the option does not."""
 
 CLEAR = "\r\x1b[2K"
 """Empties the line that the cursor is in."""
@@ -61,40 +55,16 @@ def _set_quiet(context: click.Context, _parameter: click.Parameter, given: bool)
         context.meta[QUIET] = True
 
 
-def get_language() -> str:
-    """Return the language in which the user wants reports and messages."""
-    context = click.get_current_context(silent=True)
-    return "en" if context is None else str(context.meta.get(LANGUAGE, "en"))
-
-
-def _set_language(context: click.Context, _parameter: click.Parameter, given: str | None) -> None:
-    if not given:
-        return
-    from rightofway.languages import ENGLISH, find_languages
-
-    known = [ENGLISH, *find_languages()]
-    if given not in known:
-        meant = find_nearest(given, known)
-        remedy = f"did you mean {meant}?" if meant else f"give {' or '.join(known)}"
-        raise click.BadParameter(f"{given!r} is not a known language ({remedy})")
-    context.meta[LANGUAGE] = given
-
-
 def add_shared_options(command: Any) -> Any:
-    """Add the options -q and --language to a command or a function."""
-    for option in (
-        click.option("--language", metavar="CODE", expose_value=False, is_eager=True,
-                     callback=_set_language, envvar=LANGUAGE_VARIABLE,
-                     help="Language of reports and messages, by its code; en by default."),
-        click.option("-q", "--quiet", is_flag=True, expose_value=False, callback=_set_quiet,
-                     help="Print no report and no messages, only errors."),
-    ):  # fmt: skip
-        command = option(command)
-    return command
+    """Add the option -q to a command or a function."""
+    return click.option(
+        *("-q", "--quiet"), is_flag=True, expose_value=False, callback=_set_quiet,
+        help="Print no report and no messages, only errors.",
+    )(command)  # fmt: skip
 
 
 def say(message: str) -> None:
-    """Write a message, not a result, to standard error, in the language of the user."""
+    """Write a message, not a result, to standard error."""
     if not is_quiet():
         complain(message)
 
@@ -111,19 +81,16 @@ def say_written(path: object) -> None:
 
 def complain(message: str) -> None:
     """Write what is wrong to standard error, also for users who want no messages."""
-    from rightofway.languages import translate
-
-    text = translate(message, get_language())
-    click.echo("\n".join(map(escape_text, text.split("\n"))), err=True)
+    click.echo("\n".join(map(escape_text, message.split("\n"))), err=True)
 
 
 def put_report(report: str | Iterable[Part]) -> None:
-    """Write a report for people to standard output, in their language."""
+    """Write a report for people to standard output."""
     from rightofway.report.lines import Line, lay_out
 
     if not is_quiet():
         parts = [Line(report)] if isinstance(report, str) else report
-        click.echo(lay_out(parts, get_language()))
+        click.echo(lay_out(parts))
 
 
 def put_json(value: Any) -> None:
@@ -150,8 +117,7 @@ def show_progress(
         yield lambda _: None
         return
     began = time.monotonic() if since is None else since
-    latest, ended, shown_in = [""], threading.Event(), get_language()
-    from rightofway.languages import translate
+    latest, ended = [""], threading.Event()
     from rightofway.quantities import format_decimal
 
     def show(message: str) -> None:
@@ -160,7 +126,7 @@ def show_progress(
         seconds = Phrase("{time} s", time=passed)
         if limit is not None:
             seconds = Phrase("{time} of {limit} s", time=passed, limit=format_decimal(limit))
-        line = ", ".join(filter(None, [translate(seconds, shown_in), translate(message, shown_in)]))
+        line = ", ".join(filter(None, [seconds, message]))
         while len(line) >= measure_width() and ", " in line:
             line = line.rpartition(", ")[0]
         click.echo(f"{CLEAR}{line[: measure_width() - 1]}", err=True, nl=False)

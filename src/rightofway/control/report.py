@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rightofway.control.drive_result import DriveResult
-from rightofway.languages import ENGLISH
 from rightofway.phrases import Phrase, chain_items, say_count
 from rightofway.quantities import Quantities
 from rightofway.report.lines import Facts, Part, Table, lay_out
@@ -16,7 +15,7 @@ MAX_ROBOTS = 20
 """Robots in the report; --json has them all."""
 
 
-def report(result: DriveResult, quantities: Quantities, language: str = ENGLISH) -> str:
+def report(result: DriveResult, quantities: Quantities) -> str:
     """Return what was done, how much later than planned, and by how many messages.
 
     Parameters
@@ -25,11 +24,9 @@ def report(result: DriveResult, quantities: Quantities, language: str = ENGLISH)
         The run.
     quantities
         How times are written.
-    language
-        The language of the report.
     """
     facts = Facts(list(_totals(result, quantities)))
-    return lay_out([facts, "", *_robots(result, quantities)], language)
+    return lay_out([facts, "", *_robots(result, quantities)])
 
 
 def _totals(result: DriveResult, quantities: Quantities) -> Iterator[tuple[str, str]]:

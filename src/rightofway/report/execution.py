@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from rightofway.execution import PolicyGain, Quantiles, SimulationResult
-from rightofway.languages import ENGLISH
 from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import Phrase, chain_items, say_count
 from rightofway.quantities import Quantities, format_decimal
@@ -22,11 +21,11 @@ LEAST_SHARE = 0.01
 """The report names a robot that causes at least this share of another one's lateness."""
 
 
-def report(outcome: SimulationResult, quantities: Quantities, language: str = ENGLISH) -> str:
+def report(outcome: SimulationResult, quantities: Quantities) -> str:
     """Return how often robots collided, how late each one was, and where lateness began."""
     facts = Facts(list(_totals(outcome, quantities)))
     parts = [facts, "", *_robots(outcome, quantities), *_sources(outcome, quantities)]
-    return lay_out(parts, language)
+    return lay_out(parts)
 
 
 def _totals(outcome: SimulationResult, quantities: Quantities) -> Iterator[tuple[str, str]]:

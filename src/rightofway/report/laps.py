@@ -18,7 +18,6 @@ from rightofway.cyclic import (
     ParameterEffect,
     compute_parameter_effects,
 )
-from rightofway.languages import ENGLISH
 from rightofway.model import Scenario, Tick
 from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import Phrase, chain_items, say_count
@@ -50,9 +49,9 @@ Sites = dict[tuple[int, int | None, int, int], list[Tick]]
 """Waits by vertex, the other robot's vertex, waiting and awaited robot: their times [ticks]."""
 
 
-def report_laps(run: CyclicResult, quantities: Quantities, language: str = ENGLISH) -> str:
+def report_laps(run: CyclicResult, quantities: Quantities) -> str:
     """Return a result for people."""
-    return lay_out(_report(run, quantities), language)
+    return lay_out(_report(run, quantities))
 
 
 def _report(run: CyclicResult, quantities: Quantities) -> Iterator[Part]:

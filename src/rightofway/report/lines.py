@@ -1,4 +1,4 @@
-"""Reports of 80 columns: paragraphs, facts and tables, laid out in the language of their reader."""
+"""Reports of 80 columns: paragraphs, facts and tables, laid out for a terminal."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ import textwrap
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from rightofway.languages import ENGLISH, translate
 from rightofway.quantities import Quantities, Value
 
 COLUMNS = 80
@@ -70,31 +69,30 @@ class Table:
 Part = str | Paragraph | Line | Facts | Table
 
 
-def lay_out(parts: Iterable[Part], language: str = ENGLISH) -> str:
-    """Return a report in a language."""
-    return "\n".join(line for part in parts for line in _lines(part, language))
+def lay_out(parts: Iterable[Part]) -> str:
+    """Return a report."""
+    return "\n".join(line for part in parts for line in _lines(part))
 
 
-def _lines(part: Part, language: str) -> Iterator[str]:
+def _lines(part: Part) -> Iterator[str]:
     match part:
         case Paragraph(text, indent):
-            yield from _broken(translate(text, language), indent, indent + "    ")
+            yield from _broken(text, indent, indent + "    ")
         case Line(text):
-            yield translate(text, language)
+            yield text
         case Facts(rows):
-            keys = [translate(key, language) for key, _ in rows]
-            column = max(map(len, keys)) + 2
-            for key, (_, text) in zip(keys, rows, strict=True):
-                fact = textwrap.shorten(translate(text, language), MAX_FACT, placeholder=" …")
+            column = max(len(key) for key, _ in rows) + 2
+            for key, text in rows:
+                fact = textwrap.shorten(text, MAX_FACT, placeholder=" …")
                 yield from _broken(fact, f"{key:{column}}", " " * column)
         case Table():
-            yield from _rows(part, language)
+            yield from _rows(part)
         case _:
-            yield from _broken(translate(part, language), "", "    ") or [""]
+            yield from _broken(part, "", "    ") or [""]
 
 
-def _rows(table: Table, language: str) -> Iterator[str]:
-    rows = [[translate(cell, language) for cell in row] for row in (table.head, *table.rows)]
+def _rows(table: Table) -> Iterator[str]:
+    rows = [list(row) for row in (table.head, *table.rows)]
     columns = len(table.head)
     widths = [
         max(len(row[k]) for row in rows if len(row) == columns)

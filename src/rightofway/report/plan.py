@@ -7,7 +7,6 @@ from dataclasses import replace
 from itertools import chain
 
 from rightofway.check import Report
-from rightofway.languages import ENGLISH
 from rightofway.metrics import (
     Metrics,
     compute_alone_completions,
@@ -65,9 +64,7 @@ HEADINGS = (
 NOT_COMPUTED = Phrase("not computed, because the time limit is over")
 
 
-def summarize_plan(
-    plan: Plan, quantities: Quantities, language: str = ENGLISH, *, with_lost_time: bool = True
-) -> str:
+def summarize_plan(plan: Plan, quantities: Quantities, *, with_lost_time: bool = True) -> str:
     """Return the costs of a plan, and where and to which others robots lose time.
 
     Lost time of thousands of robots takes seconds; without it the costs alone are returned.
@@ -85,7 +82,7 @@ def summarize_plan(
         costs.append((Phrase("tick"), replace(quantities, in_ticks=False).format_duration(1)))
     details = [*_robots(words, lost), *_losses(words, lost)] if with_lost_time else []
     parts = [*details, *_forced_losses(words)]
-    return lay_out([Facts(costs), "", *parts], language)
+    return lay_out([Facts(costs), "", *parts])
 
 
 def describe_planning(plan: Plan, quantities: Quantities) -> str:
@@ -277,9 +274,9 @@ def _homes_in_the_way(words: Words, losses: Iterable[Loss]) -> Iterator[Part]:
             )
 
 
-def report_decisions(plan: Plan, quantities: Quantities, language: str = ENGLISH) -> str:
+def report_decisions(plan: Plan, quantities: Quantities) -> str:
     """Return every decision of the planner with its reason, in the order they were taken."""
-    return lay_out(_decisions(Words(plan=plan, quantities=quantities)), language)
+    return lay_out(_decisions(Words(plan=plan, quantities=quantities)))
 
 
 def _decisions(words: Words) -> Iterator[Part]:
