@@ -15,7 +15,7 @@ import pytest
 from rightofway.bench import read_suite
 from rightofway.errors import InputError
 from rightofway.io import load, make_schema
-from rightofway.io.text import parse_toml
+from rightofway.io.toml_text import parse_toml
 from rightofway.planners import find, find_all
 
 ROOT = Path(__file__).parents[2]

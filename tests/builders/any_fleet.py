@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 
 from rightofway.errors import InputError
 from rightofway.io import dump_scenario, load_map, make_example, parse_scenario
-from rightofway.io.text import parse_yaml
+from rightofway.io.yaml_text import parse_yaml
 from rightofway.model import Scenario
 
 __all__ = ["FEATURES", "LAPS_REFUSE", "any_fleet", "fleet_documents"]

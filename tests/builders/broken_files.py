@@ -48,9 +48,9 @@ from rightofway.io import (
     read_layout,
 )
 from rightofway.io.layouts.formats import refuse_layout
-from rightofway.io.text import parse_yaml
 from rightofway.io.workbook import format_workbook
 from rightofway.io.workbook.writer import TEMPLATE
+from rightofway.io.yaml_text import parse_yaml
 from rightofway.site.layout import Layout
 from rightofway.solve import solve
 

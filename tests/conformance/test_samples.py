@@ -10,7 +10,7 @@ import pytest
 from rightofway import check, solve
 from rightofway.errors import InputError
 from rightofway.io import make_example, parse_scenario
-from rightofway.io.text import parse_yaml
+from rightofway.io.yaml_text import parse_yaml
 
 SAMPLES = Path(__file__).parents[1] / "data" / "samples"
 

@@ -17,7 +17,7 @@ from rightofway.check import FaultKind
 from rightofway.cli.main import commands
 from rightofway.errors import InputError
 from rightofway.io import make_schema, parse_scenario
-from rightofway.io.text import parse_yaml
+from rightofway.io.yaml_text import parse_yaml
 from rightofway.planners.registry import PLANNERS
 from tests.builders.pages import DOCS, PAGES, ROOT, SDIST, Block, blocks, title_of
 

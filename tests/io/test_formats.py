@@ -9,7 +9,8 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.io import dump_plan, load, make_schema, parse_plan
-from rightofway.io.text import parse_document, parse_yaml
+from rightofway.io.documents import parse_document
+from rightofway.io.yaml_text import parse_yaml
 from rightofway.model import Plan, PlannerRun, Track
 
 ROOT = Path(__file__).parents[2]

@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from rightofway.io.text import read_decimal, read_whole
+from rightofway.io.plain_data import read_decimal, read_whole
 from rightofway.values import COORDINATE_DIGITS, format_number, read_exact
 
 

@@ -14,8 +14,8 @@ from rightofway.cli.main import run
 from rightofway.cli.terminal import complain
 from rightofway.errors import InputError, InputFault, Location
 from rightofway.io import load, load_map, load_plan, parse_scenario, read_layout
+from rightofway.io.content import read_content
 from rightofway.io.scenario.shape import MapDocument
-from rightofway.io.text import read_content
 
 ROOT = Path(__file__).parents[2]
 LAYOUTS = ROOT / "tests" / "data" / "layouts"

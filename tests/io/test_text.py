@@ -7,9 +7,11 @@ from pathlib import Path
 import pytest
 
 from rightofway.errors import InputError
+from rightofway.io.collector import pause_garbage_collection
+from rightofway.io.content import read_text
+from rightofway.io.json_text import parse_json
 from rightofway.io.layouts import read_layout
 from rightofway.io.layouts.xml_tree import Element, parse_xml
-from rightofway.io.text import parse_json, pause_garbage_collection, read_text
 
 
 @pytest.mark.parametrize(
@@ -51,7 +53,7 @@ def test_what_cannot_be_opened_is_told(tmp_path: Path) -> None:
 def test_a_file_longer_than_any_of_ours_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("rightofway.io.text.MAX_BYTES", 3)
+    monkeypatch.setattr("rightofway.io.content.MAX_BYTES", 3)
     (tmp_path / "long").write_text("1234", encoding="utf-8")
     with pytest.raises(InputError, match="longer than 3 bytes"):
         read_text(tmp_path / "long")

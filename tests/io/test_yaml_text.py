@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 from rightofway.errors import InputError
-from rightofway.io.text import MAX_ALIASED, parse_yaml
+from rightofway.io.yaml_text import MAX_ALIASED, parse_yaml
 
 
 @pytest.fixture(params=["CSafeLoader", "SafeLoader"])

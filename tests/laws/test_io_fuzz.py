@@ -18,8 +18,9 @@ from rightofway.io import (
     parse_plan,
     parse_scenario,
 )
+from rightofway.io.json_text import parse_json
 from rightofway.io.locations import locate
-from rightofway.io.text import parse_json, parse_yaml
+from rightofway.io.yaml_text import parse_yaml
 from rightofway.model import Plan, PlannerRun, Track
 
 ROOT = Path(__file__).parents[2]

@@ -12,7 +12,7 @@ import pytest
 from rightofway import FleetBuilder, InputError, check, solve
 from rightofway.cli.main import run
 from rightofway.io import dump_plan, dump_scenario, load_with_notes, parse_plan, parse_scenario
-from rightofway.io.text import format_json
+from rightofway.io.json_text import format_json
 from rightofway.site import Edge
 from rightofway.site.spacing import MOST_CUTS, choose_spacing, split_lanes
 

@@ -9,7 +9,7 @@ import pytest
 
 from rightofway import load, solve
 from rightofway.io import format_plan, parse_plan
-from rightofway.io.text import parse_json
+from rightofway.io.json_text import parse_json
 from rightofway.studio.tasks.drawings import Origin, as_drawn
 from rightofway.viz.page.payload import make_payload
 

@@ -17,7 +17,7 @@ import openpyxl  # type: ignore[import-untyped]  # it ships no types
 from PIL import Image
 
 from rightofway import load_plan
-from rightofway.io.text import parse_yaml
+from rightofway.io.yaml_text import parse_yaml
 from tests.builders.browsers import Viewer, expect, needs_browser
 from tests.builders.drawing import Opener, StudioPage, begin, nameless
 from tests.builders.studios import BAY

@@ -15,9 +15,10 @@ from rightofway.arguments import checks_arguments
 from rightofway.bench.fleets import Cell, draw_grid, find_largest_part, make_scenario_document
 from rightofway.errors import InputError, Steps, Where, locate_faults, name_file
 from rightofway.io import dump_scenario, load, parse_scenario
+from rightofway.io.content import read_text
 from rightofway.io.faults import Faults, validate
 from rightofway.io.formats import SCENARIO_FORMAT, SUITE_FORMAT, check_format
-from rightofway.io.text import parse_toml, read_text
+from rightofway.io.toml_text import parse_toml
 from rightofway.model import Rules, Scenario
 from rightofway.model.robot import RULE_ATTRIBUTES
 from rightofway.planners import find

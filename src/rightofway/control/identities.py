@@ -15,10 +15,11 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, Field
 
 from rightofway.errors import InputError, find_nearest, name_file, quote
+from rightofway.io.content import read_text
+from rightofway.io.documents import parse_document
 from rightofway.io.faults import Faults, validate
 from rightofway.io.fields import Angle, Document, NotNegative, make_optional
 from rightofway.io.scenario.writer import format_yaml
-from rightofway.io.text import parse_document, read_text
 from rightofway.site.geometry import Frame
 
 __all__ = [

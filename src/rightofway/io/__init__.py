@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from rightofway.provision import import_later
 
 if TYPE_CHECKING:
+    from rightofway.io.documents import DELAY_FILES, load_delays
     from rightofway.io.foreign import FOREIGN_FORMATS, format_foreign, is_foreign
     from rightofway.io.formats import make_schema
     from rightofway.io.layouts import (
@@ -31,7 +32,6 @@ if TYPE_CHECKING:
     from rightofway.io.scenario.reader import Loaded, parse_scenario
     from rightofway.io.scenario.writer import dump_scenario, format_scenario, write_scenario
     from rightofway.io.site_plans import SITE_PLAN_FORMATS, format_site_plan
-    from rightofway.io.text import DELAY_FILES, load_delays
 
 _MODULES = {
     "foreign": ("FOREIGN_FORMATS", "format_foreign", "is_foreign"),
@@ -52,7 +52,7 @@ _MODULES = {
     "scenario.reader": ("Loaded", "parse_scenario"),
     "scenario.writer": ("dump_scenario", "format_scenario", "write_scenario"),
     "site_plans": ("SITE_PLAN_FORMATS", "format_site_plan"),
-    "text": ("DELAY_FILES", "load_delays"),
+    "documents": ("DELAY_FILES", "load_delays"),
 }
 
 __all__ = [

@@ -14,7 +14,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rightofway.errors import InputError, InputFault, Location, is_printable, name_file
-from rightofway.io.text import MAX_DEPTH, parse_document, read_text
+from rightofway.io.content import read_text
+from rightofway.io.documents import parse_document
+from rightofway.io.plain_data import MAX_DEPTH
 
 if TYPE_CHECKING:
     import yaml

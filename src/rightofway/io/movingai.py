@@ -18,8 +18,8 @@ from pathlib import Path
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, InputFault, Location, name_file, quote
 from rightofway.files import write_whole
+from rightofway.io.content import read_text
 from rightofway.io.faults import Faults
-from rightofway.io.text import read_text
 from rightofway.model import Robot, Rules, Scenario, Stop
 from rightofway.site import Grid, Roadmap, make_grid_roadmap
 

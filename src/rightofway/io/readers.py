@@ -7,8 +7,9 @@ from pathlib import Path
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, name_file
 from rightofway.files import as_path
+from rightofway.io.collector import pause_garbage_collection
+from rightofway.io.content import read_text
 from rightofway.io.scenario.reader import Loaded, read_classic, read_scenario
-from rightofway.io.text import pause_garbage_collection, read_text
 from rightofway.model import Plan, Scenario
 
 WORKBOOKS = (".xlsx", ".xlsm", ".xls", ".ods")

@@ -21,7 +21,7 @@ from fractions import Fraction
 from typing import Any
 
 from rightofway.arguments import checks_arguments, get_value
-from rightofway.io.text import format_json_line
+from rightofway.io.json_text import format_json_line
 from rightofway.metrics.events import list_events
 from rightofway.model import Plan, Stays, Track
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError, name_file
+from rightofway.io.content import read_text
 from rightofway.io.faults import validate
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.layouts import describe_layout, is_layout, read_layout
@@ -17,7 +18,6 @@ from rightofway.io.readers import load_with_notes
 from rightofway.io.scenario.loaded_map import note_on_hidden_stations
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.reader import read_scenario
-from rightofway.io.text import read_text
 from rightofway.metrics import Site
 from rightofway.model import Scenario
 from rightofway.phrases import Phrase, PhraseOfPieces, say_count

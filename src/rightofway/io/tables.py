@@ -24,8 +24,9 @@ from rightofway.errors import (
     name_file,
     quote,
 )
+from rightofway.io.content import read_text
 from rightofway.io.faults import Faults
-from rightofway.io.text import parse_yaml, read_text
+from rightofway.io.yaml_text import parse_yaml
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
 
 NOTES = {"note", "notes", "hint", "comment", "remark"}

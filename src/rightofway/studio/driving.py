@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from rightofway.control.journal import SqliteJournal
 from rightofway.io import parse_plan
-from rightofway.io.text import parse_json
+from rightofway.io.json_text import parse_json
 from rightofway.studio.crew import Crew, Job
 from rightofway.studio.errors import Busy, Refused, TaskFailed
 from rightofway.studio.watching import Watched

@@ -15,7 +15,7 @@ import uvicorn
 from fastapi import FastAPI
 
 from rightofway.errors import InputError
-from rightofway.io.text import find_remedy_for_missing
+from rightofway.io.content import find_remedy_for_missing
 from rightofway.phrases import Phrase
 from rightofway.studio.app import create_app, create_watch
 from rightofway.studio.connections import AT_ONCE, Connection, allow_descriptors

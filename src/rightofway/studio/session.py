@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError
-from rightofway.io.text import check_depth
+from rightofway.io.plain_data import check_depth
 from rightofway.studio.crew import Crew, Job
 from rightofway.studio.driving import Drives
 from rightofway.studio.runs import Runs

@@ -14,7 +14,7 @@ from pathlib import Path, PurePosixPath
 
 from rightofway.errors import InputError
 from rightofway.files import remove_abandoned, write_whole
-from rightofway.io.text import refuse_special
+from rightofway.io.content import refuse_special
 from rightofway.studio.errors import Refused
 
 MAX_FILES = 2000

@@ -9,7 +9,7 @@ import pytest
 from PIL import Image
 
 from rightofway.io import load, make_example
-from rightofway.io.text import parse_yaml
+from rightofway.io.yaml_text import parse_yaml
 from rightofway.metrics.connectivity import find_strong_parts, list_ways
 from rightofway.site import Edge, Roadmap, make_roadmap
 from rightofway.solve import solve

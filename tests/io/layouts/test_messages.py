@@ -10,8 +10,9 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.io import load, load_either, parse_scenario, read_layout
+from rightofway.io.content import LIMIT
 from rightofway.io.layouts.xml_tree import parse_xml
-from rightofway.io.text import LIMIT, parse_yaml
+from rightofway.io.yaml_text import parse_yaml
 from rightofway.site.layout import Layout
 
 HERE = Path(__file__).parents[2] / "data" / "layouts"

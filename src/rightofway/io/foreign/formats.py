@@ -9,10 +9,10 @@ from pathlib import Path
 
 from rightofway.arguments import checks_arguments, get_value
 from rightofway.errors import InputError
+from rightofway.io.content import read_text
 from rightofway.io.foreign import lacam, lns2, planviz, schedule
 from rightofway.io.foreign.trajectories import ForeignPlan, plan_of_trajectories
 from rightofway.io.locations import add_lines
-from rightofway.io.text import read_text
 from rightofway.model import Plan
 
 

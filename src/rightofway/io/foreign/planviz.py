@@ -34,8 +34,8 @@ from rightofway.io.foreign.trajectories import (
     Visits,
     make_cells,
 )
+from rightofway.io.json_text import parse_json
 from rightofway.io.source import Source
-from rightofway.io.text import parse_json
 from rightofway.model import Plan
 from rightofway.model.route import compute_drives_along, compute_turns_along, find_serving_visits
 

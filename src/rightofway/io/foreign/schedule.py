@@ -27,8 +27,9 @@ from rightofway.io.foreign.trajectories import (
     make_cells,
     make_visits,
 )
+from rightofway.io.json_text import format_json_line
 from rightofway.io.source import Source
-from rightofway.io.text import format_json_line, parse_yaml
+from rightofway.io.yaml_text import parse_yaml
 from rightofway.model import Plan
 
 

@@ -17,11 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import FEW, InputError, InputFault, Location, Steps, Where, quote
+from rightofway.io.content import is_regular
 from rightofway.io.faults import Faults
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.movingai import ScenRow, load_map, load_scen
 from rightofway.io.scenario.reader import read_scenario
-from rightofway.io.text import is_regular
 from rightofway.model import Plan, PlannerRun, Scenario, Track
 from rightofway.site import Grid
 from rightofway.site.grid import FREE

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from rightofway.errors import InputError, Location
+from rightofway.io.content import is_regular, read_text
 from rightofway.io.faults import read_both
 from rightofway.io.layouts.attributes import (
     BOTH_WAYS,
@@ -21,7 +22,6 @@ from rightofway.io.layouts.attributes import (
 )
 from rightofway.io.layouts.draft import LayoutDraft, find_name
 from rightofway.io.source import Source
-from rightofway.io.text import is_regular, read_text
 from rightofway.site.layout import Layout
 
 LONGEST_HEADINGS = 10_000

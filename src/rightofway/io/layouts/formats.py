@@ -13,18 +13,14 @@ from typing import Any, Literal
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, Location, join_names, name_file
 from rightofway.extras import load_plugins
+from rightofway.io.collector import pause_garbage_collection
+from rightofway.io.content import is_regular, read_text, refuse_long
+from rightofway.io.json_text import parse_json
 from rightofway.io.layouts import csv_pair, graphml, lif, nav2, open_rmf, opentcs, ros_map
 from rightofway.io.layouts.xml_tree import Element, parse_xml
 from rightofway.io.locations import add_lines
 from rightofway.io.movingai import load_map
-from rightofway.io.text import (
-    is_regular,
-    parse_json,
-    parse_yaml,
-    pause_garbage_collection,
-    read_text,
-    refuse_long,
-)
+from rightofway.io.yaml_text import parse_yaml
 from rightofway.phrases import Phrase, say_count
 from rightofway.site.layout import Layout
 from rightofway.site.occupancy import CellMap, Occupancy

@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError, locate_faults, quote
+from rightofway.io.content import refuse_special
 from rightofway.io.source import Source
-from rightofway.io.text import refuse_special
 from rightofway.phrases import Phrase
 from rightofway.site.drawing import Picture
 from rightofway.site.geometry import Frame

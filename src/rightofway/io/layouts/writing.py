@@ -13,7 +13,7 @@ from typing import Any
 
 from rightofway.arguments import checks_arguments, get_value
 from rightofway.errors import InputError
-from rightofway.io.text import format_json_line
+from rightofway.io.json_text import format_json_line
 from rightofway.phrases import join_first, join_items
 from rightofway.site.geometry import Point, measure_squared_distance
 from rightofway.site.lane_table import LayoutEdge

@@ -13,8 +13,9 @@ from xml.parsers import expat
 
 from rightofway.deadline import READING, STEPS_BETWEEN_LOOKS, check_work
 from rightofway.errors import InputError, Location, quote
+from rightofway.io.content import LIMIT, choose_limit
+from rightofway.io.plain_data import describe_column
 from rightofway.io.source import Source
-from rightofway.io.text import LIMIT, choose_limit, describe_column
 
 MAX_DEPTH = 64
 """Elements inside each other, at most."""

@@ -11,8 +11,8 @@ from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, NoPlanExists
 from rightofway.files import write_whole
 from rightofway.io.formats import PLAN_FORMAT
+from rightofway.io.json_text import format_json
 from rightofway.io.scenario.writer import dump_scenario
-from rightofway.io.text import format_json
 from rightofway.model import (
     Decision,
     ForcedLoss,

@@ -12,11 +12,11 @@ from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.io.faults import validate
 from rightofway.io.formats import SCENARIO_FORMAT
+from rightofway.io.json_text import format_json
 from rightofway.io.layouts import read_layout
 from rightofway.io.scenario.layouts import make_map_of_layout
 from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap, note_on_hidden_stations
 from rightofway.io.scenario.writer import format_yaml
-from rightofway.io.text import format_json
 from rightofway.metrics.connectivity import find_strong_parts, list_ways
 from rightofway.phrases import Phrase, say_count
 from rightofway.quantities import Units

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from rightofway.deadline import READING, limit_loop
 from rightofway.errors import InputError, find_nearest, locate_faults, name_file, quote
+from rightofway.io.content import refuse_special
 from rightofway.io.faults import Faults
 from rightofway.io.movingai import load_map
 from rightofway.io.scenario.loaded_map import (
@@ -20,7 +21,6 @@ from rightofway.io.scenario.loaded_map import (
     note_on_curves,
     note_on_squares,
 )
-from rightofway.io.text import refuse_special
 from rightofway.phrases import Phrase
 from rightofway.quantities import Units
 from rightofway.site import (

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rightofway.errors import InputError, locate_faults, quote
+from rightofway.io.content import refuse_special
 from rightofway.io.scenario.loaded_map import LoadedMap
-from rightofway.io.text import refuse_special
 from rightofway.phrases import Phrase
 from rightofway.site.drawing import Picture
 

@@ -16,6 +16,7 @@ from typing import Any
 from rightofway.arguments import checks_arguments
 from rightofway.assign import deal_homes
 from rightofway.errors import InputError, Steps, Where, find_nearest, name_file, quote
+from rightofway.io.content import is_regular
 from rightofway.io.faults import Faults, validate
 from rightofway.io.formats import SCENARIO_FORMAT, check_format
 from rightofway.io.movingai import ScenRow, load_scen
@@ -32,7 +33,6 @@ from rightofway.io.scenario.fleet import (
 from rightofway.io.scenario.loaded_map import LoadedMap, note_on_hidden_stations, note_on_rounding
 from rightofway.io.scenario.maps import map_of, map_of_file
 from rightofway.io.scenario.picture import add_picture
-from rightofway.io.text import is_regular
 from rightofway.model import Rules, Scenario
 from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST

@@ -12,7 +12,7 @@ from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.files import as_path, write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
-from rightofway.io.text import format_json
+from rightofway.io.json_text import format_json
 from rightofway.model import Robot, Scenario
 from rightofway.model.attributes import list_plain_attributes
 from rightofway.model.given import require_scenario

@@ -20,8 +20,8 @@ from typing import Any
 
 from rightofway.errors import InputError, Location, find_nearest, quote
 from rightofway.extras import load_library
+from rightofway.io.content import read_content
 from rightofway.io.faults import Faults
-from rightofway.io.text import read_content
 
 MAX_BYTES = 2**28
 """Largest content of a workbook that is read, unpacked [bytes]."""

@@ -21,13 +21,14 @@ from rightofway.io import (
     make_example,
     read_layout,
 )
+from rightofway.io.json_text import format_json
 from rightofway.io.layouts import describe_layout
 from rightofway.io.locations import locate, open_document
 from rightofway.io.readers import WORKBOOKS
 from rightofway.io.scenario.reader import read_scenario
 from rightofway.io.scenario.writer import format_yaml
 from rightofway.io.sites import make_sites
-from rightofway.io.text import format_json, parse_yaml
+from rightofway.io.yaml_text import parse_yaml
 from rightofway.metrics import inspect, measure
 from rightofway.model import Plan, Scenario
 from rightofway.phrases import Phrase, to_parts

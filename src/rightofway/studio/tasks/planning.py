@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from rightofway.io import FOREIGN_FORMATS, format_plan, parse_plan
-from rightofway.io.text import parse_json
+from rightofway.io.json_text import parse_json
 from rightofway.model import Plan
 from rightofway.solve import improve as improved
 from rightofway.solve import solve

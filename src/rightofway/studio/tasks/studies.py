@@ -11,7 +11,7 @@ import numpy as np
 
 from rightofway.errors import GaveUp, InputError
 from rightofway.io import format_plan, parse_plan
-from rightofway.io.text import parse_json
+from rightofway.io.json_text import parse_json
 from rightofway.model import Scenario
 from rightofway.phrases import to_parts
 from rightofway.report.execution import report as simulation_report

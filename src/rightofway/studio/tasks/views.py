@@ -11,8 +11,8 @@ from typing import Any, NotRequired, TypedDict
 
 from rightofway.errors import InputError
 from rightofway.io import FOREIGN_FORMATS, format_foreign, parse_plan, write_plan
+from rightofway.io.json_text import parse_json
 from rightofway.io.scenario.reader import read_scenario
-from rightofway.io.text import parse_json
 from rightofway.metrics import compare, find_changes
 from rightofway.model import Plan
 from rightofway.report.plan_data import make_summary_data
