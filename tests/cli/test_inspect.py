@@ -82,6 +82,9 @@ def test_findings_have_places_in_json(cli: Cli) -> None:
     (finding,) = level["findings"]
     assert (finding["kind"], finding["severity"]) == ("trap", "warning")
     assert (finding["vertices"], finding["robots"]) == (["C"], [])
+    place = {"kind": "places", "values": {"places": ["C"]}}
+    assert finding["fact"] == {"kind": "no way out", "values": {"places": place}}
+    assert finding["remedy"] == {"kind": "add a lane back", "values": {"number": 1}}
     assert finding["sentence"].startswith("C can be entered and not left again (add")
 
 

@@ -54,6 +54,12 @@ def test_a_fact_has_a_template_for_each_number_of_things() -> None:
     ]
 
 
+def test_a_number_with_a_noun_is_a_fact_of_its_own() -> None:
+    writer = FactWriter(None)
+    assert writer.fill("{n:n_vertices}", {"n": 1}) == "1 vertex"
+    assert writer.fill("{n:n_other_places}", {"n": 2}) == "2 other places"
+
+
 @pytest.mark.parametrize("text", [text for text in list_texts() if VALUE.search(text)])
 def test_values_of_facts_have_known_forms(text: str) -> None:
     """A form is one of the writer, or a fact about a number of things."""

@@ -9,6 +9,7 @@ from rightofway.io import load_with_notes
 from rightofway.io.layouts.draft import LayoutDraft
 from rightofway.io.layouts.formats import describe_layout
 from rightofway.phrases import Phrase, say_count
+from rightofway.report.facts import write_notes
 from rightofway.report.lines import COLUMNS, Facts, Table, lay_out
 from rightofway.report.plan import report_decisions, summarize_plan
 from rightofway.site.layout import LayoutVertex
@@ -33,7 +34,7 @@ def test_columns_are_as_wide_as_their_words() -> None:
 
 
 def test_notes_of_a_reader_are_said_in_german() -> None:
-    (note,) = load_with_notes(EXAMPLES / "floor.yaml").notes
+    (note,) = write_notes(load_with_notes(EXAMPLES / "floor.yaml").notes)
     assert note == "floor cut into 24 x 16 = 384 cells of 0.5 m"
     assert translate(note) == "Boden in 24 x 16 = 384 Zellen von 0.5 m geteilt"
     draft = LayoutDraft("LIF layout")

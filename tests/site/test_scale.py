@@ -10,7 +10,7 @@ import pytest
 
 from rightofway.io import load_with_notes
 from rightofway.io.sites import Choice, read_sites
-from rightofway.metrics import inspect
+from rightofway.metrics import Site, inspect
 from rightofway.quantities import Units
 from rightofway.site import Edge, make_roadmap
 from rightofway.site.scale import find_odd_sizes
@@ -30,7 +30,10 @@ def find_odd(unit: str, factor: Fraction, radius: Fraction, offset: int = 0) -> 
     edges = [Edge(tail=tail, head=head, length=long) for tail, head in ("AB", "BC", "CD", "DA")]
     roadmap = make_roadmap(at, edges)
     units = Units(length=unit, time="s")  # type: ignore[arg-type]
-    return [f"{fact} ({remedy})" for fact, remedy in find_odd_sizes(roadmap, units, radius)]
+    return [
+        f"{fact} ({remedy})"
+        for fact, remedy in find_odd_sizes(Site(roadmap=roadmap, units=units), radius)
+    ]
 
 
 @pytest.mark.parametrize(
@@ -61,7 +64,7 @@ def test_a_radius_in_another_unit_is_named_with_it(unit: str, factor: int) -> No
 def test_nothing_is_known_of_lengths_without_a_unit() -> None:
     edge = Edge(tail="A", head="B", length=Fraction(10**9))
     roadmap = make_roadmap({"A": (0.0, 0.0), "B": (1e9, 0.0)}, [edge])
-    assert list(find_odd_sizes(roadmap, Units(), Fraction(10**10))) == []
+    assert list(find_odd_sizes(Site(roadmap=roadmap), Fraction(10**10))) == []
 
 
 FILES = sorted(
@@ -77,9 +80,9 @@ FILES = sorted(
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
 def test_no_sample_and_no_example_is_odd(path: Path) -> None:
     sites = read_sites(path, Choice())
-    assert not any("degrees" in note for note in sites.notes)
+    assert not any("degrees" in str(note) for note in sites.notes)
     for _, site in sites.sites:
-        assert list(find_odd_sizes(site.roadmap, site.units, site.radii[0])) == []
+        assert list(find_odd_sizes(site, site.radii[0])) == []
 
 
 def test_degrees_are_found_by_inspect_and_by_a_plan(tmp_path: Path) -> None:
@@ -100,11 +103,11 @@ def test_degrees_are_found_by_inspect_and_by_a_plan(tmp_path: Path) -> None:
     collection = {"type": "FeatureCollection", "crs": crs, "features": [*points, *lanes]}
     layout.write_text(json.dumps(collection), encoding="utf-8")
     sites = read_sites(layout, Choice())
-    assert any("4326 has degrees" in note for note in sites.notes)
+    assert any("4326 has degrees" in str(note) for note in sites.notes)
     [(_, site)] = sites.sites
     [found] = [each for each in inspect(site).findings if each.kind == "scale"]
     assert found.severity == "warning"
-    assert "degrees" in found.remedy
+    assert "degrees" in str(found.remedy)
     scenario = {
         "format": "rightofway-scenario/1",
         "map": {"layout": layout.name},
@@ -112,4 +115,4 @@ def test_degrees_are_found_by_inspect_and_by_a_plan(tmp_path: Path) -> None:
     }
     path = tmp_path / "scenario.json"
     path.write_text(json.dumps(scenario), encoding="utf-8")
-    assert any("if its numbers are degrees" in note for note in load_with_notes(path).notes)
+    assert any("if its numbers are degrees" in str(note) for note in load_with_notes(path).notes)

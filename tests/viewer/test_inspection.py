@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from rightofway.io.sites import Choice, read_sites
-from rightofway.metrics import describe_site, inspect
+from rightofway.metrics import inspect
+from rightofway.report.inspection import describe_site
 from rightofway.viz import write_inspection
 from rightofway.viz.palette import LIGHT
 from tests.builders.players import Player

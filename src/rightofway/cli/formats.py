@@ -194,6 +194,7 @@ def _write_layout(source: str, path: str, name: str | None, radius: Fraction | N
 def _write_example(source: str, path: str, radius: Fraction) -> None:
     from rightofway.files import write_whole
     from rightofway.io import make_example
+    from rightofway.report.facts import write_notes
 
     if path != "-" and not path.lower().endswith((".yaml", ".yml", ".json")):
         raise click.UsageError(f"{source} is a layout (give a name that ends in .yaml or .json)")
@@ -203,7 +204,7 @@ def _write_example(source: str, path: str, radius: Fraction) -> None:
     else:
         write_whole(path, example.text)
         say_written(path)
-    for note in example.notes:
+    for note in write_notes(example.notes):
         say_of(source, note)
 
 

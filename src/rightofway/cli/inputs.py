@@ -86,6 +86,8 @@ def read_either(path: str, count: int | None = None, own: Collection[str] = ()) 
 
 
 def _noted(loaded: Loaded, path: str) -> Scenario:
-    for note in loaded.notes:
+    from rightofway.report.facts import write_notes
+
+    for note in write_notes(loaded.notes):
         say_of(path, note)
     return loaded.scenario

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -133,10 +133,13 @@ def _size(given: str | None) -> Fraction | None:
 
 def _data(source: str, sites: Sites, results: list[tuple[str, Site, Inspection]]) -> dict[str, Any]:
     """Return the report for programs."""
+    from rightofway.report.facts import write_notes
+    from rightofway.report.inspection import export_finding
+
     return {
         "file": source,
         "what": sites.description,
-        "notes": list(sites.notes),
+        "notes": write_notes(sites.notes),
         "pieces": {
             note: list(note.pieces) for note in sites.notes if isinstance(note, PhraseOfPieces)
         },
@@ -144,10 +147,8 @@ def _data(source: str, sites: Sites, results: list[tuple[str, Site, Inspection]]
             {
                 "level": name or None,
                 "units": asdict(site.units),
-                **{key: value for key, value in asdict(result).items() if key != "findings"},
-                "findings": [
-                    {**asdict(finding), "sentence": str(finding)} for finding in result.findings
-                ],
+                **asdict(replace(result, findings=())),
+                "findings": [export_finding(site, finding) for finding in result.findings],
             }
             for name, site, result in results
         ],

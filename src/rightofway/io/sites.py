@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError, name_file
+from rightofway.facts import Fact
 from rightofway.io.content import read_text
 from rightofway.io.faults import validate
 from rightofway.io.formats import SCENARIO_FORMAT
@@ -42,7 +43,7 @@ class Sites:
     """
 
     description: str
-    notes: tuple[Phrase, ...]
+    notes: tuple[Phrase | Fact, ...]
     sites: tuple[tuple[str, Site], ...]
 
 
@@ -197,7 +198,7 @@ def _with_fleet(drawn: Any, base: Path, robots: Path) -> Sites:
     return make_sites(loaded.scenario, loaded.notes)
 
 
-def make_sites(scenario: Scenario, notes: tuple[Phrase, ...]) -> Sites:
+def make_sites(scenario: Scenario, notes: tuple[Phrase | Fact, ...]) -> Sites:
     """Return a scenario as the one site that it is about."""
     site = Site(
         roadmap=scenario.roadmap,

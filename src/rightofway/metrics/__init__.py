@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from rightofway.metrics.events import Event, list_events, make_event_columns
     from rightofway.metrics.forced_losses import find_forced_losses, find_forced_makespan
     from rightofway.metrics.inspection import inspect
-    from rightofway.metrics.site import HEADINGS, Finding, Inspection, Site, describe_site
+    from rightofway.metrics.site import Finding, Inspection, Site
 
 _MODULES = {
     "changes": (
@@ -59,16 +59,13 @@ _MODULES = {
     "forced_losses": ("find_forced_losses", "find_forced_makespan"),
     "inspection": ("inspect",),
     "site": (
-        "HEADINGS",
         "Finding",
         "Inspection",
         "Site",
-        "describe_site",
     ),
 }
 
 __all__ = [
-    "HEADINGS",
     "MAX_COMPARED",
     "Change",
     "Collision",
@@ -85,7 +82,6 @@ __all__ = [
     "compute_alone_completions",
     "compute_lost_time",
     "derive_outcome",
-    "describe_site",
     "find_changes",
     "find_collisions",
     "find_forced_losses",

@@ -1,4 +1,4 @@
-"""What will hurt on a site before anything is planned: places, facts, remedies.
+"""Findings on a site before anything is planned: facts, places and remedies.
 
 Everything is exact but the load of shortest routes, which is counted from some of the places where
 the site is large; `Inspection.sampled` says so.
@@ -14,7 +14,7 @@ from itertools import pairwise
 import numpy as np
 
 from rightofway.arguments import checks_arguments
-from rightofway.errors import join_names
+from rightofway.facts import Fact
 from rightofway.metrics.connectivity import (
     Corridor,
     Ways,
@@ -28,8 +28,6 @@ from rightofway.metrics.connectivity import (
 )
 from rightofway.metrics.nearness import find_nearness, round_distance
 from rightofway.metrics.site import SEVERITIES, Finding, Inspection, Kind, Site, list_trip
-from rightofway.phrases import Phrase, say_count
-from rightofway.quantities import format_decimal
 from rightofway.site import Roadmap
 from rightofway.site.scale import find_odd_sizes
 from rightofway.site.walls import find_narrowest, reaches_walls
@@ -54,18 +52,12 @@ BUSY = Fraction(3, 10)
 AVOIDED = Fraction(1, 10)
 """Below this share of the shortest routes, a corridor with a way round is no finding."""
 
-OUTSIDE_REMEDIES: dict[Kind, tuple[Phrase, Phrase]] = {
-    "trap": (
-        Phrase("add a lane back, or take it out"),
-        Phrase("add a lane back, or take them out"),
-    ),
-    "unreachable": (
-        Phrase("add a lane to it, or take it out"),
-        Phrase("add a lane to it, or take them out"),
-    ),
-    "cut off": (Phrase("add lanes, or take it out"), Phrase("add lanes, or take them out")),
+OUTSIDE: dict[Kind, tuple[str, str]] = {
+    "trap": ("no way out", "add a lane back"),
+    "unreachable": ("no way in", "add a lane to it"),
+    "cut off": ("no way in or out", "add lanes"),
 }
-"""What to do about one vertex or several that cannot be reached or left."""
+"""Fact and remedy on vertices that cannot be reached or left."""
 
 LISTED_CORRIDORS = 10
 """Corridors that are looked at in detail: those that most shortest routes use."""
@@ -152,7 +144,7 @@ def _by_nearness(roadmap: Roadmap, vertices: Sequence[int]) -> list[int]:
 def _impossible_trips(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator[Finding]:
     """Yield the drives that no way leads along."""
     part_of = {vertex: number for number, part in enumerate(parts) for vertex in part}
-    for robot in site.robots:
+    for index, robot in enumerate(site.robots):
         for start, goal in pairwise(list_trip(robot, site.rules)):
             if part_of[start] == part_of[goal]:
                 continue
@@ -160,13 +152,8 @@ def _impossible_trips(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) ->
                 yield Finding(
                     kind="trip",
                     severity="error",
-                    fact=Phrase(
-                        "{robot} cannot drive from {start} to {goal}",
-                        robot=robot.name,
-                        start=site.name(start),
-                        goal=site.name(goal),
-                    ),
-                    remedy=Phrase("add a lane, or give it another home or stop"),
+                    fact=Fact("no way", site, robot=index, start=start, goal=goal),
+                    remedy=Fact("add a lane"),
                     vertices=site.list_names((start, goal)),
                     robots=(robot.name,),
                 )
@@ -174,7 +161,7 @@ def _impossible_trips(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) ->
 
 def _odd_sizes(site: Site) -> Iterator[Finding]:
     """Yield sizes that only another unit explains."""
-    for fact, remedy in find_odd_sizes(site.roadmap, site.units, site.radii[0]):
+    for fact, remedy in find_odd_sizes(site, site.radii[0]):
         yield Finding(kind="scale", severity="warning", fact=fact, remedy=remedy)
 
 
@@ -187,10 +174,9 @@ def _narrow_trips(site: Site, ways: Ways) -> Iterator[Finding]:
     if grid is None or site.rules.walls != "strict":
         return
     radii = {robot.radius for robot in site.robots if 2 * robot.radius > grid.cell_size}
-    length = site.units.format_length
     for radius in sorted(radii):
         barred_trips = _find_robots_kept_out(site, ways, radius)
-        for name, (start, goal) in [*barred_trips.items()][:1]:
+        for robot, (start, goal) in [*barred_trips.items()][:1]:
             narrowest = find_narrowest(site.roadmap, start, goal)
             if narrowest is None:
                 continue  # no robot has a way there
@@ -198,24 +184,24 @@ def _narrow_trips(site: Site, ways: Ways) -> Iterator[Finding]:
             yield Finding(
                 kind="trip",
                 severity="error",
-                fact=Phrase(
-                    "{robots} of radius {radius} cannot pass where walls leave room for {room} only"
-                    ": {robot} not from {start} to {goal}, at {place}",
-                    robots=say_count(len(barred_trips), "robot", "robots"),
-                    radius=length(radius),
-                    room=length(room),
-                    robot=name,
-                    start=site.name(start),
-                    goal=site.name(goal),
-                    place=site.name(place),
+                fact=Fact(
+                    "way too narrow",
+                    site,
+                    robots=len(barred_trips),
+                    radius=radius,
+                    room=room,
+                    robot=robot,
+                    start=start,
+                    goal=goal,
+                    place=place,
                 ),
-                remedy=Phrase("widen the way, or take smaller robots"),
+                remedy=Fact("widen the way"),
                 vertices=site.list_names((place, start, goal)),
-                robots=tuple(barred_trips),
+                robots=tuple(site.robots[robot].name for robot in barred_trips),
             )
 
 
-def _find_robots_kept_out(site: Site, ways: Ways, radius: Fraction) -> dict[str, tuple[int, int]]:
+def _find_robots_kept_out(site: Site, ways: Ways, radius: Fraction) -> dict[int, tuple[int, int]]:
     """Return the robots of a radius that walls keep from a place, and the first such drive."""
     is_clear = (~reaches_walls(site.roadmap, radius)).tolist()
     part_of = dict[int, int]()
@@ -223,11 +209,11 @@ def _find_robots_kept_out(site: Site, ways: Ways, radius: Fraction) -> dict[str,
         if clear and vertex not in part_of:
             reached = reach_from([vertex], ways.along, is_clear.__getitem__)
             part_of.update(dict.fromkeys(reached, vertex))
-    barred_trips = dict[str, tuple[int, int]]()
-    for robot in site.robots:
+    barred_trips = dict[int, tuple[int, int]]()
+    for index, robot in enumerate(site.robots):
         for start, goal in pairwise(list_trip(robot, site.rules)):
             if robot.radius == radius and part_of.get(start) != part_of.get(goal):
-                barred_trips.setdefault(robot.name, (start, goal))
+                barred_trips.setdefault(index, (start, goal))
     return barred_trips
 
 
@@ -259,35 +245,27 @@ def _outside(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator
                 pieces.append(sorted(reached))
         for piece in sorted(pieces, key=lambda vertices: (-len(vertices), vertices[0])):
             own = [vertex for vertex in piece if vertex in site.places]
-            names = join_names([site.name(vertex) for vertex in own or piece])
-            if site.roadmap.has_cells and not own and len(piece) > 1:
-                cells = say_count(len(piece), "cell", "cells")
-                names = Phrase(
-                    "{cells} around {place}", cells=cells, place=site.name(piece[len(piece) // 2])
-                )
-            others = len(piece) - len(own) if own else 0
-            if others:
-                around = say_count(others, "vertex", "vertices")
-                names = Phrase("{places} and {vertices} around", places=names, vertices=around)
+            has_cells = site.roadmap.has_cells
+            fact, remedy = OUTSIDE[kind]
+            if has_cells:
+                fact = "no way to cells" if kind == "cut off" else fact
+                remedy = "make a wide way"
             yield Finding(
                 kind=kind,
                 severity="error" if own else "note" if kind == "cut off" else "warning",
-                fact=Phrase("No way leads to {places}", places=names)
-                if kind == "cut off" and site.roadmap.has_cells
-                else _outside_fact(kind, names),
-                remedy=Phrase("make a way wide enough for a cell, or ignore it")
-                if site.roadmap.has_cells
-                else OUTSIDE_REMEDIES[kind][len(piece) > 1],
+                fact=Fact(fact, site, places=_describe_piece(site, piece, own)),
+                remedy=Fact(remedy, number=len(piece)),
                 vertices=site.list_names(piece),
             )
 
 
-def _outside_fact(kind: Kind, places: str) -> Phrase:
-    if kind == "trap":
-        return Phrase("{places} can be entered and not left again", places=places)
-    if kind == "unreachable":
-        return Phrase("{places} can be left and not reached", places=places)
-    return Phrase("No lane joins {places} to the largest part", places=places)
+def _describe_piece(site: Site, piece: Sequence[int], own: Sequence[int]) -> Fact:
+    """Return the places of a connected piece, or its vertices where it has no places."""
+    if own and len(piece) > len(own):
+        return Fact("places and others", places=tuple(own), vertices=len(piece) - len(own))
+    if site.roadmap.has_cells and not own and len(piece) > 1:
+        return Fact("cells around", cells=len(piece), place=piece[len(piece) // 2])
+    return Fact("places", places=tuple(own or piece))
 
 
 def _on_the_way(
@@ -306,39 +284,32 @@ def _on_the_way(
         """Whether no place is at a vertex, no two places need it, and no route passes it."""
         return spot in main and spot not in taken and spot not in apart and not load.get(spot)
 
-    def remedy(vertex: int) -> str:
+    def find_remedy(vertex: int) -> Fact:
         if vertex not in site.homes:
-            return Phrase("move it into a bay, or add a way round")
+            return Fact("move into a bay")
         spot = next(filter(is_aside, measure_distances_from(ways, vertex)[0]), None)
         if spot is None:
-            return Phrase(
-                "let no other robot need the way while one stands there, or add a way round"
-            )
+            return Fact("keep the way unused")
         taken.add(spot)
-        away = site.units.format_length(round_distance(site.roadmap, vertex, spot))
-        return Phrase(
-            "park at {place}, {distance} away, which no route needs, or add a way round",
-            place=site.name(spot),
-            distance=away,
-        )
+        distance = round_distance(site.roadmap, vertex, spot)
+        return Fact("park aside", site, place=spot, distance=distance)
 
     separating = [(vertex, beyond) for vertex, beyond in apart.items() if vertex in site.places]
     inside = main.intersection(site.places)
     for vertex, beyond in sorted(separating, key=lambda pair: (-len(pair[1]), pair[0])):
         rest = inside - beyond - {vertex}
         few = sorted(beyond if len(beyond) <= len(rest) else rest)
-        parted = join_names([site.name(place) for place in few])
-        others = say_count(len(inside) - 1 - len(few), "other place", "other places")
         yield Finding(
             kind="through way",
             severity="warning" if vertex in site.homes else "note",
-            fact=Phrase(
-                "{place} lies on the only way between {places} and {others}",
-                place=site.name(vertex),
-                places=parted,
-                others=others,
+            fact=Fact(
+                "on the only way",
+                site,
+                place=vertex,
+                places=tuple(few),
+                others=len(inside) - 1 - len(few),
             ),
-            remedy=remedy(vertex),
+            remedy=find_remedy(vertex),
             vertices=site.list_names((vertex, *few)),
         )
     busy = [vertex for vertex in inside if vertex in site.homes and _is_busy(load, total, vertex)]
@@ -347,13 +318,8 @@ def _on_the_way(
             yield Finding(
                 kind="through way",
                 severity="warning",
-                fact=Phrase(
-                    "{place} is on {share} of the shortest routes, and robots drive round it while"
-                    " one stands there",
-                    place=site.name(vertex),
-                    share=_percent(load[vertex] / total),
-                ),
-                remedy=remedy(vertex),
+                fact=Fact("on many routes", site, place=vertex, share=load[vertex] / total),
+                remedy=find_remedy(vertex),
                 vertices=site.list_names((vertex,)),
             )
 
@@ -379,37 +345,29 @@ def _corridors(
     for corridor in busiest[:LISTED_CORRIDORS]:
         ends, inside = corridor.ends, set(corridor.inside)
         first = set(reach_from(ends[:1], ways.along, _outside_of(inside)))
-        names = site.name(corridor.inside[0]), site.name(corridor.inside[-1])
         using = _using(site, first, inside)
         is_only = ends[1] not in first
         if site.robots and is_only:
             if len(using) < 2:  # noqa: PLR2004 - a robot alone meets nobody
                 continue
-            users = Phrase(
-                "{some} of {robots} must use it",
-                some=str(len(using)),
-                robots=say_count(len(site.robots), "robot", "robots"),
-            )
+            users = Fact("robots in corridor", some=len(using), robots=len(site.robots))
         else:
             if not is_only and use(corridor) < AVOIDED * total:
                 continue
-            share = _percent(use(corridor) / total)
-            users = Phrase("{share} of the shortest routes use it", share=share)
+            users = Fact("routes in corridor", share=use(corridor) / total)
         yield Finding(
             kind="corridor",
             severity="warning" if is_only else "note",
-            fact=Phrase(
-                "{one} to {other} is a corridor of {length} without a passing place; {users}, and"
-                " {round}",
-                one=names[0],
-                other=names[1],
-                length=site.units.format_length(corridor.steps * ways.unit),
+            fact=Fact(
+                "corridor",
+                site,
+                one=corridor.inside[0],
+                other=corridor.inside[-1],
+                length=corridor.steps * ways.unit,
                 users=users,
-                round=Phrase("no way leads round it")
-                if is_only
-                else Phrase("there is a way round"),
+                round=Fact("no way round" if is_only else "way round"),
             ),
-            remedy=Phrase("add a passing place in the middle, or make it one-way with a way back"),
+            remedy=Fact("add a passing place"),
             vertices=site.list_names((ends[0], *corridor.inside, ends[1])),
             robots=tuple(using) if is_only else (),
         )
@@ -447,35 +405,14 @@ def _bottlenecks(
             front += sorted(new)
         seen |= around
         more = len(around) - 1
-        name, share = site.name(vertex), _percent(load[vertex] / total)
-        fact = (
-            Phrase(
-                "{place} is on {share} of the shortest routes between places",
-                place=name,
-                share=share,
-            )
-            if named
-            else Phrase(
-                "{place} is on {share} of the shortest routes between vertices",
-                place=name,
-                share=share,
-            )
-        )
+        kind = "on routes between places" if named else "on routes between vertices"
+        fact = Fact(kind, site, place=vertex, share=load[vertex] / total)
         if more:
-            fact = Phrase(
-                "{fact}; {vertices} around it on {least} or more",
-                fact=fact,
-                vertices=say_count(more, "vertex", "vertices"),
-                least=_percent(BUSY),
-            )
+            fact = Fact("busy around", site, fact=fact, vertices=more, least=BUSY)
         yield Finding(
             kind="bottleneck",
             severity="note",
             fact=fact,
-            remedy=Phrase("add a second way, or spread the places"),
+            remedy=Fact("add a second way"),
             vertices=site.list_names((vertex, *sorted(around - {vertex}))),
         )
-
-
-def _percent(share: float | Fraction) -> str:
-    return f"{format_decimal(Fraction(round(100 * share)))} %"

@@ -10,9 +10,9 @@ from math import dist
 
 import numpy as np
 
+from rightofway.facts import Fact
 from rightofway.metrics.site import Finding, Site
 from rightofway.model.resources import ClosePairs, close_pairs
-from rightofway.phrases import Phrase, join_items, say_count
 from rightofway.site import Roadmap
 from rightofway.site.geometry import measure_squared_distance
 from rightofway.site.walls import reaches_walls
@@ -24,7 +24,7 @@ TOUCHING = Fraction(1, 10**6)
 ROUNDED = 10**6
 """Distances in sentences are rounded to this part of a length unit."""
 
-TAKE_TURNS = Phrase("robots wait for each other there; a vertex lets them wait nearer")
+TAKE_TURNS = Fact("wait at lanes")
 """What to do where lanes cross or are near: nothing is drawn in a wrong place."""
 
 MOST_NAMED = 200
@@ -42,7 +42,7 @@ def find_nearness(site: Site, joints: frozenset[int]) -> Iterator[Finding]:
 
 def _beside_walls(site: Site) -> Iterator[Finding]:
     """Yield for each radius where a robot would reach into the walls of a grid."""
-    roadmap, length = site.roadmap, site.units.format_length
+    roadmap = site.roadmap
     if roadmap.grid is None or site.rules.walls == "strict":
         return
     wide = {robot.radius for robot in site.robots if 2 * robot.radius > roadmap.grid.cell_size}
@@ -52,16 +52,10 @@ def _beside_walls(site: Site) -> Iterator[Finding]:
             yield Finding(
                 kind="too near",
                 severity="warning",
-                fact=Phrase(
-                    "A robot of radius {radius} reaches into walls in {cells}, for example in"
-                    " {place}",
-                    radius=length(radius),
-                    cells=say_count(len(reaches), "cell", "cells"),
-                    place=site.name(reaches[0]),
+                fact=Fact(
+                    "walls reached", site, radius=radius, cells=len(reaches), place=reaches[0]
                 ),
-                remedy=Phrase(
-                    "set walls: strict, so that it keeps out of them, or take larger cells"
-                ),
+                remedy=Fact("keep out of walls"),
                 vertices=site.list_names(reaches[:MOST_NAMED]),
                 robots=tuple(robot.name for robot in site.robots if robot.radius == radius),
             )
@@ -70,18 +64,7 @@ def _beside_walls(site: Site) -> Iterator[Finding]:
 def _near(site: Site, joints: frozenset[int]) -> Iterator[Finding]:
     """Yield vertices and lanes that are nearer than the robots are wide, and lanes that cross."""
     roadmap, room = site.roadmap, site.room
-    length = site.units.format_length
-    need = None
-    if room:
-        sizes = join_items([length(radius) for radius in dict.fromkeys(site.radii)])
-        need = Phrase("robots of radius {sizes} need {room}", sizes=sizes, room=length(room))
-        if site.rules.clearance:
-            need = Phrase(
-                "robots of radius {sizes} and {clearance} apart need {room}",
-                sizes=sizes,
-                clearance=length(site.rules.clearance),
-                room=length(room),
-            )
+    need = _find_need(site) if room else None
     size = find_smallest_cell(roadmap)
     if size is not None:
         if need and size < room:
@@ -89,13 +72,14 @@ def _near(site: Site, joints: frozenset[int]) -> Iterator[Finding]:
             yield Finding(
                 kind="too near",
                 severity="warning",
-                fact=Phrase(
-                    "The middles of {cells} are {distance} apart; {need}",
-                    cells=Phrase("cells") if is_even else Phrase("the smallest cells"),
-                    distance=length(size),
+                fact=Fact(
+                    "cells near each other",
+                    site,
+                    cells=Fact("all cells" if is_even else "smallest cells"),
+                    distance=size,
                     need=need,
                 ),
-                remedy=Phrase("take larger cells, or smaller robots"),
+                remedy=Fact("take larger cells"),
             )
         return
     pairs, near_lanes = _find_drawn_pairs(roadmap, room or TOUCHING, joints)
@@ -103,57 +87,34 @@ def _near(site: Site, joints: frozenset[int]) -> Iterator[Finding]:
     for vertex, (tail, head) in pairs.beside:
         if roadmap.is_along_one_lane((vertex, tail, head)):
             continue
-        place, ends = site.name(vertex), {"tail": roadmap.name(tail), "head": roadmap.name(head)}
-        beside = (
-            Phrase(
-                "{place} is too near to the lane {tail} to {head}; {need}",
-                place=place,
-                need=need,
-                **ends,
-            )
-            if need
-            else Phrase(
-                "{place} lies on the lane {tail} to {head} and is no end of it", place=place, **ends
-            )
-        )
+        ends = {"place": vertex, "tail": tail, "head": head}
         yield Finding(
             kind="too near",
             severity="warning",
-            fact=beside,
-            remedy=Phrase("a robot on one blocks the other; move one")
+            fact=Fact("vertex near lane", site, **ends, need=need)
             if need
-            else Phrase("split the lane there"),
+            else Fact("vertex on lane", site, **ends),
+            remedy=Fact("move one" if need else "split the lane"),
             vertices=site.list_names((vertex, tail, head)),
         )
     for lanes in near_lanes:
         if not need:  # all that touches crosses
             break
-        first, other = _name_lanes(site, lanes)
+        first, other = lanes
         yield Finding(
             kind="too near",
             severity="note",
-            fact=Phrase(
-                "The lane {one} is too near to the lane {other}; {need}",
-                one=first,
-                other=other,
-                need=need,
-            ),
+            fact=Fact("lanes near each other", site, one=first, other=other, need=need),
             remedy=TAKE_TURNS,
             vertices=site.list_names(vertex for lane in lanes for vertex in lane),
         )
     for lanes in pairs.crossings:
-        first, other = _name_lanes(site, lanes)
+        first, other = lanes
         yield Finding(
             kind="crossing",
             severity="note" if need else "warning",
-            fact=Phrase(
-                "The lanes {one} and {other} cross without a vertex", one=first, other=other
-            ),
-            remedy=TAKE_TURNS
-            if need
-            else Phrase(
-                "draw a vertex there, or give robots a radius: without one they do not give way"
-            ),
+            fact=Fact("lanes cross", site, one=first, other=other),
+            remedy=TAKE_TURNS if need else Fact("draw a vertex"),
             vertices=site.list_names(vertex for lane in lanes for vertex in lane),
         )
 
@@ -162,9 +123,12 @@ Lanes = tuple[tuple[int, int], tuple[int, int]]
 """Tail and head of two lanes."""
 
 
-def _name_lanes(site: Site, lanes: Lanes) -> list[Phrase]:
-    names = map(site.list_names, lanes)
-    return [Phrase("{tail} to {head}", tail=tail, head=head) for tail, head in names]
+def _find_need(site: Site) -> Fact:
+    """Return the distance that the two largest robots need, and why."""
+    values = {"sizes": tuple(dict.fromkeys(site.radii)), "room": site.room}
+    if not site.rules.clearance:
+        return Fact("room for robots", **values)
+    return Fact("room for robots apart", clearance=site.rules.clearance, **values)
 
 
 def _find_drawn_pairs(
@@ -240,28 +204,19 @@ def find_smallest_cell(roadmap: Roadmap) -> Fraction | None:
     return None if roadmap.sides is None else min(roadmap.sides)
 
 
-def _near_vertices(site: Site, pairs: ClosePairs, need: Phrase | None) -> Iterator[Finding]:
+def _near_vertices(site: Site, pairs: ClosePairs, need: Fact | None) -> Iterator[Finding]:
     roadmap = site.roadmap
     for first, other in pairs.vertices:
         if roadmap.is_along_one_lane((first, other)):
             continue
-        apart = site.units.format_length(round_distance(roadmap, first, other))
         both_homes = _homes_clash(site, first, other)
         is_joined = (
             roadmap.find_edge(first, other) is not None
             or roadmap.find_edge(other, first) is not None
         )
         are_places = first in site.places and other in site.places
-        names = {"one": site.name(first), "other": site.name(other)}
-        if need:
-            fact = Phrase(
-                "{one} and {other} are {distance} apart; {need}",
-                distance=apart,
-                need=need,
-                **names,
-            )
-        else:
-            fact = Phrase("{one} and {other} are the same point", **names)
+        both = {"one": first, "other": other}
+        distance = round_distance(roadmap, first, other)
         yield Finding(
             kind="too near",
             severity="error"
@@ -269,10 +224,10 @@ def _near_vertices(site: Site, pairs: ClosePairs, need: Phrase | None) -> Iterat
             else "note"
             if is_joined and not are_places
             else "warning",
-            fact=fact,
-            remedy=Phrase("move one, or use smaller robots")
+            fact=Fact("vertices near each other", site, **both, distance=distance, need=need)
             if need
-            else Phrase("make them one vertex"),
+            else Fact("vertices at one point", site, **both),
+            remedy=Fact("move one vertex" if need else "make one vertex"),
             vertices=site.list_names((first, other)),
         )
 

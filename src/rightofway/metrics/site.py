@@ -1,4 +1,4 @@
-"""A site as it is inspected, and what an inspection finds: facts with places and remedies."""
+"""Sites that are inspected, and findings: facts with places and remedies."""
 
 from __future__ import annotations
 
@@ -10,14 +10,10 @@ from functools import cached_property
 from itertools import pairwise
 from typing import Literal
 
-from rightofway.arguments import checks_arguments
-from rightofway.errors import join_names
+from rightofway.facts import Fact
 from rightofway.model import Robot, Rules
-from rightofway.model.place_names import describe_middle
-from rightofway.phrases import Phrase, say_count
-from rightofway.quantities import Units, format_decimal
+from rightofway.quantities import Units
 from rightofway.site import Roadmap
-from rightofway.site.scale import compute_extent
 
 Severity = Literal["error", "warning", "note"]
 """``error``: some work cannot be done; ``warning``: robots will wait; ``note``: good to know."""
@@ -28,31 +24,8 @@ Kind = Literal[
 ]  # fmt: skip
 """What a finding is about."""
 
-SEVERITY_NAMES: dict[Severity, str] = {
-    "error": Phrase("Errors"),
-    "warning": Phrase("Warnings"),
-    "note": Phrase("Notes"),
-}
-"""What findings of each severity are called, the worst first."""
-
-HEADINGS: dict[Severity, str] = SEVERITY_NAMES | {
-    "error": Phrase(
-        "{severity} ({effect})",
-        severity=SEVERITY_NAMES["error"],
-        effect=Phrase("some work cannot be done"),
-    ),
-    "warning": Phrase(
-        "{severity} ({effect})",
-        severity=SEVERITY_NAMES["warning"],
-        effect=Phrase("robots will wait"),
-    ),
-}
-"""The same with what they mean for the work."""
-
-SEVERITIES = tuple(HEADINGS)
-
-LISTED_PARTS = 8
-"""Sizes of strongly connected parts that a report lists."""
+SEVERITIES: tuple[Severity, ...] = ("error", "warning", "note")
+"""The severities, the worst first."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,7 +39,7 @@ class Finding:
     severity
         How much it hurts.
     fact
-        Where and what, as the beginning of a sentence.
+        What was found, and where.
     remedy
         What to do.
     vertices
@@ -77,8 +50,8 @@ class Finding:
 
     kind: Kind
     severity: Severity
-    fact: str
-    remedy: str
+    fact: Fact
+    remedy: Fact
     vertices: tuple[str, ...] = ()
     robots: tuple[str, ...] = ()
 
@@ -143,34 +116,35 @@ class Site:
         object.__setattr__(self, "roadmap", self.roadmap.fold())
 
     @cached_property
-    def homes(self) -> dict[int, str]:
-        """Vertices that robots stand on without work, with what they are."""
+    def homes(self) -> dict[int, Fact]:
+        """Vertices where robots are without work, each with its use."""
         if not self.robots:
-            return dict.fromkeys(self.parking.values(), Phrase("parking"))
+            return dict.fromkeys(self.parking.values(), Fact("parking"))
         return {
-            int(robot.home): Phrase("home of {robot}", robot=robot.name) for robot in self.robots
+            int(robot.home): Fact("home of", robot=index) for index, robot in enumerate(self.robots)
         }
 
     @cached_property
-    def places(self) -> dict[int, str]:
-        """Vertices that robots stay at, with what they are."""
+    def places(self) -> dict[int, Fact]:
+        """Vertices where robots stop or stay, each with its use."""
         if not self.robots:
             stations = {
-                vertex: Phrase("station {name}", name=name)
+                vertex: Fact("named station", name=name)
                 if name != self.roadmap.name(vertex)
-                else Phrase("station")
+                else Fact("station")
                 for name, vertex in self.stations.items()
             }
             return stations | self.homes
-        stops: dict[int, list[str]] = defaultdict(list)
-        for robot in self.robots:
+        stops: dict[int, set[int]] = defaultdict(set)
+        for index, robot in enumerate(self.robots):
             for stop in robot.stops:
-                stops[int(stop.at)].append(robot.name)
-        names = {
-            at: Phrase("stop of {robots}", robots=join_names(sorted(set(of))))
-            for at, of in stops.items()
-        }
-        return names | self.homes
+                stops[int(stop.at)].add(index)
+
+        def sort_by_name(robots: set[int]) -> tuple[int, ...]:
+            return tuple(sorted(robots, key=lambda robot: self.robots[robot].name))
+
+        uses = {at: Fact("stop of", robots=sort_by_name(of)) for at, of in stops.items()}
+        return uses | self.homes
 
     @cached_property
     def trips(self) -> Counter[tuple[int, int]]:
@@ -201,71 +175,9 @@ class Site:
         """The distance that the two largest robots need; 0 for points [length unit]."""
         return sum(self.radii) + self.rules.clearance if self.radii[0] else Fraction(0)
 
-    def name(self, vertex: int) -> str:
-        """Return the name of a vertex with what it is: ``D1 (station Press)``.
-
-        A cell where lengths have a unit goes by its middle: ``(2.25, 0.75, home of R1)``.
-        """
-        place = self.places.get(vertex)
-        if self.roadmap.has_cells and self.units.length:
-            at = describe_middle(self.roadmap, vertex)
-            return Phrase("({middle}, {what})", middle=at, what=place) if place else f"({at})"
-        name = self.roadmap.name(vertex)
-        return Phrase("{name} ({what})", name=name, what=place) if place else name
-
     def list_names(self, vertices: Iterable[int]) -> tuple[str, ...]:
         """Return the names of vertices."""
         return tuple(map(self.roadmap.name, vertices))
-
-
-@checks_arguments
-def describe_site(site: Site, inspection: Inspection) -> tuple[str, ...]:
-    """Return how large a site is and how it hangs together, in whole sentences.
-
-    Parameters
-    ----------
-    site
-        The site.
-    inspection
-        What was found on it.
-    """
-    edges = say_count(inspection.edges, "directed edge", "directed edges")
-    if inspection.one_way:
-        number = str(inspection.one_way)
-        edges = Phrase("{edges}, {number} of them one-way", edges=edges, number=number)
-    across, down = compute_extent(site.roadmap)
-    size = Phrase(
-        "{vertices}, {edges}, {width} x {height}; {places}.",
-        vertices=say_count(inspection.vertices, "vertex", "vertices"),
-        edges=edges,
-        width=format_decimal(across),
-        height=site.units.format_length(down),
-        places=say_count(inspection.places, "place", "places"),
-    )
-    sentences = [size]
-    if len(inspection.parts) == 1:
-        sentences.append(Phrase("All vertices reach each other."))
-    else:
-        sizes = [str(part) for part in inspection.parts[:LISTED_PARTS]]
-        more = len(inspection.parts) - len(sizes)
-        cut = [*sizes, Phrase("{number} more", number=str(more))] if more else sizes
-        sentences.append(
-            Phrase(
-                "{number} strongly connected parts, of {sizes} vertices.",
-                number=str(len(inspection.parts)),
-                sizes=join_names(cut),
-            )
-        )
-    if inspection.sampled:
-        some, all_of = map(str, inspection.sampled)
-        sentences.append(
-            Phrase(
-                "Shortest routes are counted from {some} of {all_of} vertices only.",
-                some=some,
-                all_of=all_of,
-            )
-        )
-    return tuple(sentences)
 
 
 def list_trip(robot: Robot, rules: Rules) -> list[int]:

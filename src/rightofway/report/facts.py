@@ -9,23 +9,33 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from functools import cache, cached_property
 from importlib.resources import files
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypedDict
 
 from rightofway.errors import join_names
 from rightofway.facts import Fact
 from rightofway.model import Scenario
-from rightofway.model.place_names import PlaceNames
+from rightofway.model.place_names import PlaceNames, describe_middle
 from rightofway.phrases import Phrase, join_items
 from rightofway.quantities import Quantities, Units, format_decimal
 
-__all__ = ["FactWriter", "read_templates", "strip_forms"]
+if TYPE_CHECKING:
+    from rightofway.metrics import Site
+
+__all__ = ["FactData", "FactWriter", "read_templates", "strip_forms", "write_notes"]
 
 VALUE = re.compile(r"\{(\w+)(?::(\w+))?\}")
 """A value of a template: its name, and the form in which it is shown."""
+
+
+class FactData(TypedDict):
+    """A fact as plain data: its kind, and its values by name."""
+
+    kind: str
+    values: dict[str, Any]
 
 
 @cache
@@ -48,15 +58,22 @@ def list_forms(template: str) -> tuple[tuple[str, str], ...]:
     return tuple(VALUE.findall(template))
 
 
-def choose_template(template: str | Mapping[str, str], values: Mapping[str, Any]) -> str:
-    """Return a template; of several, that for the number of things, or else the one for others.
+def find_template(fact: Fact) -> str:
+    """Return the template of a fact; of several, that for the number of things or for others.
 
     That is the value ``number``, or how many ``robots`` there are.
     """
+    template: str | Mapping[str, str] = read_templates()["facts"][fact.kind]
     if isinstance(template, str):
         return template
+    values = fact.values
     number = values["number"] if "number" in values else len(values["robots"])
     return template.get(str(number), template["other"])
+
+
+ROBOTS = {"robot", "robots", "few_robots"}
+VERTICES = {"few_places", "lane", "name", "place", "spot", "vertex", "vertices"}
+"""Forms of values that are robots and vertices."""
 
 
 class FactWriter:
@@ -64,22 +81,22 @@ class FactWriter:
 
     Parameters
     ----------
-    scenario
-        The scenario of robots, vertices and ticks; None for facts that have none.
+    about
+        The scenario of robots, vertices and ticks, or an inspected site; None for facts that have
+        none.
     quantities
         How times and lengths are written; those of the scenario unless given.
     """
 
-    def __init__(self, scenario: Scenario | None, quantities: Quantities | None = None) -> None:
-        self._scenario = scenario
+    def __init__(self, about: Scenario | Site | None, quantities: Quantities | None = None) -> None:
+        self._about = about
         self._quantities = quantities
 
     def write(self, fact: Fact | str) -> str:
         """Return the sentence of a fact; English text of other packages stays as it is."""
         if isinstance(fact, str):
             return fact
-        template = read_templates()["facts"][fact.kind]
-        return self.fill(choose_template(template, fact.values), fact.values)
+        return self.fill(find_template(fact), fact.values)
 
     def fill(self, template: str, values: Mapping[str, Any]) -> Phrase:
         """Return a template with its values in their forms."""
@@ -92,18 +109,49 @@ class FactWriter:
             return self._forms[form](value)
         return self.write(Fact(form, number=value))
 
+    def export(self, fact: Fact) -> FactData:
+        """Return a fact as plain data for JSON: robots and vertices by name, times in ticks."""
+        forms = dict(list_forms(find_template(fact)))
+        values = {
+            name: self._export_value(forms.get(name, ""), value)
+            for name, value in fact.values.items()
+        }
+        return {"kind": fact.kind, "values": values}
+
+    def _export_value(self, form: str, value: Any) -> Any:
+        if isinstance(value, Fact):
+            return self.export(value)
+        if isinstance(value, tuple | list):
+            return [self._export_value(form, item) for item in value]
+        if form in ROBOTS:
+            return self.name_robot(value)
+        if form in VERTICES:
+            return self.about.roadmap.name(value)
+        if isinstance(value, Fraction):
+            return value.numerator if value.denominator == 1 else float(value)
+        return value
+
+    @property
+    def about(self) -> Scenario | Site:
+        """The scenario or site of the values."""
+        assert self._about is not None, "a fact with robots or places has a scenario or a site"
+        return self._about
+
     @property
     def scenario(self) -> Scenario:
         """The scenario of the values."""
-        assert self._scenario is not None, "a fact with robots, places or times has a scenario"
-        return self._scenario
+        assert isinstance(self._about, Scenario), "a fact with times has a scenario"
+        return self._about
 
     @cached_property
     def quantities(self) -> Quantities:
         """How times and lengths are written."""
-        if self._quantities is None and self._scenario is None:
-            return Quantities(units=Units(), tick=Fraction(1))
-        return self._quantities or self.scenario.quantities
+        if self._quantities is not None:
+            return self._quantities
+        if isinstance(self._about, Scenario):
+            return self._about.quantities
+        units = Units() if self._about is None else self._about.units
+        return Quantities(units=units, tick=Fraction(1))
 
     @cached_property
     def _places(self) -> PlaceNames:
@@ -117,17 +165,21 @@ class FactWriter:
     def _forms(self) -> Mapping[str, Callable[[Any], str]]:
         return {
             "": self._write_text,
-            "few": lambda facts: join_names([self.write(fact) for fact in facts]),
-            "few_places": lambda vertices: join_names(list(map(self._name_place, vertices))),
+            "few": lambda values: join_names(list(map(self._write_text, values))),
+            "few_places": lambda vertices: join_names(list(map(self.name_place, vertices))),
             "few_robots": lambda robots: join_names(list(map(self.name_robot, robots))),
-            "place": self._name_place,
+            "place": self.name_place,
             "spot": self._describe_place,
             "and": lambda facts: join_items([self.write(fact) for fact in facts]),
             "angle": lambda degrees: format_decimal(degrees, 6),
             "duration": cache(self.quantities.format_duration),
+            "lane": self._name_lane,
             "length": self.quantities.format_length,
+            "lengths": lambda values: join_items(list(map(self.quantities.format_length, values))),
             "moment": cache(self.quantities.format_moment),
+            "name": self._write_name,
             "number": format_decimal,
+            "percent": lambda share: f"{round(100 * share)} %",
             "robot": self.name_robot,
             "robots": lambda robots: join_items(list(map(self.name_robot, robots))),
             "until": self._write_until,
@@ -140,7 +192,7 @@ class FactWriter:
 
     def name_robot(self, robot: int) -> str:
         """Return a robot's name."""
-        return self.scenario.robots[robot].name
+        return self.about.robots[robot].name
 
     def name_vertex(self, vertex: int) -> str:
         """Return the name of a vertex for people, whether the roadmap has it or not."""
@@ -148,8 +200,29 @@ class FactWriter:
             return self._places(vertex)
         return Phrase("vertex {number}", number=str(vertex))
 
-    def _name_place(self, vertex: int) -> str:
-        return self._plain_places(vertex)
+    def name_place(self, vertex: int) -> str:
+        """Return the name of a vertex with its use, without the number of a cell.
+
+        On an inspected site: ``D1 (station Press)``, ``(2.25, 0.75, home of R1)``.
+        """
+        about = self.about
+        if isinstance(about, Scenario):
+            return self._plain_places(vertex)
+        use = about.places.get(vertex)
+        if about.roadmap.has_cells and about.units.length:
+            middle = describe_middle(about.roadmap, vertex)
+            if use is None:
+                return f"({middle})"
+            return Phrase("({middle}, {what})", middle=middle, what=self.write(use))
+        name = about.roadmap.name(vertex)
+        return name if use is None else Phrase("{name} ({what})", name=name, what=self.write(use))
+
+    def _write_name(self, vertex: int) -> str:
+        return self.about.roadmap.name(vertex)
+
+    def _name_lane(self, ends: Sequence[int]) -> Phrase:
+        tail, head = map(self._write_name, ends)
+        return Phrase("{tail} to {head}", tail=tail, head=head)
 
     def _describe_place(self, vertex: int) -> str:
         return self._plain_places.describe_place(vertex)
@@ -159,6 +232,11 @@ class FactWriter:
         quantities = self.quantities
         has_unit = quantities.time_unit and not quantities.in_ticks
         return quantities.format_moment(tick) if has_unit else quantities.format_cell(tick)
+
+
+def write_notes(notes: Iterable[str | Fact]) -> list[str]:
+    """Return notes of a reader as text, the facts among them as sentences."""
+    return [FactWriter(getattr(note, "about", None)).write(note) for note in notes]
 
 
 def list_texts() -> Sequence[str]:

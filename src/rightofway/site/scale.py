@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
+from typing import Protocol
 
 import numpy as np
 
-from rightofway.phrases import Phrase
-from rightofway.quantities import Units, format_decimal
+from rightofway.facts import Fact
+from rightofway.quantities import Units
 from rightofway.site.roadmap import Roadmap
 
 LARGEST, SMALLEST = 5000, Fraction(1, 10)
@@ -40,38 +41,44 @@ def compute_extent(roadmap: Roadmap) -> tuple[Fraction, Fraction]:
     return width, height
 
 
-def find_odd_sizes(
-    roadmap: Roadmap, units: Units, largest_radius: Fraction
-) -> Iterator[tuple[Phrase, Phrase]]:
+class Measured(Protocol):
+    """A scenario or a site: a roadmap with units."""
+
+    @property
+    def roadmap(self) -> Roadmap:
+        """The roadmap."""
+
+    @property
+    def units(self) -> Units:
+        """Units of its lengths."""
+
+
+def find_odd_sizes(measured: Measured, largest_radius: Fraction) -> Iterator[tuple[Fact, Fact]]:
     """Yield sizes that no site or robot has in their unit, each with the unit that would fit.
 
     Nothing is known of sites whose lengths have no unit.
     """
+    roadmap, units = measured.roadmap, measured.units
     if units.metres is None or units.length is None:
         return
     own, extent = units.length, compute_extent(roadmap)
-    most, length = max(extent), units.format_length
-    size = Phrase("{width} x {height}", width=format_decimal(extent[0]), height=length(extent[1]))
-    unit = ""
+    most = max(extent)
+    unit: str | Fact | None = None
     if most * units.metres > LARGEST:
         unit = FINER[own]
     elif 0 < most * units.metres < SMALLEST:
-        unit = Phrase("degrees") if _is_geographic(roadmap, most) else COARSER[own]
+        unit = Fact("degrees") if _is_geographic(roadmap, most) else COARSER[own]
     if unit:
+        size = Fact("extent", width=extent[0], height=extent[1])
         yield (
-            Phrase("The site is {size} large", size=size),
-            Phrase("if its numbers are {unit}, convert them to {own}", unit=unit, own=own),
+            Fact("size of site", measured, size=size),
+            Fact("convert the numbers", unit=unit, own=own),
         )
     radius = largest_radius
     if radius * units.metres > WIDEST or (not unit and 2 * radius > most > 0):
         yield (
-            Phrase("A robot has a radius of {radius}", radius=length(radius)),
-            Phrase(
-                "if it is {number} {unit}, convert it to {own}",
-                number=format_decimal(radius),
-                unit=FINER[own],
-                own=own,
-            ),
+            Fact("size of robot", measured, radius=radius),
+            Fact("convert the radius", number=radius, unit=FINER[own], own=own),
         )
 
 

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
+from rightofway.facts import Fact
 from rightofway.io.faults import validate
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.json_text import format_json
@@ -53,7 +54,7 @@ class Example(NamedTuple):
     """
 
     text: str
-    notes: tuple[Phrase, ...]
+    notes: tuple[Phrase | Fact, ...]
 
 
 @checks_arguments

@@ -16,6 +16,7 @@ from typing import Any
 from rightofway.arguments import checks_arguments
 from rightofway.assign import deal_homes
 from rightofway.errors import InputError, Steps, Where, find_nearest, name_file, quote
+from rightofway.facts import Fact
 from rightofway.io.content import is_regular
 from rightofway.io.faults import Faults, validate
 from rightofway.io.formats import SCENARIO_FORMAT, check_format
@@ -58,7 +59,7 @@ class Loaded:
     """
 
     scenario: Scenario
-    notes: tuple[Phrase, ...] = ()
+    notes: tuple[Phrase | Fact, ...] = ()
 
 
 @checks_arguments
@@ -257,7 +258,7 @@ def _assemble(
     return scenario
 
 
-def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[Phrase]:
+def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[Phrase | Fact]:
     grid = loaded.roadmap.grid
     if loaded.floor and grid:
         yield Phrase(
@@ -278,8 +279,8 @@ def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[Phrase]:
     yield from _type_notes(scenario)
     yield from note_crossings(scenario)
     largest = max(robot.radius for robot in scenario.robots)
-    for fact, remedy in find_odd_sizes(scenario.roadmap, scenario.units, largest):
-        yield Phrase("{fact} ({remedy})", fact=fact, remedy=remedy)
+    for fact, remedy in find_odd_sizes(scenario, largest):
+        yield Fact("fact and remedy", scenario, fact=fact, remedy=remedy)
     if not scenario.problem.clock.exact:
         yield Phrase(
             "each drive, turn and work time is rounded up to a multiple of {tick} (the shortest of"

@@ -240,6 +240,12 @@ export interface FactAndRemedy {
   remedy: PhraseData;
 }
 
+/** A fact as plain data: its kind, and its values by name. */
+export interface FactData {
+  kind: string;
+  values: Record<string, unknown>;
+}
+
 /** Figures as people read them. */
 export interface FigureTexts {
   flowtime: string;
@@ -655,8 +661,8 @@ export interface ScenarioChange {
 export interface SiteFinding {
   kind: string;
   severity: "error" | "warning" | "note";
-  fact: string;
-  remedy: string;
+  fact: FactData;
+  remedy: FactData;
   vertices: Array<string>;
   robots: Array<string>;
   sentence: string;

@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal, NotRequired
 
 from typing_extensions import TypedDict
 
+from rightofway.report.facts import FactData
 from rightofway.studio.routes.models import (
     Deal,
     Document,
@@ -337,8 +338,8 @@ class SiteFinding(TypedDict):
 
     kind: str
     severity: Literal["error", "warning", "note"]
-    fact: str
-    remedy: str
+    fact: FactData
+    remedy: FactData
     vertices: list[str]
     robots: list[str]
     sentence: str

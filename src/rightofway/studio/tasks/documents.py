@@ -32,6 +32,7 @@ from rightofway.io.yaml_text import parse_yaml
 from rightofway.metrics import inspect, measure
 from rightofway.model import Plan, Scenario
 from rightofway.phrases import Phrase, to_parts
+from rightofway.report.facts import write_notes
 from rightofway.studio.messages import Blobs, Emit, as_fault_data
 from rightofway.viz.verdict import give_verdict
 
@@ -48,7 +49,7 @@ def open_file(_emit: Emit, _blobs: Blobs, *, path: str, count: int | None = None
         example = make_example(file, file.with_suffix(".yaml"))
         document = parse_yaml(example.text)
         new = Phrase("a new scenario on {layout}", layout=describe_layout(read_layout(file)))
-        notes = to_parts([*example.notes, new])
+        notes = to_parts(write_notes([*example.notes, new]))
         return (
             {"kind": "layout", "document": {**as_plain(document), "robots": []}, "notes": notes},
         )
@@ -68,7 +69,7 @@ def open_file(_emit: Emit, _blobs: Blobs, *, path: str, count: int | None = None
 
 def _of_loaded(kind: str, loaded: Loaded) -> dict[str, Any]:
     document = as_plain(dump_scenario(loaded.scenario))
-    return {"kind": kind, "document": document, "notes": to_parts(list(loaded.notes))}
+    return {"kind": kind, "document": document, "notes": to_parts(write_notes(loaded.notes))}
 
 
 def _with_faults(file: Path) -> dict[str, Any]:
@@ -118,7 +119,7 @@ def validate_document(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str)
         return (
             {"ok": False, "faults": [as_fault_data(fault) for fault in error.faults], "notes": []},
         )
-    return ({"ok": True, "faults": [], "notes": to_parts(list(loaded.notes))},)
+    return ({"ok": True, "faults": [], "notes": to_parts(write_notes(loaded.notes))},)
 
 
 def inspect_document(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) -> Result:
@@ -130,7 +131,7 @@ def inspect_document(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) 
     return (
         {
             "what": sites.description,
-            "notes": to_parts(list(sites.notes)),
+            "notes": to_parts(write_notes(sites.notes)),
             **{key: value for key, value in asdict(result).items() if key != "findings"},
             "findings": [
                 {**asdict(finding), "sentence": str(finding)} for finding in result.findings

@@ -5,21 +5,25 @@ from __future__ import annotations
 import contextlib
 from collections import OrderedDict
 from collections.abc import Hashable, Sequence
-from dataclasses import asdict, replace
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError, InputFault
+from rightofway.facts import Fact
 from rightofway.io import Loaded, dump_scenario
 from rightofway.io.faults import validate
 from rightofway.io.scenario.loaded_map import FleetTraits
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.picture import add_picture
 from rightofway.io.sites import make_sites
-from rightofway.metrics import Inspection, Site, describe_site, inspect
+from rightofway.metrics import Inspection, Site, inspect
+from rightofway.metrics.site import Finding
 from rightofway.phrases import to_parts
 from rightofway.quantities import Units
+from rightofway.report.facts import write_notes
+from rightofway.report.inspection import describe_finding, describe_site, export_finding
 from rightofway.studio.messages import Blobs, Emit, as_fault_data, zip_text
 from rightofway.studio.tasks.documents import as_plain, compute_digest, load_document
 from rightofway.viz import make_site_data
@@ -55,7 +59,7 @@ def survey_document(
     itself has faults. With `identifies`, ``scenario`` is the digest that plans of this scenario
     have among their figures; null where the document has faults.
     """
-    notes = tuple[str, ...]()
+    notes = tuple[str | Fact, ...]()
     site, closures = None, list[ClosureData]()
     loaded, kept_robots, faults = read_readable(document, folder)
     if loaded is not None:
@@ -67,7 +71,7 @@ def survey_document(
     answer: dict[str, Any] = {
         "ok": not faults,
         "faults": [as_fault_data(fault) for fault in faults],
-        "notes": to_parts(list(notes)),
+        "notes": to_parts(write_notes(notes)),
         "site": None,
         "findings": [],
         "sentences": [],
@@ -85,18 +89,17 @@ def survey_document(
         inspection = _inspected(site)
         said = describe_site(site, inspection)
         answer |= {
-            "findings": [
-                {
-                    **asdict(finding),
-                    "sentence": str(finding),
-                    "phrases": {"fact": to_parts(finding.fact), "remedy": to_parts(finding.remedy)},
-                }
-                for finding in inspection.findings
-            ],
+            "findings": [_make_finding_data(site, finding) for finding in inspection.findings],
             "sentences": list(said),
             "phrases": [to_parts(sentence) for sentence in said],
         }
     return (None, zip_text(as_compact_json(answer)))
+
+
+def _make_finding_data(site: Site, finding: Finding) -> dict[str, Any]:
+    fact, remedy = describe_finding(site, finding)
+    phrases = {"fact": to_parts(fact), "remedy": to_parts(remedy)}
+    return {**export_finding(site, finding), "phrases": phrases}
 
 
 def _inspected(site: Site) -> Inspection:

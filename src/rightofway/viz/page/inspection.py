@@ -6,10 +6,18 @@ import os
 from collections.abc import Sequence
 
 from rightofway.arguments import checks_arguments
+from rightofway.facts import Fact
 from rightofway.files import write_whole
-from rightofway.metrics import HEADINGS, Inspection, Site, describe_site
-from rightofway.metrics.site import SEVERITY_NAMES
+from rightofway.metrics import Inspection, Site
 from rightofway.phrases import to_parts
+from rightofway.report.facts import write_notes
+from rightofway.report.inspection import (
+    SEVERITIES,
+    describe_finding,
+    describe_site,
+    name_severity,
+    write_heading,
+)
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.document import make_document
 from rightofway.viz.page.map_data import map_data
@@ -27,7 +35,7 @@ def make_inspection_page(
     *,
     title: str,
     description: str = "",
-    notes: Sequence[str] = (),
+    notes: Sequence[str | Fact] = (),
     background: Background | None = None,
 ) -> str:
     """Return a page that shows an inspection, as one HTML document.
@@ -59,9 +67,9 @@ def make_inspection_page(
         "title": title,
         "translations": {},
         "description": to_parts(description),
-        "notes": [to_parts(note) for note in notes],
-        "names": {severity: to_parts(name) for severity, name in SEVERITY_NAMES.items()},
-        "headings": {severity: to_parts(heading) for severity, heading in HEADINGS.items()},
+        "notes": to_parts(write_notes(notes)),
+        "names": {severity: to_parts(name_severity(severity)) for severity in SEVERITIES},
+        "headings": {severity: to_parts(write_heading(severity)) for severity in SEVERITIES},
         "levels": [_level(*level, background) for level in levels],
     }
     said = [(level["sentences"], level["findings"]) for level in payload["levels"]]
@@ -78,7 +86,7 @@ def write_inspection(
     *,
     title: str,
     description: str = "",
-    notes: Sequence[str] = (),
+    notes: Sequence[str | Fact] = (),
     background: Background | None = None,
 ) -> None:
     """Write the page of an inspection; the file is there whole or not at all.
@@ -146,6 +154,7 @@ def _level(
     name: str, site: Site, inspection: Inspection, background: Background | None
 ) -> LevelData:
     robot_of = {robot.name: index for index, robot in enumerate(site.robots)}
+    described = ((finding, describe_finding(site, finding)) for finding in inspection.findings)
     return {
         "name": name,
         "sentences": [to_parts(sentence) for sentence in describe_site(site, inspection)],
@@ -154,11 +163,11 @@ def _level(
             {
                 "severity": finding.severity,
                 "kind": finding.kind,
-                "fact": to_parts(finding.fact),
-                "remedy": to_parts(finding.remedy),
+                "fact": to_parts(fact),
+                "remedy": to_parts(remedy),
                 "vertices": [int(site.roadmap.get_vertex(vertex)) for vertex in finding.vertices],
                 "robots": [robot_of[robot] for robot in finding.robots],
             }
-            for finding in inspection.findings
+            for finding, (fact, remedy) in described
         ],
     }
