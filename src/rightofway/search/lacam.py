@@ -17,10 +17,10 @@ import numpy as np
 from rightofway import _core
 from rightofway.arguments import checks_arguments
 from rightofway.errors import Blockage, NoPlanExists
+from rightofway.facts import Fact
 from rightofway.model import Problem, Track
 from rightofway.model.given import require_index, require_seed
 from rightofway.native import bind_native, make_tracks
-from rightofway.phrases import Phrase
 
 FOUND, PROVEN_NONE = 0, 1
 
@@ -82,6 +82,5 @@ def plan_by_lacam(
         time_limit,
     )
     if end == PROVEN_NONE:
-        reason = Phrase("no order of moves brings every robot through its trip")
-        raise NoPlanExists([Blockage(reason, (), (), Phrase("give more room"))])
+        raise NoPlanExists([Blockage(Fact("no order of moves"), (), (), Fact("give more room"))])
     return make_tracks(first_visit, vertices, enter) if end == FOUND else None

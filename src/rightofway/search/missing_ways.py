@@ -9,10 +9,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from rightofway.errors import MAX_REASONS, Blockage, join_names
+from rightofway.errors import MAX_REASONS, Blockage
+from rightofway.facts import Fact
 from rightofway.model import Itinerary, Scenario, Tick
-from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase
 from rightofway.search.distances import Distances
 from rightofway.site import Roadmap, VertexId
 from rightofway.site.walls import find_narrowest
@@ -34,7 +33,7 @@ def _legs_without_a_way(
 
 def find_missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[Blockage]:
     """Yield where robots have no way, and whether parts of the map or one-way edges are why."""
-    place, parts, distances = PlaceNames(scenario), RoadmapParts(scenario.roadmap), None
+    parts, distances = RoadmapParts(scenario.roadmap), None
     name_of = scenario.roadmap.name
     for robot in stranded:
         name, itinerary = scenario.robots[robot].name, scenario.problem.itineraries[robot]
@@ -42,43 +41,28 @@ def find_missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[B
         stages = dict.fromkeys(stage.vertex for stage in itinerary.stages)
         elsewhere = [vertex for vertex in stages if vertex not in home_part]
         if elsewhere:
-            others = join_names(list(map(place, elsewhere)))
-            reason = Phrase(
-                "{robot} has no way from {tail} to {head}: the map is in parts that no edge joins",
-                robot=name,
-                tail=place(itinerary.home),
-                head=others,
-            )
+            ends = {"tail": itinerary.home, "head": tuple(elsewhere)}
+            reason = Fact("map in parts", scenario, robot=robot, **ends)
             vertices = tuple(map(name_of, (itinerary.home, *elsewhere)))
-            remedy = Phrase("join them, or give the robot other places")
-            yield Blockage(reason, (name,), vertices, remedy)
+            yield Blockage(reason, (name,), vertices, Fact("join the parts"))
             continue
         distances = distances or Distances(scenario.roadmap)
         for tail, head in _legs_without_a_way(itinerary, distances):
             if distances.to(head, _unbarred(itinerary))[tail] >= 0:
-                why, remedy = _explain_barred(scenario, robot, tail, head, place)
+                why, remedy = _explain_barred(scenario, robot, tail, head)
             elif opening := parts.find_opening(tail, head):
-                first, last = map(place, opening)
-                why = Phrase("the edge from {first} to {last} is one way", first=first, last=last)
-                remedy = Phrase("let robots drive it both ways, or give the robot other places")
+                first, last = opening
+                why = Fact("one-way edge", first=first, last=last)
+                remedy = Fact("drive both ways")
             else:
-                why = Phrase("one-way edges are the reason")
-                remedy = Phrase(
-                    "let robots drive more of them both ways, or give the robot other places"
-                )
-            reason = Phrase(
-                "{robot} has no way from {tail} to {head}: {why}",
-                robot=name,
-                tail=place(tail),
-                head=place(head),
-                why=why,
-            )
+                why, remedy = Fact("one-way edges"), Fact("drive more both ways")
+            reason = Fact("no way of robot", scenario, robot=robot, tail=tail, head=head, why=why)
             yield Blockage(reason, (name,), (name_of(tail), name_of(head)), remedy)
 
 
 def _explain_barred(
-    scenario: Scenario, robot: int, tail: VertexId, head: VertexId, place: PlaceNames
-) -> tuple[Phrase, Phrase]:
+    scenario: Scenario, robot: int, tail: VertexId, head: VertexId
+) -> tuple[Fact, Fact]:
     """Return why a robot has no way where others have one, and a remedy.
 
     On a grid edges are barred by the width of robots only, elsewhere by their types.
@@ -87,17 +71,10 @@ def _explain_barred(
     has_walls = scenario.roadmap.grid is not None
     narrowest = find_narrowest(scenario.roadmap, tail, head) if has_walls else None
     if narrowest is None:
-        why = Phrase("edges are barred for robots of type {type}", type=str(barred.type))
-        return why, Phrase("open one, or give the robot other places")
-    room, spot = narrowest
-    length = scenario.quantities.format_length
-    why = Phrase(
-        "its radius is {radius}, and walls leave room for {room} at {place}",
-        radius=length(barred.radius),
-        room=length(room),
-        place=place.describe_place(spot),
-    )
-    return why, Phrase("widen the way, or take a smaller robot")
+        return Fact("edges barred for type", type=barred.type), Fact("open an edge")
+    room, place = narrowest
+    why = Fact("walls too near", radius=barred.radius, room=room, place=place)
+    return why, Fact("widen the way of robot")
 
 
 def _unbarred(itinerary: Itinerary) -> tuple[Tick, ...]:
