@@ -13,10 +13,11 @@ def find_blockages(fleet: FleetBuilder) -> list[Blockage]:
 
 
 def test_places_in_other_parts_of_the_map_are_one_fact() -> None:
+    """Cells are named by their place in the file, and numbered without the walls."""
     fleet = FleetBuilder(grid=["..@..", "..@.."])
     fleet.add_robot("R1", home="N0", stops=["N3", "N1", "N9"])
     (blockage,) = find_blockages(fleet)
-    assert blockage.reason == Fact("map in parts", robot=0, tail=0, head=(3, 9))
+    assert blockage.reason == Fact("map in parts", robot=0, tail=0, head=(2, 7))
     assert blockage.remedy == Fact("join the parts")
     assert (blockage.robots, blockage.vertices) == (("R1",), ("N0", "N3", "N9"))
 
