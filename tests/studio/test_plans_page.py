@@ -58,7 +58,7 @@ def listed(studio: StudioPage) -> list[int]:
 
 
 def tab(studio: StudioPage) -> str:
-    """Return which tab is shown, with its count."""
+    """Return which tab is shown, with its count or number."""
     return " ".join(studio.page.get_by_role("tab", selected=True).inner_text().split())
 
 
@@ -89,6 +89,49 @@ def test_a_press_anywhere_on_a_row_plays_its_plan(opened: Opener) -> None:
     ]
     assert len(times) > 1
     assert times == sorted(times)
+
+
+def test_the_tab_has_the_number_of_the_plan_that_is_shown(opened: Opener) -> None:
+    """It had a count of plans, which reads as another number of a plan."""
+    studio = opened(BAY)
+    assert tab(studio) == "Plan"
+    planned_by(studio, "prioritized", "auto", "two-level")
+    for number in (3, 1, 2):
+        studio.row(number).locator(".show").click()
+        studio.shown(number)
+        assert tab(studio) == f"Plan No. {number}"
+    studio.row(1).get_by_role("button", name="Delete").click()
+    assert tab(studio) == "Plan No. 2"  # two plans are left
+    assert studio.complaints == []
+
+
+def heads(studio: StudioPage) -> list[str]:
+    """Return the heads of the figures of the list of plans."""
+    return [studio.text(f"table.runs th.{column}").strip() for column in ("flowtime", "took")]
+
+
+def test_heads_of_the_list_of_plans_have_the_unit_of_its_numbers(opened: Opener) -> None:
+    """Plans in several units have theirs beside each number; without a unit there is none."""
+    studio = opened(BAY)
+    planned_by(studio, "prioritized")
+    assert heads(studio) == ["Flowtime", "Time [s]"]
+    number = studio.row(1).locator("td").nth(3)
+    bare = studio.run(1)["figures"]["text"]["flowtime"].removesuffix(" time units")
+    assert number.inner_text().startswith(bare)
+    assert float(studio.row(1).locator("td").nth(4).inner_text()) >= 0
+    another(studio)  # in seconds
+    studio.tab("Plan")
+    begin(studio)
+    studio.shown(2)
+    assert heads(studio) == ["Flowtime [s]", "Time [s]"]
+    number = studio.row(2).locator("td").nth(3)
+    assert number.inner_text().split()[0] == bare
+    assert "s" not in number.inner_text().split()
+    studio.page.get_by_label("Whose plans are listed").select_option("*")
+    assert heads(studio) == ["Flowtime", "Time [s]"]
+    assert number.inner_text().split()[1] in {"s", "min", "h"}
+    assert studio.row(1).locator("td").nth(3).inner_text().startswith(bare)
+    assert studio.complaints == []
 
 
 def another(studio: StudioPage) -> None:
@@ -276,7 +319,7 @@ def test_a_reload_shows_the_tab_and_the_latest_plan_of_the_document(opened: Open
     studio.reload()
     studio.shown(2)
     assert studio.is_plan()
-    assert tab(studio) == "Plan 2"
+    assert tab(studio) == "Plan No. 2"
     assert studio.page.locator(".aside").count() == 0  # nothing has changed since
     assert [each for each in studio.requests if each.endswith("/payload")] == [
         urljoin(studio.page.url, "/api/v1/runs/2/payload")
@@ -285,7 +328,7 @@ def test_a_reload_shows_the_tab_and_the_latest_plan_of_the_document(opened: Open
     studio.page.go_back()
     studio.shown(2)
     assert studio.is_plan()
-    assert tab(studio) == "Plan 2"
+    assert tab(studio) == "Plan No. 2"
     assert studio.complaints == []
 
 
@@ -323,7 +366,7 @@ def test_a_floor_that_was_planned_before_it_had_a_name_keeps_its_plans(opened: O
     studio.shown(2)
     assert studio.is_plan()
     assert studio.page.locator("[data-run]").count() == 2
-    assert tab(studio) == "Plan 2"
+    assert tab(studio) == "Plan No. 2"
 
 
 def test_a_run_of_another_document_goes_on_unseen(opened: Opener) -> None:

@@ -75,12 +75,13 @@ function App() {
 function Tabs({ studio }) {
   const { store, runs } = studio;
   const robots = store.document?.robots;
+  const isShown = runs.payload !== null;
   const counts = {
     map:
       store.faults.length +
         store.survey.findings.filter(({ severity }) => severity !== "note").length || "",
     robots: Array.isArray(robots) ? robots.length : "",
-    plan: runs.plans(store, null).length || "",
+    plan: isShown ? `${words.number} ${runs.shown}` : "",
   };
   /**
    * @param {Tab} tab

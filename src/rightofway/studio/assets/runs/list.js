@@ -60,6 +60,7 @@ export function RunList({ studio }) {
     .filter((run) => !empty.includes(run))
     .sort((a, b) => SORTS[sort](a) - SORTS[sort](b));
   const shown = found.slice(0, listed);
+  const unit = unitOf(all);
   useEffect(() => {
     runs.notes.find(shown.map(({ number }) => number));
   }, [shown.map(({ number, state }) => `${number} ${state}`).join()]);
@@ -77,7 +78,7 @@ export function RunList({ studio }) {
   };
   /** @param {LiveRun} run */
   const row = (run) => html`<${Row} key=${run.number} studio=${studio} run=${run}
-    order=${shown} isOwn=${file === null} />`;
+    order=${shown} isOwn=${file === null} hasUnit=${Boolean(unit)} />`;
   const left = found.length - listed;
   return html`
     <section class="run-list" aria-labelledby="runs-title">
@@ -87,8 +88,8 @@ export function RunList({ studio }) {
       <table class="runs" hidden=${!all.length}>
         <thead><tr><td></td>${head("number", words.number)}
           <th scope="col" class="title">${words.name}</th>
-          ${head("flowtime", words.flowtime, words.terms.flowtime)}
-          ${head("took", words.took)}<td></td></tr></thead>
+          ${head("flowtime", withUnit(words.flowtime, unit), words.terms.flowtime)}
+          ${head("took", withUnit(words.took, "s"), words.tookHint)}<td></td></tr></thead>
         <tbody>${shown.map(row)}</tbody>
         ${empty.length > 0 && html`<${Empty} studio=${studio} runs=${empty} row=${row} />`}
       </table>
@@ -100,6 +101,25 @@ export function RunList({ studio }) {
       }
     </section>`;
 }
+
+/**
+ * The unit of time of all plans; empty where they have different ones, or none.
+ * @param {LiveRun[]} runs
+ * @returns {string}
+ */
+function unitOf(runs) {
+  const known = runs.flatMap(({ figures }) => figures ?? []);
+  const units = new Set(known.map(({ tick, units: { time } }) => (tick && time) || ""));
+  return units.size === 1 ? [...units][0] : "";
+}
+
+/**
+ * The head of a column of numbers.
+ * @param {string} title
+ * @param {string} unit
+ * @returns {string}
+ */
+const withUnit = (title, unit) => (unit ? `${title} [${unit}]` : title);
 
 /**
  * The runs that came to nothing: one line until somebody wants to see them.
@@ -168,8 +188,11 @@ function forget({ runs, notices }, numbers, about = "") {
   notices.say(about ? words.deleted(about) : text, words.undo, undo);
 }
 
-/** @param {Props & {run: LiveRun, order: LiveRun[], isOwn: boolean}} props */
-function Row({ studio, run, order, isOwn }) {
+/**
+ * A run; its flowtime is a number alone where the head of the list has the unit.
+ * @param {Props & {run: LiveRun, order: LiveRun[], isOwn: boolean, hasUnit: boolean}} props
+ */
+function Row({ studio, run, order, isOwn, hasUnit }) {
   const { runs } = studio;
   const { number, figures } = run;
   const isShown = number === runs.shown;
@@ -188,7 +211,7 @@ function Row({ studio, run, order, isOwn }) {
   const rest = [run.name || !isOwn ? method : "", stateOf(run), ...runs.notes.on(run)];
   const about = rest.filter(Boolean).join(" · ");
   const flowtime = figures?.tick
-    ? new Quantities(figures.units, figures.tick).short(figures.flowtime)
+    ? new Quantities(figures.units, figures.tick)[hasUnit ? "cell" : "short"](figures.flowtime)
     : figures?.text.flowtime;
   /**
    * @param {PageEvent} event
@@ -226,7 +249,7 @@ function Row({ studio, run, order, isOwn }) {
           ? html`<b class="wrong" title=${doNotRun(faultsOf(run))}>${inShort(faultsOf(run))}</b>`
           : html`${flowtime}${figures?.text.gap && html`<${Gap} figures=${figures} />`}`
       }</td>
-      <td class="short">${took ? `${took.toFixed(1)} s` : ""}</td>
+      <td class="short">${took ? took.toFixed(1) : ""}</td>
       <td class="do">${isOver(run) && remove}</td>
     </tr>
     ${

@@ -264,6 +264,7 @@ export const GERMAN = {
   timeUsed: "Verbrauchte Zeit",
   show: "Abspielen",
   took: "Zeit",
+  tookHint: "Zeit: wie lange das Planen gedauert hat",
   comparison: "Verglichen",
   sideBySide: "Nebeneinander zeigen",
   endComparison: "Beenden",

@@ -265,6 +265,7 @@ export const ENGLISH = {
   timeUsed: "Time used",
   show: "Play",
   took: "Time",
+  tookHint: "Time: how long planning took",
   comparison: "Compared",
   sideBySide: "Show side by side",
   endComparison: "End",
