@@ -177,7 +177,7 @@ class WarmCommand(Command):
 
 IMPORTS = (
     "aiomqtt",
-    "rightofway.cli.drive",
+    "rightofway.control.command_line.drive",
     "rightofway.control.commands",
     "rightofway.control.driver",
     "rightofway.control.identities",

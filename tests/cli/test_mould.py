@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from rightofway import __version__
-from rightofway.cli.main import GROUPS, commands
+from rightofway.cli.main import commands
+from rightofway.cli.parts import GROUPS
 from tests.cli.conftest import EXAMPLES, SWAP, Cli
 
 SCEN = EXAMPLES / "maps" / "warehouse-10-20-10-2-1-random-1.scen"

@@ -74,6 +74,24 @@ def test_a_plan_needs_only_what_reads_and_plans(tmp_path: Path) -> None:
     assert not {name for name in loaded if name.startswith(("rightofway.viz", "rightofway.studio"))}
 
 
+def test_help_imports_commands_of_rooms_above_and_nothing_else_of_them() -> None:
+    loaded = imported_by("--help")
+    above = {
+        name for name in loaded if name.startswith(("rightofway.control", "rightofway.studio"))
+    }
+    assert above == {
+        "rightofway.control",
+        "rightofway.control.command_line",
+        "rightofway.control.command_line.broker_options",
+        "rightofway.control.command_line.drive",
+        "rightofway.control.command_line.jobs",
+        "rightofway.control.command_line.robots",
+        "rightofway.control.command_line.watch",
+        "rightofway.studio",
+        "rightofway.studio.command_line",
+    }
+
+
 def test_a_classic_plan_needs_no_library_that_reads_documents(tmp_path: Path) -> None:
     """A `.scen` file is a list of numbers, and the plan is written without any model of it."""
     scen = str(EXAMPLES / "maps" / "warehouse-10-20-10-2-1-random-1.scen")
@@ -83,7 +101,9 @@ def test_a_classic_plan_needs_no_library_that_reads_documents(tmp_path: Path) ->
     assert not loaded & {f"rightofway.{module}" for module in OF_OTHER_WORK}
 
 
-@pytest.mark.parametrize("room", ["io", "io.layouts", "metrics", "precedence", "search", "viz"])
+@pytest.mark.parametrize(
+    "room", ["control", "io", "io.layouts", "metrics", "precedence", "search", "viz"]
+)
 def test_a_room_gives_all_its_names_and_those_that_it_imports_later_once(room: str) -> None:
     package = import_module(f"rightofway.{room}")
     later = [name for names in package._MODULES.values() for name in names]

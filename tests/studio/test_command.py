@@ -22,7 +22,7 @@ from tests.builders.studios import command
 def test_without_the_extra_it_says_how_to_install_it(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("rightofway.cli.studio.find_spec", lambda _: None)
+    monkeypatch.setattr("rightofway.studio.command_line.find_spec", lambda _: None)
     assert run(["studio"]) == 2
     assert "pip install 'rightofway[studio]'" in capsys.readouterr().err
 

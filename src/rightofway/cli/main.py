@@ -32,6 +32,7 @@ from typing import Any, NoReturn, cast
 import click
 
 from rightofway import __version__
+from rightofway.cli.parts import GROUPS, MODULES, load_command
 from rightofway.cli.terminal import add_shared_options, complain, say, speak_utf8
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists, describe_error
 from rightofway.phrases import Phrase
@@ -59,35 +60,10 @@ Start with:
   rightofway plan examples/door.yaml --page door.html
 """
 
-GROUPS: dict[str, dict[str, str]] = {
-    "Begin": {
-        "new": "examples",
-        "examples": "examples",
-        "inspect": "inspect",
-        "studio": "studio",
-    },
-    "Plan": {"plan": "planning", "improve": "planning", "bound": "planning"},
-    "Look at plans": {
-        "check": "views",
-        "show": "views",
-        "table": "tables",
-        "collisions": "collisions",
-    },
-    "Repeated work and delays": {"laps": "laps", "simulate": "simulate"},
-    "Drive": {"drive": "drive", "jobs": "jobs", "robots": "robots"},
-    "Compare": {"bench": "bench", "paper": "paper"},
-    "Formats": {"convert": "formats", "schema": "formats"},
-}
-"""The commands with their modules, by what they are for, in the order of help."""
-
-
-MODULES = {name: module for group in GROUPS.values() for name, module in group.items()}
-
 
 @cache
 def _command(name: str) -> click.Command:
-    command: click.Command = getattr(import_module(f"rightofway.cli.{MODULES[name]}"), name)
-    return cast("click.Command", add_shared_options(command))
+    return cast("click.Command", add_shared_options(load_command(name)))
 
 
 class _Modules(Mapping[str, click.Command]):

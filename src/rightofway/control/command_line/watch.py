@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rightofway.cli.options import Whole
+from rightofway.cli.parts import load_page_server
 from rightofway.cli.terminal import complain
 from rightofway.errors import InputError
 from rightofway.files import write_whole
@@ -60,21 +61,19 @@ class WatchPage:
     def serve(self, journal: Path, *, takes_orders: bool) -> Iterator[None]:
         """Serve the page of a journal as long as the context lasts."""
         self.require_packages("--live" if takes_orders else "--replay")
-        from rightofway.studio.serve import serve_watch
-        from rightofway.studio.watching import Watched
-
-        watched = Watched(
+        server = load_page_server()
+        watched = server.Watched(
             self.plan, journal, title=self.title, address="/drives/0/", takes_orders=takes_orders
         )
-        with serve_watch(watched, host=self.host, port=self.port, say=complain):
+        with server.serve_watch(watched, host=self.host, port=self.port, say=complain):
             yield
 
     def write(self, journal: Path, path: str) -> None:
         """Write the page of all that a journal has, as one file."""
         self.require_packages("--replay")
-        from rightofway.studio.watching import Watched
-
-        watched = Watched(self.plan, journal, title=self.title, takes_orders=False)
+        watched = load_page_server().Watched(
+            self.plan, journal, title=self.title, takes_orders=False
+        )
         write_whole(path, watched.make_page(is_whole=True))
 
     @staticmethod

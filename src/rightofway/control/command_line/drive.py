@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rightofway.cli.broker import add_broker_options
 from rightofway.cli.completion import PLANS, complete_files
 from rightofway.cli.inputs import add_foreign_options, read_plan
 from rightofway.cli.options import (
@@ -39,7 +38,8 @@ from rightofway.cli.terminal import (
     say,
     say_written,
 )
-from rightofway.cli.watch import WatchPage, add_page_options
+from rightofway.control.command_line.broker_options import add_broker_options
+from rightofway.control.command_line.watch import WatchPage, add_page_options
 from rightofway.errors import name_file
 from rightofway.phrases import Phrase
 

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import click
 
-from rightofway.cli.broker import add_broker_options
 from rightofway.cli.completion import PLANS, complete_files
 from rightofway.cli.inputs import add_foreign_options, read_plan
 from rightofway.cli.options import seed_option
 from rightofway.cli.terminal import say, say_written
+from rightofway.control.command_line.broker_options import add_broker_options
 from rightofway.phrases import Phrase
 
 EXAMPLES = """\b

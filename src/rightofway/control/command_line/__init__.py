@@ -1,0 +1,1 @@
+"""Commands of fleet control: `drive`, `jobs` and `robots`; `rightofway.cli.parts` lists them."""
