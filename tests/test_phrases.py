@@ -22,7 +22,7 @@ VALUE = re.compile(r"\{(\w+)\}")
 
 
 TERMINAL = {
-    *("control/report.py", "report/execution.py", "report/inspection.py"),
+    *("report/driving.py", "report/execution.py", "report/inspection.py"),
     *("report/laps.py", "report/plan.py"),
 }
 """Reports of the command line, which speaks English; the modules in ``cli`` belong to it, too."""

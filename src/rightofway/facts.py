@@ -7,7 +7,7 @@ the values as people read them: a robot by its name, ticks as a time.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Protocol, cast
+from typing import Any, Protocol, Self, cast
 
 from rightofway.provision import provided
 
@@ -38,6 +38,25 @@ class Fact:
         self.about = about
         self.values: Mapping[str, Any] = values
 
+    def as_dict(self) -> dict[str, Any]:
+        """Return kind and values as JSON has them; facts among the values likewise."""
+        values = {name: _pack(value) for name, value in self.values.items()}
+        return {"kind": self.kind, "values": values}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any], about: Any = None) -> Self:
+        """Return the fact of `as_dict`.
+
+        Parameters
+        ----------
+        data
+            Its kind and values.
+        about
+            The scenario of the values.
+        """
+        values = {name: _unpack(value) for name, value in data["values"].items()}
+        return cls(data["kind"], about=about, **values)
+
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Fact):
             return NotImplemented
@@ -52,6 +71,18 @@ class Fact:
 
     def __str__(self) -> str:
         return get_teller().tell_fact(self)
+
+
+def _pack(value: Any) -> Any:
+    if isinstance(value, Fact):
+        return value.as_dict()
+    return [_pack(item) for item in value] if isinstance(value, list | tuple) else value
+
+
+def _unpack(value: Any) -> Any:
+    if isinstance(value, dict):
+        return Fact.from_dict(value)
+    return tuple(map(_unpack, value)) if isinstance(value, list) else value
 
 
 class Teller(Protocol):

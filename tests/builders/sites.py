@@ -29,7 +29,7 @@ class Site:
         self.said: list[str] = []
         self.time = 0.0
         names = [robot.name for robot in plan.scenario.robots]
-        notices = Notices(names, self.said.append, lambda: self.time)
+        notices = Notices(names, lambda fact: self.said.append(str(fact)), lambda: self.time)
         self.control = FleetControl(MemoryJournal(), report=notices.report_on)
         routes = make_routes_to_drive(plan)
         self.control.begin("run", routes, ReleaseGraph.of(plan.scenario, plan.tracks))

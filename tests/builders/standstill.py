@@ -18,6 +18,7 @@ from rightofway.control.commitments import list_stops_to_make
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.story import Happening, Story
 from rightofway.errors import GaveUp, InputError, NoPlanExists
+from rightofway.facts import Fact
 from rightofway.io import parse_scenario
 from rightofway.model import Plan
 from tests.builders.chaos import MemoryJournal
@@ -95,7 +96,8 @@ class StandingFleet:
         self._story = Story(self.ledger, self.ledger.names)
         self.last: dict[int, Happening] = {}  # the last line on each robot
 
-    def _note_trouble(self, sentence: str, is_over: bool) -> None:
+    def _note_trouble(self, fact: Fact | None, is_over: bool) -> None:
+        sentence = "" if fact is None else str(fact)
         self.trouble = "" if is_over else sentence
         self.reports += [sentence] if sentence else []
 

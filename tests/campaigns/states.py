@@ -114,9 +114,7 @@ def fuzz_states(count: int, seed: int) -> Counter[str]:
     draw, said, kept = random.Random(seed), Counter[str](), list[Entry]()  # noqa: S311
     plan = warehouse(4, seed=seed % 5)
     names = [robot.name for robot in plan.scenario.robots]
-    notices = Notices(
-        names, lambda sentence: said.update([sentence]), lambda: 0.0, keep=kept.append
-    )
+    notices = Notices(names, lambda fact: said.update([str(fact)]), lambda: 0.0, keep=kept.append)
     control = FleetControl(MemoryJournal(), report=notices.report_on)
     Dispatcher(control, plan).begin("run")
     identities = make_simulated_identities(names, draw.choice(VERSIONS))

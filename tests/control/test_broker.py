@@ -29,6 +29,7 @@ from rightofway.control.identities import (
 from rightofway.control.journal import SqliteJournal
 from rightofway.control.robots import run_robots
 from rightofway.errors import InputError
+from rightofway.facts import Fact
 from rightofway.io import load_plan, write_plan
 from rightofway.model import Plan
 from tests.builders.brokers import MOSQUITTO, Command, Mosquitto, free_port, wait_for
@@ -191,9 +192,9 @@ def test_withdrawals_over_the_broker_lose_nothing(tmp_path: Path, broker: Mosqui
     address = Broker.of(broker.url)
     draw = random.Random(2)  # noqa: S311
 
-    def take_note(sentence: str) -> None:
-        """Withdraw an order at every third sentence of the story."""
-        said.append(sentence)
+    def take_note(fact: Fact) -> None:
+        """Withdraw an order at every third fact of the story."""
+        said.append(str(fact))
         if len(said) % 3 == 0 and len(said) < 60:
             loop = asyncio.get_running_loop()
             name = draw.choice(names)

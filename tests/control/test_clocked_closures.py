@@ -13,11 +13,11 @@ import pytest
 import rightofway
 from rightofway.control import SimulatedRobot, SqliteJournal
 from rightofway.control.demo import drive_demo
-from rightofway.control.drive_result import DriveResult
 from rightofway.control.driver import Driver
 from rightofway.control.endpoints import RobotEnd
 from rightofway.control.identities import make_simulated_identities
 from rightofway.errors import GaveUp, InputError, NoPlanExists
+from rightofway.execution.drive_result import DriveResult
 from rightofway.io import parse_scenario
 from rightofway.model import Plan
 from tests.builders.closures import closed_fleet
@@ -44,7 +44,7 @@ def lane(*closures: dict[str, object]) -> Plan:
 def driven(plan: Plan, delays: str | tuple[()] = ()) -> tuple[DriveResult, list[str]]:
     """Return how a plan was driven, and what was said."""
     lines = list[str]()
-    result = drive_demo(plan, delays, report=lambda _, sentence: lines.append(sentence))
+    result = drive_demo(plan, delays, report=lambda _, fact: lines.append(str(fact)))
     return result, lines
 
 
@@ -71,7 +71,9 @@ def driver_of(
     """
     said = list[str]()
     identities, began = make_simulated_identities(["R1"]), time.time() - seconds
-    driver = Driver(plan, identities, journal, report=said.append, began=began)
+    driver = Driver(
+        plan, identities, journal, report=lambda fact: said.append(str(fact)), began=began
+    )
     letters = deque(driver.end.make_letters(driver.control.start()))
     for _ in range(12):
         letters.extend(driver._obey())

@@ -15,17 +15,18 @@ import pytest
 import rightofway
 from rightofway.control.commands import Commands
 from rightofway.control.demo import drive_demo, make_pause
-from rightofway.control.drive_result import DriveResult
 from rightofway.control.endpoints import Letter
 from rightofway.control.identities import VERSIONS
 from rightofway.control.journal import SqliteJournal
-from rightofway.control.report import report
 from rightofway.control.story import Happening, Story
 from rightofway.control.vda5050 import InstantActions, OrderMessage, StateMessage, read
 from rightofway.cyclic import find_best_timetable
 from rightofway.errors import InputError
+from rightofway.execution.drive_result import DriveResult
+from rightofway.facts import Fact
 from rightofway.io import parse_scenario
 from rightofway.model import Tick
+from rightofway.report.driving import report_drive
 from tests.builders.chaos import chaotic_plan, laps_plan
 from tests.builders.plans import door, door_shifted
 from tests.builders.schemas import validator
@@ -49,8 +50,8 @@ def story_of(delays: str | tuple[()] = (), seed: int = 0) -> tuple[DriveResult, 
     """Return how the door was driven, and the story."""
     lines = list[str]()
 
-    def note(tick: Tick, sentence: str) -> None:
-        lines.append(f"{tick} {sentence}")
+    def note(tick: Tick, fact: Fact) -> None:
+        lines.append(f"{tick} {fact}")
 
     return drive_demo(door(), delays, seed, report=note), "\n".join(lines)
 
@@ -157,7 +158,7 @@ def test_laps_with_work_at_several_stops_are_driven_to_their_end(planner: str) -
 
 def test_the_report_names_jobs_and_messages() -> None:
     result, _ = story_of()
-    assert report(result, result.plan.scenario.quantities).splitlines() == [
+    assert report_drive(result, result.plan.scenario.quantities).splitlines() == [
         "jobs      2 done",
         "makespan  12 time units; planned 10 time units",
         "messages  12 orders, 2 instant actions, 50 states",
@@ -178,7 +179,7 @@ def test_laps_are_driven_until_each_robot_has_made_as_many_as_wanted() -> None:
     assert result.as_dict()["ticks"] == result.now
     assert [robot["laps"] for robot in result.as_dict()["robots"]] == list(result.laps)
     assert 19 * 14 < result.now <= 21 * 14
-    lines = report(result, plan.scenario.quantities).splitlines()
+    lines = report_drive(result, plan.scenario.quantities).splitlines()
     assert lines[1] == f"laps      {sum(result.laps)} in {result.now} time units"
     assert lines[5].split() == ["robot", "jobs", "waits", "laps", "mean", "lap"]
 
@@ -246,8 +247,8 @@ def test_others_go_round_a_robot_on_hold_as_at_a_broker(moment: str, tmp_path: P
     if not moment:
         people.ask({"kind": "hold", "name": "C"})
 
-    def note(_: Tick, sentence: str) -> None:
-        lines.append(sentence)
+    def note(_: Tick, fact: Fact) -> None:
+        lines.append(sentence := str(fact))
         if sentence == moment:
             people.ask({"kind": "hold", "name": "C"})
         if sentence.startswith("E is at the end"):
@@ -309,12 +310,12 @@ def test_the_story_of_robots_that_have_changed_is_the_story_of_all(
         ledger.changed.update(range(len(ledger.robots)))
         return go_on(story)
 
-    def tell() -> list[tuple[int, str]]:
-        sentences: list[tuple[int, str]] = []
-        drive_demo(warehouse(6), "chance:0.2x5", report=lambda *said: sentences.append(said))
-        return sentences
+    def tell() -> list[tuple[int, Fact]]:
+        facts: list[tuple[int, Fact]] = []
+        drive_demo(warehouse(6), "chance:0.2x5", report=lambda *told: facts.append(told))
+        return facts
 
     by_changes = tell()
     monkeypatch.setattr(Story, "go_on", look_at_all)
     assert by_changes == tell()
-    assert any(" waits at " in text for _, text in by_changes)
+    assert any(fact.kind == "waits" for _, fact in by_changes)

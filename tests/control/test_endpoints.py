@@ -12,6 +12,7 @@ import pytest
 from rightofway.control import Order
 from rightofway.control.endpoints import Letter
 from rightofway.control.identities import VERSIONS, Identity
+from rightofway.facts import Fact
 from tests.builders.plans import door
 from tests.builders.schemas import validator
 from tests.builders.sites import Site
@@ -73,7 +74,7 @@ def test_each_loss_of_a_robot_is_reported_also_by_silence() -> None:
     site = Site()
     for number in range(15):
         site.send(1, "connection", {"connectionState": "CONNECTIONBROKEN"})
-        site.end.connect(1, is_connected=False, why="has been silent for 35 s")
+        site.end.connect(1, is_connected=False, why=Fact("silent", seconds=35.0))
         if number % 2:
             site.send(1, "connection", {"connectionState": "ONLINE"})
         site.say(1)

@@ -98,7 +98,9 @@ def test_a_robot_on_hold_gets_nothing_more_until_it_is_let_go() -> None:
 def test_a_robot_with_an_order_of_others_is_faulty_until_a_person_has_looked() -> None:
     told: list[tuple[int, str]] = []
     plan = door()
-    control = FleetControl(MemoryJournal(), report=lambda *said: told.append((said[0], said[1])))
+    control = FleetControl(
+        MemoryJournal(), report=lambda robot, fact: told.append((robot, str(fact)))
+    )
     graph = ReleaseGraph.of(plan.scenario, plan.tracks)
     control.begin("run", make_routes_to_drive(plan), graph)
     control.start()
@@ -243,7 +245,9 @@ def test_a_robot_whose_work_has_failed_goes_no_further_and_others_go_on() -> Non
     """R2 fails at N8; R1 follows it through the door and does its own work at N6."""
     told: list[tuple[int, str]] = []
     plan, robots = door(), [SimulatedRobot("N0"), SimulatedRobot("N2")]
-    control = FleetControl(MemoryJournal(), report=lambda *said: told.append((said[0], said[1])))
+    control = FleetControl(
+        MemoryJournal(), report=lambda robot, fact: told.append((robot, str(fact)))
+    )
     control.begin("run", make_routes_to_drive(plan), ReleaseGraph.of(plan.scenario, plan.tracks))
     messages = [*control.start()]
     for _ in range(60):

@@ -12,6 +12,7 @@ from rightofway.control.commands import Commands
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.fleet_control import LedgerFailed
 from rightofway.control.operator import Operator
+from tests.builders.answers import tell_answer
 from tests.builders.plans import door
 from tests.builders.sites import Site
 
@@ -82,8 +83,9 @@ def test_a_command_that_raises_is_answered_as_failed_and_no_start_repeats_it(
         patch.setattr(dispatcher, "replan", fail)
         _, first = Operator(dispatcher).obey(commands)
     reason = "unexpected RuntimeError: of a defect (please report it), from the command"
-    text = f"""{reason} '{{"kind": "replan"}}'"""
-    assert first[0] == (1, {"done": False, "text": text})
+    text = f"""refused: {reason} '{{"kind": "replan"}}'"""
+    assert first[0][0] == 1
+    assert tell_answer(first[0][1]) == (False, text)
     assert dispatcher.ledger.robots[0].is_on_hold
     journal.close()
     again = SqliteJournal(tmp_path / "a.journal")
@@ -91,7 +93,10 @@ def test_a_command_that_raises_is_answered_as_failed_and_no_start_repeats_it(
     with monkeypatch.context() as patch:
         patch.setattr(replanned, "replan", fail)
         _, second = Operator(replanned).obey(commands)
-    assert [answer["text"] for _, answer in second] == ["carried out before a start", "R1: hold"]
+    assert [tell_answer(answer)[1] for _, answer in second] == [
+        "carried out before a start",
+        "R1: hold",
+    ]
     again.close()
     commands.close()
 

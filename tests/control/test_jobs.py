@@ -16,6 +16,7 @@ from rightofway.control.names import list_jobs
 from rightofway.control.operator import Operator
 from rightofway.errors import InputError
 from rightofway.io import parse_scenario
+from tests.builders.answers import tell_answer
 from tests.builders.chaos import MemoryJournal
 from tests.builders.floors import Floor
 from tests.builders.plans import door
@@ -145,7 +146,7 @@ def test_the_answer_says_where_a_job_was_put(
     floor.drive(steps)
     number = commands.ask({"kind": "add", **options})
     obey(floor, commands)
-    assert commands.wait_for(number, 0) == {"done": True, "text": text}
+    assert tell_answer(commands.wait_for(number, 0)) == (True, text)
 
 
 @pytest.mark.parametrize(
@@ -211,12 +212,12 @@ def test_a_command_is_carried_out_once_though_its_answer_was_lost(tmp_path: Path
     number = people.ask({"kind": "add", "at": "N7", "work": "2"})
     obey(floor, commands)
     text = "R1/job1 at N7 is added before R1/job0 at N6"
-    assert people.wait_for(number, 0) == {"done": True, "text": text}
+    assert tell_answer(people.wait_for(number, 0)) == (True, text)
     people._database.execute("UPDATE commands SET answer = NULL")
     again = Dispatcher(FleetControl(journal), door())
     [(_, answer)] = Operator(again).obey(commands)[1]
     commands.answer(number, answer)
-    assert people.wait_for(number, 0) == {"done": True, "text": text}
+    assert tell_answer(people.wait_for(number, 0)) == (True, text)
     assert [job["name"] for job in list_jobs(again.ledger)].count("R1/job1") == 1
     assert "R1/job2" not in [job["name"] for job in list_jobs(again.ledger)]
 
@@ -224,23 +225,30 @@ def test_a_command_is_carried_out_once_though_its_answer_was_lost(tmp_path: Path
 @pytest.mark.parametrize(
     ("command", "answer"),
     [
-        ({"kind": "hold"}, {"done": True, "text": "all robots: hold"}),
-        ({"kind": "go", "name": "R1"}, {"done": True, "text": "R1: go"}),
-        ({"kind": "fly"}, {"done": False, "text": "command: 'fly' is no command"}),
-        ({"kind": "remove"}, {"done": False, "text": "robot: remove needs the name of a robot"}),
-        ({"kind": "withdraw", "name": "R1/x"}, {"done": False, "text": "job: 'R1/x' is no job"}),
+        ({"kind": "hold"}, (True, "all robots: hold")),
+        ({"kind": "go", "name": "R1"}, (True, "R1: go")),
+        ({"kind": "close", "name": "N4"}, (True, "N4 is closed")),
+        (
+            {"kind": "close", "name": "N4", "to": "N7"},
+            (True, "the lane between N4 and N7 is closed"),
+        ),
+        ({"kind": "withdraw", "name": "R1/job0"}, (True, "R1/job0 is withdrawn")),
+        ({"kind": "change", "name": "R1/job0", "work": "3"}, (True, "R1/job0 is changed")),
+        ({"kind": "replan"}, (True, "replanned")),
+        ({"kind": "fly"}, (False, "refused: command: 'fly' is no command")),
+        ({"kind": "remove"}, (False, "refused: robot: remove needs the name of a robot")),
+        ({"kind": "withdraw", "name": "R1/x"}, (False, "refused: job: 'R1/x' is no job")),
     ],
 )
 def test_each_command_has_an_answer(
-    tmp_path: Path, command: dict[str, str], answer: dict[str, object]
+    tmp_path: Path, command: dict[str, str], answer: tuple[bool, str]
 ) -> None:
     floor, commands = driven(2), Commands(tmp_path / "run.journal")
     number = commands.ask(command)
     obey(floor, commands)
-    found = commands.wait_for(number, 0)
-    assert found is not None
-    assert found["done"] == answer["done"]
-    assert str(found["text"]).startswith(str(answer["text"]))
+    done, sentence = tell_answer(commands.wait_for(number, 0))
+    assert done == answer[0]
+    assert sentence.startswith(answer[1])
     assert commands.list_unanswered() == []
 
 

@@ -21,9 +21,11 @@ from rightofway.control import (
     SqliteJournal,
 )
 from rightofway.control.dispatcher import Dispatcher
-from rightofway.control.journal import BatchedJournal, JournalRow
+from rightofway.control.journal import VERSION, BatchedJournal, JournalRow
+from rightofway.control.notices import make_notice
 from rightofway.control.recording import Recording
 from rightofway.errors import InputError
+from rightofway.facts import Fact
 from tests.builders.chaos import MemoryJournal
 from tests.builders.floors import Floor
 from tests.builders.plans import door
@@ -115,31 +117,11 @@ def test_what_is_no_journal_is_not_read(tmp_path: Path) -> None:
             JournalReader(tmp_path / name)
 
 
-def test_a_journal_of_an_earlier_version_goes_on_with_moments(tmp_path: Path) -> None:
-    path = tmp_path / "run.journal"
-    database = sqlite3.connect(path)
-    database.execute("CREATE TABLE entries (number INTEGER PRIMARY KEY, entry TEXT)")
-    database.execute("CREATE TABLE snapshots (number INTEGER)")
-    database.execute("""INSERT INTO entries (entry) VALUES ('{"kind": "started"}')""")
-    database.commit()
-    database.close()
-    reader = JournalReader(path)
-    assert reader.read_rows() == [JournalRow(1, None, ENTRIES[0])]
-    reader.close()
-    journal = SqliteJournal(path, lambda: 7.0)
-    journal.commit(ENTRIES[1:])
-    assert list(journal.read_entries()) == ENTRIES
-    reader = JournalReader(path)
-    assert [row.moment for row in reader.read_rows()] == [None, 7.0]
-    reader.close()
-    journal.close()
-
-
 def test_a_snapshot_leaves_the_notices_that_are_not_on_the_disk_yet(tmp_path: Path) -> None:
     """It says all that they would say of robots, and nothing of what people were told."""
     journal = SqliteJournal(tmp_path / "run.journal")
     batched = BatchedJournal(journal)
-    told: Entry = {"kind": "notice", "robot": 0, "about": "", "over": False, "text": "is late"}
+    told = make_notice(Fact("paused"), 0)
     batched.commit([*ENTRIES, told])
     batched.begin_again({"kind": "snapshot"})
     batched.flush()
@@ -193,13 +175,15 @@ def start(path: Path) -> None:
         FleetControl(journal).start()
 
 
-def test_a_journal_carries_its_version_and_a_newer_one_is_refused(driven: Path) -> None:
+@pytest.mark.parametrize("version", [0, VERSION - 1, VERSION + 1])
+def test_a_journal_carries_its_version_and_others_are_refused(driven: Path, version: int) -> None:
     start(driven)
     with closing(sqlite3.connect(driven)) as database:
-        assert database.execute("PRAGMA user_version").fetchone() == (1,)
-    change(driven, "PRAGMA user_version = 2")
+        assert database.execute("PRAGMA user_version").fetchone() == (VERSION,)
+    change(driven, f"PRAGMA user_version = {version}")
+    message = rf"door\.journal: is a journal of version {version}, and this"
     for opens in (SqliteJournal, JournalReader):
-        with pytest.raises(InputError, match=r"door\.journal: is a journal of version 2, and this"):
+        with pytest.raises(InputError, match=message):
             opens(driven)
 
 

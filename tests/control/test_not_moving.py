@@ -21,7 +21,9 @@ class Watch:
         self.now, self.said, self.kept = 0, list[str](), list[Entry]()
         plan = door()
         names = [robot.name for robot in plan.scenario.robots]
-        notices = Notices(names, self.said.append, lambda: 0.0, keep=self.kept.append)
+        notices = Notices(
+            names, lambda fact: self.said.append(str(fact)), lambda: 0.0, keep=self.kept.append
+        )
         self.control = FleetControl(MemoryJournal(), look_ahead=2)
         dispatcher = Dispatcher(self.control, plan)
         dispatcher.begin("run")

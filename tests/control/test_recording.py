@@ -15,8 +15,10 @@ from rightofway.control.demo import drive_demo
 from rightofway.control.notices import EVERY_KIND, make_notice
 from rightofway.control.recording import Recording
 from rightofway.errors import InputError
+from rightofway.facts import Fact
 from rightofway.model import Plan
-from rightofway.phrases import Phrase, join_parts, to_parts
+from rightofway.phrases import join_parts, to_parts
+from rightofway.report.facts import FactWriter
 from tests.builders.pages import ROOT
 from tests.builders.plans import door
 from tests.builders.warehouses import warehouse
@@ -115,15 +117,16 @@ def test_alarms_begin_and_end(tmp_path: Path) -> None:
     drive_demo(door(), journal=path)
     moments = iter((20.0, 21.0))
     journal = SqliteJournal(path, lambda: next(moments))
-    lost = to_parts(Phrase("is not connected"))
+    lost = Fact("not connected")
     journal.commit([make_notice(lost, 0, "lost")])
-    journal.commit([make_notice("", 0, "lost", is_over=True)])
+    journal.commit([make_notice(None, 0, "lost", is_over=True)])
     journal.close()
     reader = JournalReader(path)
     recording = Recording(door(), reader)
     recording.read_on()
     alarms = [row for row in recording.take_frame()["rows"] if row[2] == "alarm"]
-    assert alarms == [(20.0, 0, "alarm", "lost", lost), (21.0, 0, "alarm", "lost", None)]
+    sentence = to_parts(FactWriter(None).write(lost))
+    assert alarms == [(20.0, 0, "alarm", "lost", sentence), (21.0, 0, "alarm", "lost", None)]
     reader.close()
 
 
@@ -132,10 +135,11 @@ def test_a_start_ends_the_alarms_that_notices_have_begun_and_no_others(tmp_path:
     path = tmp_path / "run.journal"
     drive_demo(door(), journal=path)
     journal = SqliteJournal(path, lambda: 20.0)
-    lost, fault = to_parts(Phrase("is not connected")), {"fault": "is off its way", "place": None}
+    fault = Fact("off way", place="N3").as_dict()
+    lost, entry = Fact("not connected"), {"fault": fault, "place": None}
     journal.commit([make_notice(lost, 0, "lost"), make_notice(lost, -1, "broker")])
-    journal.commit([{"kind": "fault", "robot": 1, **fault}])
-    journal.commit([make_notice("", kind=EVERY_KIND, is_over=True)])
+    journal.commit([{"kind": "fault", "robot": 1, **entry}])
+    journal.commit([make_notice(None, kind=EVERY_KIND, is_over=True)])
     journal.close()
     reader = JournalReader(path)
     recording = Recording(door(), reader)
@@ -206,3 +210,41 @@ def test_a_demo_begins_anew_and_takes_no_journal_of_another_run(tmp_path: Path) 
     assert rows[0].entry == {"kind": "pace", "seconds": None}
     with pytest.raises(InputError, match="has a run already"):
         drive_demo(door(), journal=tmp_path / "demo.journal")
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"fact": {"kind": "of a newer version", "values": {}}},
+        {"fact": {"kind": "moving"}},
+        {"fact": {"kind": "paused", "values": []}},
+        {"fact": "x"},
+    ],
+)
+def test_a_wrong_notice_is_refused_with_its_number(
+    tmp_path: Path, change: dict[str, object]
+) -> None:
+    path = tmp_path / "run.journal"
+    journal = SqliteJournal(path)
+    journal.commit([{**make_notice(None), **change}])
+    journal.close()
+    reader = JournalReader(path)
+    with pytest.raises(InputError, match=r"entry\[1\]: .* cannot be read"):
+        Recording(door(), reader).read_on()
+    reader.close()
+
+
+def test_a_journal_of_a_run_has_kinds_and_values_and_no_sentences(tmp_path: Path) -> None:
+    """Each notice and each answer in it is a fact that is told as it was reported."""
+    told = list[str]()
+
+    def note(_: int, fact: Fact) -> None:
+        told.append(str(fact))
+
+    rows = recorded(door(), tmp_path, delays="stop:R2@0+100", report=note)
+    facts = [row.entry["fact"] for row in rows if row.entry.get("fact")]
+    assert [fact["kind"] for fact in facts] == ["about robot", "about robot"]
+    begin, end = (fact["values"]["predicate"] for fact in facts)
+    assert begin == {"kind": "not moving", "values": {"place": "N2", "target": "N8"}}
+    assert end == {"kind": "moving", "values": {}}
+    assert {str(Fact.from_dict(fact)) for fact in facts} < set(told)

@@ -15,6 +15,7 @@ from rightofway.control.notices import Notices
 from rightofway.control.rest import RestPlanner
 from rightofway.control.supervisor import Supervisor
 from rightofway.errors import GaveUp
+from rightofway.facts import Fact
 from rightofway.io import parse_scenario
 from rightofway.model import Plan
 from tests.builders.chaos import MemoryJournal, chaotic_plan
@@ -70,7 +71,7 @@ def test_robots_with_work_behind_one_closed_lane_do_their_other_work_and_wait_as
     assert jobs_done(fleet) == {"A": 1, "B": 1, "C": 0, "F": 1}
     assert fleet.trouble == ""
     assert "until the lane between X and R is open" in " ".join(
-        told.text for told in fleet.last.values()
+        str(told.fact) for told in fleet.last.values()
     )
     assert (fleet.list_silent(), fleet.list_free()) == ([], [])
     fleet.send(fleet.floor.operator.operate("go", "C"))
@@ -163,11 +164,17 @@ def test_replanning_that_fails_is_an_alarm_as_long_as_it_does() -> None:
     said, entries = list[str](), list[Entry]()
     dispatcher = Dispatcher(FleetControl(MemoryJournal()), crossing())
     dispatcher.begin("run")
-    notices = Notices(dispatcher.ledger.names, said.append, keep=entries.append)
+    notices = Notices(
+        dispatcher.ledger.names, lambda fact: said.append(str(fact)), keep=entries.append
+    )
     Supervisor(dispatcher, notices, lambda: 0)
-    for sentence, is_over in (("", True), ("the old plan stands", False), ("it is over", True)):
-        dispatcher.report(sentence, is_over)
-    assert said == ["the old plan stands", "it is over"]
+    for fact, is_over in (
+        (None, True),
+        (Fact("no plan of the rest", reason="R1 is in the way"), False),
+        (Fact("rest replanned"), True),
+    ):
+        dispatcher.report(fact, is_over)
+    assert said == ["the old plan stands: R1 is in the way", "the rest is replanned"]
     assert [(entry["robot"], entry["about"], entry["over"]) for entry in entries] == [
         (-1, "plan", True),
         (-1, "plan", False),
@@ -182,9 +189,9 @@ def test_a_control_that_starts_again_replans_round_what_is_closed() -> None:
     begun.begin("run")
     entry = {"kind": "closed", "names": ["X", "R"], "edges": [["X", "R"], ["R", "X"]]}
     journal.commit([entry])
-    dispatcher, reports = Dispatcher(FleetControl(journal), plan), list[tuple[str, bool]]()
+    dispatcher, reports = Dispatcher(FleetControl(journal), plan), list[tuple[Fact | None, bool]]()
     dispatcher.report = lambda *report: reports.append(report)
     before = dispatcher.ledger.graph
     dispatcher.pass_stuck()
     assert dispatcher.ledger.graph is not before
-    assert reports == [("", True)]
+    assert reports == [(None, True)]

@@ -79,7 +79,9 @@ class Floor:
         self.deliver(self.end.make_letters(self.dispatcher.control.start()))
 
     def _begin(self) -> None:
-        notices = Notices([one.serial_number for one in self.identities], self.said.append)
+        notices = Notices(
+            [one.serial_number for one in self.identities], lambda fact: self.said.append(str(fact))
+        )
         control = FleetControl(self.journal, look_ahead=1, report=notices.report_on)
         self.dispatcher = Dispatcher(control, self.plan, planner="prioritized")
         self.operator = Operator(self.dispatcher)
@@ -393,7 +395,9 @@ def test_a_journal_that_cannot_be_written() -> None:
     """Nothing is sent until it can, which is reported once; then robots get what was decided."""
     plan, said, published = door(), list[str](), list[str]()
     journal, names = MemoryJournal(), [robot.name for robot in door().scenario.robots]
-    driver = Driver(plan, make_simulated_identities(names), journal, report=said.append)
+    driver = Driver(
+        plan, make_simulated_identities(names), journal, report=lambda fact: said.append(str(fact))
+    )
 
     async def publish(topic: str, *_: Any, **__: Any) -> None:
         published.append(topic)
@@ -440,10 +444,10 @@ def test_a_start_on_a_journal_ends_the_alarms_of_before() -> None:
     journal, names = MemoryJournal(), [robot.name for robot in door().scenario.robots]
     identities, said = make_simulated_identities(names), list[str]()
     for _ in range(2):
-        driver = Driver(door(), identities, journal, report=said.append)
+        driver = Driver(door(), identities, journal, report=lambda fact: said.append(str(fact)))
         driver._flush()
     told = [entry for entry in journal.written if entry["kind"] == "notice"]
-    assert told == [make_notice("", kind=EVERY_KIND, is_over=True)]
+    assert told == [make_notice(None, kind=EVERY_KIND, is_over=True)]
 
 
 def test_a_robot_on_hold(floor: Floor) -> None:

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from rightofway.control.journal import Entry
 from rightofway.control.messages import Condition, RobotError
 from rightofway.control.notices import BURST, FLOOD, REFILL, Notices
+from rightofway.facts import Fact
 from tests.builders.laws import law
 
 KINDS = ("lost", "still", "pause", "error WARNING laser")
@@ -22,7 +23,7 @@ def change(notices: Notices, present: dict[str, bool], kind: str, is_present: bo
     present[kind] = is_present
     if kind in {"lost", "still"}:
         if is_present:
-            notices.begin(0, kind, "begins", "ends")
+            notices.begin(0, kind, Fact("paused"), Fact("not paused"))
         else:
             notices.end(0, kind)
         return

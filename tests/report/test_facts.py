@@ -1,5 +1,6 @@
 """Facts have a kind and values; `report` has the words."""
 
+import json
 import pickle
 from fractions import Fraction
 
@@ -82,3 +83,29 @@ def test_the_judge_returns_numbers_and_no_sentences() -> None:
     reason, remedy = describe_fault(fault)
     assert str(fault) == write_fault(fault)
     assert fault.message == f"{reason} ({remedy})"
+
+
+def test_a_fact_is_the_same_after_json() -> None:
+    fact = Fact("waits", robot="R1", place="A", arrivals=(Fact("place open", place="B"),))
+    data = json.loads(json.dumps(fact.as_dict()))
+    arrivals = [{"kind": "place open", "values": {"place": "B"}}]
+    values = {"robot": "R1", "place": "A", "arrivals": arrivals}
+    assert data == {"kind": "waits", "values": values}
+    assert Fact.from_dict(data) == fact
+    assert str(Fact.from_dict(data)) == "R1 waits at A until B is open"
+
+
+def test_measured_numbers_have_few_digits() -> None:
+    text = FactWriter(None).fill(
+        "{top:decimal} m/s, {apart:rounded} m", {"top": 1.0, "apart": 2 / 3}
+    )
+    assert text == "1 m/s, 0.667 m"
+
+
+@pytest.mark.parametrize("kind", read_templates()["facts"])
+def test_the_forms_of_a_template_are_known(kind: str) -> None:
+    """A form that is no form of values is a fact about a number of things."""
+    known = {*FactWriter(ROW)._forms, *read_templates()["facts"]}
+    given = read_templates()["facts"][kind]
+    for template in [given] if isinstance(given, str) else given.values():
+        assert {form for _, form in VALUE.findall(template)} <= known

@@ -18,9 +18,9 @@ from rightofway.control.demo import drive_demo
 from rightofway.control.journal import SqliteJournal
 from rightofway.control.notices import Notices
 from rightofway.control.operator import OPERATIONS
-from rightofway.control.proofs import say_stray, take_fault
+from rightofway.control.proofs import make_stray, take_fault
 from rightofway.control.standstill import STILL
-from rightofway.phrases import Phrase
+from rightofway.facts import Fact
 from tests.builders.accessibility import serious
 from tests.builders.browsers import expect
 from tests.builders.drives import driven, watched
@@ -315,10 +315,10 @@ def test_a_person_is_alarmed_and_says_what_has_become_of_a_robot_with_a_fault(
     viewer = opened(browser, stack, stack.enter_context(watched(door(), path)))
     alarms = viewer.page.get_by_role("region", name="Alarms")
     notices = Notices(["R1", "R2"], lambda _: None, keep=lambda entry: journal.commit([entry]))
-    notices.report_on(1, Phrase("is not connected"), "lost")
+    notices.report_on(1, Fact("not connected"), "lost")
     expect(alarms).to_contain_text("R2 is not connected")
     stray = RobotState(order_id="", update_id=0, last_place="N4", last_sequence_id=0)
-    journal.commit([take_fault(0, say_stray(stray), stray, notices.report_on)])
+    journal.commit([take_fault(0, make_stray(stray), stray, notices.report_on)])
     expect(alarms).to_contain_text(
         "R1 is faulty: it stands at N4, which it does not hold; a person has to look after it"
     )
@@ -335,15 +335,17 @@ def test_a_person_is_alarmed_and_says_what_has_become_of_a_robot_with_a_fault(
     ((number, asked),) = commands.list_unanswered()
     assert json.loads(asked) == {"kind": command, "name": "R1"}
     journal.commit([{**OPERATIONS[command], "robot": 0}])
-    commands.answer(number, {"done": True, "text": f"R1: {command}"})
+    commands.answer(
+        number, {"done": True, "fact": Fact("operated", robot="R1", operation=command).as_dict()}
+    )
     expect(viewer.page.get_by_text("carried out")).to_be_visible()
     expect(row_of(viewer, "R1")).to_contain_text(then)
     expect(alarms).not_to_contain_text("R1")
     expect(row_of(viewer, "R2")).to_contain_text("alarm")
-    notices.report_on(1, "", "lost", is_over=True)
-    notices.report_on(1, Phrase("does not move"), STILL)
+    notices.report_on(1, None, "lost", is_over=True)
+    notices.report_on(1, Fact("not moving", place="N1", target="N2"), STILL)
     expect(row_of(viewer, "R2")).to_contain_text("not moving")
-    notices.report_on(1, "", STILL, is_over=True)
+    notices.report_on(1, None, STILL, is_over=True)
     expect(alarms).to_be_hidden()
     assert viewer.complaints == []
 

@@ -17,7 +17,6 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError, quote
-from rightofway.phrases import Phrase
 
 __all__ = [
     "NAMED",
@@ -26,11 +25,10 @@ __all__ = [
     "read_command",
     "read_time",
     "refuse_nameless",
-    "say_answer",
 ]
 
 Answer = Mapping[str, Any]
-"""What became of a command: ``done``, and ``text`` for people; more for programs."""
+"""The result of a command: ``done``, and a ``fact`` or None; more for programs."""
 
 NAMED: Mapping[str, str] = {
     "change": "job",
@@ -202,15 +200,3 @@ def read_time(text: object) -> Fraction:
     if len(given) > LONGEST_TIME or not re.fullmatch(pattern, given, re.ASCII):
         raise InputError.at("work", f"{quote(text)} is no time (for example 5 or 1/2)")
     return Fraction(given)
-
-
-def say_answer(answer: Answer) -> str:
-    """Return what people are told of a command; empty where nothing has changed.
-
-    Parameters
-    ----------
-    answer
-        What became of it.
-    """
-    text: str = answer["text"]
-    return text if answer["done"] or not text else Phrase("refused: {reason}", reason=text)

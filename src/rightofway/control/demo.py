@@ -21,7 +21,6 @@ import numpy as np
 from rightofway.check import check
 from rightofway.control.demo_record import DemoRecord, NothingKept, SimulatedClock
 from rightofway.control.dispatcher import Dispatcher
-from rightofway.control.drive_result import DriveResult
 from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd, format_timestamp
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.identities import Identity, make_simulated_identities
@@ -33,11 +32,13 @@ from rightofway.control.story import Story
 from rightofway.control.supervisor import Supervisor
 from rightofway.control.timed_robot import Durations, TimedRobot
 from rightofway.errors import InputError
+from rightofway.execution.drive_result import DriveResult
+from rightofway.facts import Fact
 from rightofway.model import ExecutionTrace, Plan, Tick, Track
 
 __all__ = ["drive_demo", "make_pause"]
 
-Report = Callable[[Tick, str], None]
+Report = Callable[[Tick, Fact], None]
 
 
 def drive_demo(
@@ -78,7 +79,7 @@ def drive_demo(
         Whether rights of way are switched where robots have come so far that another order is
         better.
     report
-        Receives each sentence of the story, with its time.
+        Receives each fact of the story, with its time.
     wait_until
         Is called with each moment at which robots do something, and before that, where people may
         ask for more, with moments between [ticks].
@@ -197,8 +198,8 @@ class _Demo:
     def _now(self) -> int:
         return self._clock.now
 
-    def _tell(self, sentence: str) -> None:
-        self._report(Tick(self._now), sentence)
+    def _tell(self, fact: Fact) -> None:
+        self._report(Tick(self._now), fact)
 
     def _timestamp(self) -> str:
         """Return the simulated time as messages have it: a time unit is a second after 1970."""
@@ -264,7 +265,7 @@ class _Demo:
     def _end_instant(self) -> None:
         """Tell what is new; keep it."""
         for happening in self._story.go_on():
-            self._tell(happening.text)
+            self._tell(happening.fact)
         self._supervisor.tell_closures()
         if self._record:
             self._record.journal.flush()

@@ -24,8 +24,8 @@ from rightofway.control.rest import RestPlanner
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive, make_routes_to_drive
 from rightofway.errors import GaveUp, InputError
+from rightofway.facts import Fact
 from rightofway.model import Plan
-from rightofway.phrases import Phrase
 from rightofway.precedence import Part, ReleaseGraph
 
 __all__ = ["Dispatcher"]
@@ -34,8 +34,8 @@ PATIENCE = 10
 """Seconds for which a robot does not go on before others are replanned round it, and after which a
 replanning that has failed is tried again."""
 
-Report = Callable[[str, bool], None]
-"""Receives a sentence on replanning that fails, or with True on its end; it may be empty then."""
+Report = Callable[[Fact | None, bool], None]
+"""Receives a fact on replanning that fails, or with True on its end; perhaps None then."""
 
 
 class Dispatcher:
@@ -62,7 +62,7 @@ class Dispatcher:
     closures
         The closures of the scenario, if it has any; `keep_closures` sets them.
     report
-        Receives a sentence when no plan of the rest is found, and when one is found again; a
+        Receives a fact when no plan of the rest is found, and when one is found again; a
         supervisor sets it. A command that is refused for this reason has the answer instead.
     """
 
@@ -322,7 +322,7 @@ class Dispatcher:
         """
         if self._is_new:
             self._is_new = False
-            self.report("", True)  # what had failed before a start is not known
+            self.report(None, True)  # what had failed before a start is not known
             if self._leads_over(self.ledger.closed_edges):
                 return self.replan_if_possible() or []
         self._stuck_for = {k: self._stuck_for.get(k, 0) + 1 for k in self.control.list_stuck()}
@@ -375,9 +375,9 @@ class Dispatcher:
             self._tries_in = self._patience
             if not self._has_failed:
                 self._has_failed = True
-                self.report(Phrase("the old plan stands: {reason}", reason=str(error)), False)
+                self.report(Fact("no plan of the rest", reason=str(error)), False)
             return None
         if self._has_failed:
             self._has_failed = False
-            self.report(Phrase("the rest is replanned"), True)
+            self.report(Fact("rest replanned"), True)
         return messages

@@ -18,7 +18,6 @@ from typing import TYPE_CHECKING
 from rightofway.control.broker import Broker, check_cancellation
 from rightofway.control.commands import Commands
 from rightofway.control.dispatcher import Dispatcher
-from rightofway.control.drive_result import DriveResult
 from rightofway.control.endpoints import ControlEnd, Letter, make_timestamp
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.identities import Identity
@@ -30,9 +29,10 @@ from rightofway.control.order_map import OrderMap, make_order_maps
 from rightofway.control.story import Story
 from rightofway.control.supervisor import Supervisor
 from rightofway.errors import InputError
+from rightofway.execution.drive_result import DriveResult
+from rightofway.facts import Fact
 from rightofway.io import format_plan
 from rightofway.model import Plan, Tick
-from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
     import aiomqtt
@@ -73,7 +73,7 @@ class Driver:
         Whether rights of way are switched where robots have come so far that another order is
         better.
     report
-        Receives each sentence of the story, and what is wrong.
+        Receives each fact of the story, and of trouble.
     metrics
         Counts messages and robots, if that is wanted.
     began
@@ -96,7 +96,7 @@ class Driver:
         laps: int | None = None,
         commands: Commands | None = None,
         switch: bool = False,
-        report: Callable[[str], None],
+        report: Callable[[Fact], None],
         metrics: FleetMetrics | None = None,
         began: float | None = None,
     ) -> None:
@@ -120,7 +120,7 @@ class Driver:
             message = "is of another plan, or of other identities (give those, or another journal)"
             raise InputError.at("journal", message)
         else:  # trouble of before is reported again if it lasts
-            notices.report("", EVERY_KIND, is_over=True)
+            notices.report(None, EVERY_KIND, is_over=True)
         self.end = ControlEnd(self.control, maps, make_timestamp, notices)
         self._story = Story(ledger, names)
         self._heard = [time.monotonic()] * len(names)
@@ -152,22 +152,15 @@ class Driver:
         while stays or not self.is_done:
             try:
                 async with broker.open_client("rightofway", takes_latest=True) as client:
-                    self._notices.report(
-                        Phrase("connected to {broker}", broker=broker.address),
-                        BROKER,
-                        is_over=True,
-                    )
+                    connected = Fact("broker connected", broker=broker.address)
+                    self._notices.report(connected, BROKER, is_over=True)
                     wait, is_lost = RETRY[0], False
                     await self._serve(client, stays=stays)
             except* aiomqtt.MqttError as errors:
                 if not is_lost:
                     reason = str(errors.exceptions[0])
-                    sentence = Phrase(
-                        "no connection to {broker}: {reason}; trying again",
-                        broker=broker.address,
-                        reason=reason,
-                    )
-                    self._notices.report(sentence, BROKER)
+                    lost = Fact("broker lost", broker=broker.address, reason=reason)
+                    self._notices.report(lost, BROKER)
                     self._flush()
                 is_lost = True
                 await asyncio.sleep(wait)
@@ -256,7 +249,7 @@ class Driver:
         now = time.monotonic()
         for robot, heard in enumerate(self._heard):
             if now - heard > SILENCE:
-                why = Phrase("has been silent for {seconds} s", seconds=f"{SILENCE:g}")
+                why = Fact("silent", seconds=SILENCE)
                 letters += self.end.connect(robot, is_connected=False, why=why)
         return letters
 
@@ -282,7 +275,7 @@ class Driver:
         check_cancellation()
         self._sent.update(letter.name for letter in (*(row[1] for row in inbox), *sent))
         for happening in self._story.go_on():
-            self._report(happening.text)
+            self._report(happening.fact)
             if happening.kind == "end":
                 self._ends[happening.robot] = self._read_ticks()
             else:
@@ -296,15 +289,11 @@ class Driver:
             self._journal.flush()
         except JournalFailed as error:
             if not self._fails:
-                sentence = Phrase(
-                    "the journal cannot be written: {error}; nothing is sent until it can",
-                    error=str(error),
-                )
-                self._notices.report(sentence, JOURNAL)
+                self._notices.report(Fact("journal lost", error=str(error)), JOURNAL)
             self._fails = True
             return False
         if self._fails:
-            self._notices.report(Phrase("the journal can be written again"), JOURNAL, is_over=True)
+            self._notices.report(Fact("journal written"), JOURNAL, is_over=True)
         self._fails = False
         return True
 

@@ -22,7 +22,7 @@ from rightofway.control.notices import Notices
 from rightofway.control.order_map import OrderLane, OrderMap, Place
 from rightofway.control.simulated_robot import SimulatedRobot
 from rightofway.errors import InputError, describe_defect, escape_text, quote
-from rightofway.phrases import Phrase
+from rightofway.facts import Fact
 
 __all__ = ["ControlEnd", "Letter", "RobotEnd", "format_timestamp", "make_timestamp"]
 
@@ -205,28 +205,21 @@ class ControlEnd:
         try:
             letters = self._take(robot, name, letter)
         except InputError as error:
-            self._refuse(
-                robot, name, Phrase("sent a message that is not used: {error}", error=str(error))
-            )
+            self._refuse(robot, name, Fact("unused message", error=str(error)))
         except UNSOUND:
             raise
         except Exception as error:  # noqa: BLE001 (the guard: no message ends the control)
             excerpt = escape_text(letter.payload[:LONGEST_EXCERPT].decode(errors="replace"))
-            sentence = Phrase(
-                "sent a message that the control cannot process: {error}: {message}",
-                error=describe_defect(error),
-                message=excerpt,
-            )
-            self._refuse(robot, name, sentence)
+            defect = describe_defect(error)
+            self._refuse(robot, name, Fact("message with defect", error=defect, message=excerpt))
         else:
             self.notices.end(robot, f"message {name}")
             return letters
         return []
 
-    def _refuse(self, robot: int, name: str, sentence: str) -> None:
+    def _refuse(self, robot: int, name: str, begin: Fact) -> None:
         """Report messages of a robot that are not used, until one is."""
-        end = Phrase("sends messages that can be used again ({topic})", topic=name)
-        self.notices.begin(robot, f"message {name}", sentence, end)
+        self.notices.begin(robot, f"message {name}", begin, Fact("usable messages", topic=name))
 
     def _take(self, robot: int, name: str, letter: Letter) -> list[Letter]:
         """Take in a message of a robot; return what is to be sent because of it."""
@@ -276,16 +269,11 @@ class ControlEnd:
         if map_id != place.map_id or apart <= limit:
             self.notices.end(robot, "position")
             return
-        sentence = Phrase(
-            "reports a position {apart} m from {place}, its last node: at most {limit} m fit"
-            " (look where it is)",
-            apart=f"{apart:.3g}",
-            place=escape_text(state.last_place),
-            limit=f"{limit:.3g}",
-        )
-        self.notices.begin(robot, "position", sentence, Phrase("is near its last node again"))
+        place_name = escape_text(state.last_place)
+        begin = Fact("far from node", apart=apart, place=place_name, limit=limit)
+        self.notices.begin(robot, "position", begin, Fact("near node"))
 
-    def connect(self, robot: int, *, is_connected: bool, why: str = "") -> list[Letter]:
+    def connect(self, robot: int, *, is_connected: bool, why: Fact | None = None) -> list[Letter]:
         """Note whether messages reach a robot; return what is to be sent because of it.
 
         Parameters
@@ -295,16 +283,13 @@ class ControlEnd:
         is_connected
             Whether it is there.
         why
-            How it is known that it is not.
+            How it is known that it is not; None by a message.
         """
         if is_connected:
             self.notices.end(robot, LOST)
         else:
-            reason = why or Phrase("is not connected")
-            sentence = Phrase(
-                "{reason}: it keeps what it holds and gets nothing more", reason=reason
-            )
-            self.notices.begin(robot, LOST, sentence, Phrase("is connected again"))
+            begin = Fact("lost", reason=why or Fact("not connected"))
+            self.notices.begin(robot, LOST, begin, Fact("connected"))
         return self.make_letters(self.control.connect(robot, is_connected=is_connected))
 
     def _compare(self, robot: int, sheet: vda5050.Factsheet) -> None:
@@ -315,28 +300,23 @@ class ControlEnd:
         speed, radius = float(own.speed * metre / second), float(own.radius * metre)
         top = physical.speedMax
         if top is not None and top < speed - ROUNDING:
-            sentence = Phrase(
-                "drives at most {top} m/s, and the plan takes {speed} m/s: it will be late",
-                top=f"{top:g}",
-                speed=f"{speed:g}",
-            )
-            self.notices.begin(robot, "speed", sentence, Phrase("is as fast as the plan takes it"))
+            begin = Fact("slower than planned", top=top, speed=speed)
+            self.notices.begin(robot, "speed", begin, Fact("fast enough"))
         else:
             self.notices.end(robot, "speed")
         if radius and physical.length is not None and physical.width is not None:
             needed = hypot(physical.length, physical.width) / 2
             if needed > radius + ROUNDING:
-                sentence = Phrase(
-                    "is {length} m long and {width} m wide, and the plan takes a radius of"
-                    " {radius} m: it gets nothing more (plan with a radius of {needed} m)",
-                    length=f"{physical.length:g}",
-                    width=f"{physical.width:g}",
-                    radius=f"{radius:g}",
-                    needed=f"{needed:.3g}",
+                begin = Fact(
+                    "larger than planned",
+                    length=physical.length,
+                    width=physical.width,
+                    radius=radius,
+                    needed=needed,
                 )
                 self.control.refuse(robot)
                 # The control refuses it as long as it runs, so this trouble does not end.
-                self.notices.begin(robot, "size", sentence, "")
+                self.notices.begin(robot, "size", begin, None)
 
     def make_letters(self, messages: Iterable[Message]) -> list[Letter]:
         """Return messages of the control as they are sent.

@@ -22,7 +22,7 @@ from rightofway.control.proofs import (
     is_acknowledged_by,
     is_taken_back,
     list_facts,
-    say_stray,
+    make_stray,
     take_fault,
 )
 from rightofway.control.releases import find_last_part, is_in_base
@@ -30,6 +30,7 @@ from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive
 from rightofway.control.splices import refuse_changes, refuse_rotation, refuse_ways
 from rightofway.errors import describe_defect
+from rightofway.facts import Fact
 from rightofway.precedence import Arrival, ReleaseGraph
 
 
@@ -64,7 +65,7 @@ class FleetControl:
     long_order
         Jobs after which a robot gets a new order where it stands at the end of its base.
     report
-        Receives a robot and a sentence on its fault, or on a job that failed.
+        Receives a robot and a fact: its fault, or a job that failed.
 
     Attributes
     ----------
@@ -101,7 +102,7 @@ class FleetControl:
         look_ahead: int = LOOK_AHEAD,
         snapshot_every: int = SNAPSHOT_EVERY,
         long_order: int = LONG_ORDER,
-        report: Callable[[int, str], None] = lambda *_: None,
+        report: Callable[[int, Fact], None] = lambda *_: None,
     ) -> None:
         self._journal, self._look_ahead, self._report = journal, look_ahead, report
         self._snapshot_every, self._long_order = snapshot_every, long_order
@@ -369,7 +370,7 @@ class FleetControl:
             if stands_at is not None:
                 yield make_order(self.ledger, robot, stands_at, own.released)
             elif own.fault is None:
-                yield take_fault(robot, say_stray(state), state, self._report)
+                yield take_fault(robot, make_stray(state), state, self._report)
 
     def _make_update(self, robot: int, end: int) -> Entry:
         """Return the entry of an update to a last part."""

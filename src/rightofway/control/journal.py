@@ -23,8 +23,8 @@ Entry = Mapping[str, Any]
 """A journal entry as JSON has it, with its ``kind``."""
 
 
-VERSION = 1
-"""The version of the file, its ``user_version``; 0 in files from before there were versions."""
+VERSION = 2
+"""The version of the file, its ``user_version``; no others are read."""
 
 UNFOLDED = ("notice", "pace")
 """Kinds of entries that are for people only: no snapshot has them, and no control reads them."""
@@ -38,13 +38,13 @@ class JournalRow(NamedTuple):
     number
         Rises from entry to entry.
     moment
-        When it was written [s]; None in journals of earlier versions.
+        When it was written [s].
     entry
         The entry.
     """
 
     number: int
-    moment: float | None
+    moment: float
     entry: Entry
 
 
@@ -108,21 +108,20 @@ class SqliteJournal:
             self._lock.close()
             raise self._refused(path, _find_owner(path) or str(error)) from error
         try:
-            _refuse_newer(self._database, path)
+            _refuse_other_version(self._database, path)
             self._database.execute("PRAGMA journal_mode = WAL")
             self._database.execute("PRAGMA synchronous = FULL")
+            # Before the table: a reader may look meanwhile, and refuses entries without a version.
+            self._database.execute(f"PRAGMA user_version = {VERSION}")
             self._database.execute(
                 "CREATE TABLE IF NOT EXISTS entries"
-                " (number INTEGER PRIMARY KEY AUTOINCREMENT, entry TEXT, moment REAL)"
+                " (number INTEGER PRIMARY KEY AUTOINCREMENT, entry TEXT, moment REAL NOT NULL)"
             )
-            if not _has_moments(self._database):  # of an earlier version
-                self._database.execute("ALTER TABLE entries ADD COLUMN moment REAL")
             self._database.execute("CREATE TABLE IF NOT EXISTS snapshots (number INTEGER)")
             _refuse_gaps(self._database, path)
             self._database.execute("CREATE TABLE IF NOT EXISTS owner (process INTEGER, host TEXT)")
             self._database.execute("DELETE FROM owner")
             self._database.execute("INSERT INTO owner VALUES (?, ?)", (os.getpid(), gethostname()))
-            self._database.execute(f"PRAGMA user_version = {VERSION}")
         except sqlite3.Error as error:
             self.close()
             raise self._refused(path, str(error)) from error
@@ -222,12 +221,11 @@ class JournalReader:
             )
             self._database.execute("PRAGMA query_only = TRUE")
             self._database.execute("SELECT 1 FROM entries LIMIT 1")
-            _refuse_newer(self._database, path)
+            _refuse_other_version(self._database, path)
             _refuse_gaps(self._database, path)
         except sqlite3.Error as error:
             message = f"cannot be read as a journal: {error} (name the journal of rightofway drive)"
             raise InputError.at(str(path), message) from error
-        self._moment = "moment" if _has_moments(self._database) else "NULL"
 
     def read_rows(self, after: int = 0) -> list[JournalRow]:
         """Return the entries behind one, in their order, as far as they are still kept.
@@ -237,7 +235,7 @@ class JournalReader:
         after
             The number of an entry.
         """
-        query = f"SELECT number, {self._moment}, entry FROM entries WHERE number > ? ORDER BY 1"  # noqa: S608 (no text of others)
+        query = "SELECT number, moment, entry FROM entries WHERE number > ? ORDER BY 1"
         with _report_damage(self._path):
             rows = self._database.execute(query, (after,)).fetchall()
         return [JournalRow(number, at, _read_entry(number, text)) for number, at, text in rows]
@@ -328,13 +326,14 @@ def _read_entry(number: int, text: Any) -> Entry:
     return entry
 
 
-def _refuse_newer(database: sqlite3.Connection, path: Path) -> None:
-    """Refuse a file of a version that is not known yet."""
+def _refuse_other_version(database: sqlite3.Connection, path: Path) -> None:
+    """Refuse a file with entries of another version."""
     (version,) = database.execute("PRAGMA user_version").fetchone()
-    if version > VERSION:
+    query = "SELECT count(*) FROM sqlite_master WHERE name = 'entries'"
+    if version != VERSION and database.execute(query).fetchone()[0]:
         message = (
-            f"is a journal of version {version}, and this program reads versions up to {VERSION}"
-            " (use a newer rightofway)"
+            f"is a journal of version {version}, and this program reads version {VERSION}"
+            " (use the rightofway that wrote it)"
         )
         raise InputError.at(str(path), message)
 
@@ -344,10 +343,8 @@ def _refuse_gaps(database: sqlite3.Connection, path: Path) -> None:
     query = "SELECT count(*), min(number), max(number) FROM entries"
     count, first, last = database.execute(query).fetchone()
     snapshots = {number for (number,) in database.execute("SELECT number FROM snapshots")}
-    query = "SELECT count(*) FROM sqlite_master WHERE name = 'sqlite_sequence'"
-    if database.execute(query).fetchone()[0]:  # journals of before do not count
-        query = "SELECT max(seq) FROM sqlite_sequence WHERE name = 'entries'"
-        last = database.execute(query).fetchone()[0] or last
+    query = "SELECT max(seq) FROM sqlite_sequence WHERE name = 'entries'"
+    last = database.execute(query).fetchone()[0] or last
     if not last:
         return
     expected = min(snapshots, default=1)
@@ -391,8 +388,3 @@ def _find_begin(database: sqlite3.Connection) -> Entry:
 
 def _lock_of(path: Path) -> Path:
     return path.with_name(f"{path.name}-lock")
-
-
-def _has_moments(database: sqlite3.Connection) -> bool:
-    columns = database.execute("SELECT name FROM pragma_table_info('entries')")
-    return ("moment",) in columns.fetchall()

@@ -33,7 +33,7 @@ class Ledger:
         self.graph = ReleaseGraph((), {})
         self.closed: dict[Names, tuple[Edge, ...]] = {}  # what nobody may enter
         self.commands = 0  # the number of the last command that was carried out
-        self.answer = ""  # to it
+        self.answer: Entry | None = None  # to it, as a fact has it
         self.failed = False  # whether it has raised
         self.changed = set[int]()
 
@@ -118,11 +118,7 @@ class Ledger:
             self.apply(entry)
             self._refuse_contradictions(entry)
         except Exception as error:
-            message = (
-                f"{quote(str(entry))} cannot be read: {describe_error(error)[:200]}"
-                " (the file is damaged, or of another version: name another one)"
-            )
-            raise InputError.at(("entry", number), message) from error
+            raise refuse_entry(number, entry, error) from error
 
     def _refuse_contradictions(self, entry: Entry) -> None:
         """Refuse robots that an entry has put off their routes; a control makes no such entry."""
@@ -158,7 +154,7 @@ class Ledger:
             self.closed.pop(tuple(entry["names"]), None)
         elif kind == "command":
             self.commands, self.answer = entry["number"], entry["answer"]
-            self.failed = entry.get("failed", False)  # journals of 1.0 have no failed commands
+            self.failed = entry["failed"]
         elif kind in UNFOLDED:
             pass
         else:
@@ -200,7 +196,7 @@ class Ledger:
             {tuple(names): tuple(map(tuple, edges)) for names, edges in entry["closed"]},
         )
         self.commands, self.answer = entry["commands"], entry["answer"]
-        self.failed = entry.get("failed", False)
+        self.failed = entry["failed"]
         self.robots = [RobotLedger.of_document(robot) for robot in entry["robots"]]
         self.graph = _make_graph([own.route for own in self.robots], entry["waits"])
         self.changed.update(range(len(self.robots)))
@@ -223,6 +219,15 @@ def make_plan_entry(
     documents = [asdict(route) for route in routes]
     waits = _write_waits(graph, committed)
     return {"kind": kind, "run": run, "names": names, "routes": documents, "waits": waits}
+
+
+def refuse_entry(number: int, entry: Entry, error: Exception) -> InputError:
+    """Return the fault of an entry that cannot be read."""
+    message = (
+        f"{quote(str(entry))} cannot be read: {describe_error(error)[:200]}"
+        " (the file is damaged, or of another version: name another one)"
+    )
+    return InputError.at(("entry", number), message)
 
 
 def _write_waits(graph: ReleaseGraph, committed: Sequence[int]) -> Waits:

@@ -11,9 +11,11 @@ from rightofway.control.commitments import StopToMake
 from rightofway.control.journal import Entry
 from rightofway.control.ledger import Edge, Ledger
 from rightofway.errors import InputError, find_nearest, quote
+from rightofway.facts import Fact
 from rightofway.site import Roadmap
 
 __all__ = [
+    "describe_place",
     "find_failed_job",
     "find_job",
     "find_open_job",
@@ -132,6 +134,13 @@ def list_edges_into(roadmap: Roadmap, names: Sequence[str]) -> list[Edge]:
         for tail, head in into
         if roadmap.find_edge(tail, head) is not None
     ]
+
+
+def describe_place(state: str, names: Sequence[str]) -> Fact:
+    """Return the state of a vertex, or of the lane between two: open, closed or opened."""
+    if len(names) == 1:
+        return Fact(f"place {state}", place=names[0])
+    return Fact(f"lane {state}", place=names[0], other=names[-1])
 
 
 def name_place(names: Sequence[str]) -> str:

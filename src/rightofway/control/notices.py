@@ -1,4 +1,4 @@
-"""Sentences on robots for people: news, and each trouble of a robot when it begins and ends."""
+"""Notices for people: news, and each trouble of a robot when it begins and ends."""
 
 from __future__ import annotations
 
@@ -10,16 +10,15 @@ from itertools import islice
 from rightofway.control.journal import Entry
 from rightofway.control.messages import AUTOMATIC, Condition
 from rightofway.errors import escape_text
-from rightofway.phrases import Phrase, to_parts
-from rightofway.report.driving import describe_robot
+from rightofway.facts import Fact
 
 __all__ = ["EVERY_KIND", "Notices", "make_notice"]
 
 BURST = 100
-"""Sentences on the trouble of a robot that are reported without a pause."""
+"""Notices of the trouble of a robot that are reported without a pause."""
 
 REFILL = 6.0
-"""Seconds after which one more sentence may be reported."""
+"""Seconds after which one more notice may be reported."""
 
 MAX_KINDS = 50
 """Kinds of trouble in one state of a robot that are reported: a robot may list any number."""
@@ -38,11 +37,11 @@ class _Told:
     Attributes
     ----------
     present
-        The sentence on the begin of each trouble that lasts, and on its end, by its kind.
+        The facts of begin and end of each trouble that lasts, by its kind.
     reported
-        The sentence on the end of each trouble whose begin was reported and whose end was not.
+        The fact of the end of each trouble whose begin was reported and whose end was not.
     left
-        Sentences that may still be reported.
+        Notices that may still be reported.
     since
         When `left` was computed [s].
     condition
@@ -51,8 +50,8 @@ class _Told:
         The kinds of trouble of that condition.
     """
 
-    present: dict[str, tuple[str, str]] = field(default_factory=dict)
-    reported: dict[str, str] = field(default_factory=dict)
+    present: dict[str, tuple[Fact, Fact | None]] = field(default_factory=dict)
+    reported: dict[str, Fact | None] = field(default_factory=dict)
     left: float = BURST
     since: float = 0.0
     condition: Condition = field(default_factory=Condition)
@@ -60,10 +59,10 @@ class _Told:
 
 
 class Notices:
-    """Sentences on robots.
+    """Notices of robots and of the control.
 
     The begin of each trouble is reported once, and its end. Trouble that comes and goes more often
-    than every few seconds is reported in part: `BURST` sentences, then one in `REFILL` seconds.
+    than every few seconds is reported in part: `BURST` notices, then one in `REFILL` seconds.
     The last report on each kind is always that of its present state, after `settle` at the latest.
 
     Parameters
@@ -71,63 +70,63 @@ class Notices:
     names
         Of the robots.
     report
-        Receives each sentence.
+        Receives each fact.
     clock
         Returns seconds; no release depends on them.
     keep
-        Receives an entry for the journal with each sentence.
+        Receives an entry for the journal with each fact.
     """
 
     def __init__(
         self,
         names: Sequence[str],
-        report: Callable[[str], None],
+        report: Callable[[Fact], None],
         clock: Callable[[], float] = time.monotonic,
         keep: Callable[[Entry], None] = lambda _: None,
     ) -> None:
         self._names, self._report, self._clock, self._keep = names, report, clock, keep
         self._told = [_Told(since=clock()) for _ in names]
 
-    def report(self, text: str, kind: str = "", *, is_over: bool = False) -> None:
-        """Report a sentence that is about no robot.
+    def report(self, fact: Fact | None, kind: str = "", *, is_over: bool = False) -> None:
+        """Report a fact that is about no robot.
 
         Parameters
         ----------
-        text
-            The sentence; empty where trouble ends without a word.
+        fact
+            The fact; None where trouble ends without a notice.
         kind
             The kind of trouble that begins or ends; empty for news.
         is_over
             Whether it ends.
         """
-        if text:
-            self._report(text)
-        self._keep(make_notice(to_parts(text), kind=kind, is_over=is_over))
+        if fact is not None:
+            self._report(fact)
+        self._keep(make_notice(fact, kind=kind, is_over=is_over))
 
     def report_on(
-        self, robot: int, sentence: str, kind: str = "", *, is_over: bool = False
+        self, robot: int, predicate: Fact | None, kind: str = "", *, is_over: bool = False
     ) -> None:
-        """Report a sentence on a robot.
+        """Report a fact about a robot.
 
         Parameters
         ----------
         robot
             The robot.
-        sentence
-            What it does or is, without its name; empty where trouble ends without a word.
+        predicate
+            The fact, without the robot; None where trouble ends without a notice.
         kind
             The kind of trouble that begins or ends; empty for news.
         is_over
             Whether it ends.
         """
-        text = ""
-        if sentence:
-            plain = sentence if isinstance(sentence, Phrase) else escape_text(sentence)
-            text = describe_robot(escape_text(self._names[robot]), plain)
-            self._report(text)
-        self._keep(make_notice(to_parts(text), robot, kind, is_over=is_over))
+        fact = None
+        if predicate is not None:
+            name = escape_text(self._names[robot])
+            fact = Fact("about robot", predicate.about, robot=name, predicate=predicate)
+            self._report(fact)
+        self._keep(make_notice(fact, robot, kind, is_over=is_over))
 
-    def begin(self, robot: int, kind: str, sentence: str, end: str) -> None:
+    def begin(self, robot: int, kind: str, begin: Fact, end: Fact | None) -> None:
         """Report that trouble begins, unless trouble of its kind lasts already.
 
         Parameters
@@ -136,12 +135,12 @@ class Notices:
             The robot.
         kind
             The kind of trouble.
-        sentence
-            What the robot does or is, without its name.
+        begin
+            The fact, without the robot.
         end
-            The sentence on its end.
+            The fact of its end; None for trouble that does not end.
         """
-        self._told[robot].present.setdefault(kind, (sentence, end))
+        self._told[robot].present.setdefault(kind, (begin, end))
         self._settle(robot)
 
     def end(self, robot: int, kind: str) -> None:
@@ -173,12 +172,11 @@ class Notices:
         listed = dict(islice(_list_troubles(condition), MAX_KINDS + 1))
         if len(listed) > MAX_KINDS:
             listed.popitem()
-            begin = Phrase("reports further kinds of trouble, which are left out here")
-            listed[MORE] = (begin, Phrase("reports no further kinds of trouble"))
+            listed[MORE] = (Fact("more trouble"), Fact("no more trouble"))
         for kind in told.listed - listed.keys():
             del told.present[kind]
-        for kind, sentences in listed.items():
-            told.present.setdefault(kind, sentences)
+        for kind, facts in listed.items():
+            told.present.setdefault(kind, facts)
         told.condition, told.listed = condition, frozenset(listed)
         self._settle(robot)
 
@@ -200,24 +198,25 @@ class Notices:
             self.report_on(robot, told.reported.pop(kind), kind, is_over=True)
         for kind in begun[: int(told.left)]:
             told.left -= 1
-            sentence, told.reported[kind] = told.present[kind]
-            self.report_on(robot, sentence, kind)
+            begin, told.reported[kind] = told.present[kind]
+            self.report_on(robot, begin, kind)
         is_whole = told.reported.keys() - {FLOOD} == told.present.keys()
         if not is_whole and FLOOD not in told.reported:
-            begin = Phrase("has trouble that begins and ends too often: it is reported in part")
-            told.reported[FLOOD] = Phrase("has trouble less often: all of it is reported again")
-            self.report_on(robot, begin, FLOOD)
+            told.reported[FLOOD] = Fact("rare trouble")
+            self.report_on(robot, Fact("frequent trouble"), FLOOD)
         elif is_whole and FLOOD in told.reported and told.left >= BURST / 2:
             self.report_on(robot, told.reported.pop(FLOOD), FLOOD, is_over=True)
 
 
-def make_notice(text: object, robot: int = -1, kind: str = "", *, is_over: bool = False) -> Entry:
-    """Return the entry of a sentence for people.
+def make_notice(
+    fact: Fact | None, robot: int = -1, kind: str = "", *, is_over: bool = False
+) -> Entry:
+    """Return the entry of a notice for people.
 
     Parameters
     ----------
-    text
-        The sentence, as `to_parts` returns it.
+    fact
+        The fact; None where trouble ends without a notice.
     robot
         The robot that it is about; -1 for none.
     kind
@@ -225,31 +224,25 @@ def make_notice(text: object, robot: int = -1, kind: str = "", *, is_over: bool 
     is_over
         Whether the trouble has ended.
     """
-    return {"kind": "notice", "robot": robot, "about": kind, "over": is_over, "text": text}
+    notice = {"kind": "notice", "robot": robot, "about": kind, "over": is_over}
+    return {**notice, "fact": None if fact is None else fact.as_dict()}
 
 
-def _list_troubles(condition: Condition) -> Iterator[tuple[str, tuple[str, str]]]:
-    """Yield kinds of trouble, each with a sentence on its begin, and on its end."""
+def _list_troubles(condition: Condition) -> Iterator[tuple[str, tuple[Fact, Fact]]]:
+    """Yield kinds of trouble, each with the facts of its begin and its end."""
     if condition.mode not in AUTOMATIC:
-        begin = Phrase(
-            "is in mode {mode}: it gets nothing more until it is in AUTOMATIC again",
-            mode=escape_text(condition.mode[:40]),
-        )
-        yield "mode", (begin, Phrase("is in an automatic mode again"))
+        begin = Fact("other mode", mode=escape_text(condition.mode[:40]))
+        yield "mode", (begin, Fact("automatic mode"))
     if condition.is_paused:
-        begin = Phrase("is paused: it gets nothing more until it goes on")
-        yield "pause", (begin, Phrase("is paused no longer"))
+        yield "pause", (Fact("paused"), Fact("not paused"))
     if condition.emergency_stop not in {"NONE", ""}:
-        begin = Phrase(
-            "is in emergency stop ({stop}): a person has to look",
-            stop=escape_text(condition.emergency_stop[:40]),
-        )
-        yield "emergency stop", (begin, Phrase("is out of its emergency stop"))
+        begin = Fact("emergency stop", stop=escape_text(condition.emergency_stop[:40]))
+        yield "emergency stop", (begin, Fact("no emergency stop"))
     for error in condition.errors:
         level, kind = escape_text(error.level[:40]), escape_text(error.kind[:60])
-        sentence = Phrase("reports {level} {error}", level=level, error=kind)
+        begin = Fact("error", level=level, error=kind)
         if error.description:
             words = escape_text(error.description[:200])
-            sentence = Phrase("{report}: {words}", report=sentence, words=words)
-        end = Phrase("no longer reports {level} {error}", level=level, error=kind)
-        yield f"error {error.level[:40]} {error.kind[:60]}", (sentence, end)
+            begin = Fact("described error", report=begin, words=words)
+        end = Fact("no error", level=level, error=kind)
+        yield f"error {error.level[:40]} {error.kind[:60]}", (begin, end)

@@ -25,6 +25,7 @@ from rightofway.control.fleet_control import UNSOUND
 from rightofway.control.journal import Entry
 from rightofway.control.messages import Message
 from rightofway.control.names import (
+    describe_place,
     find_failed_job,
     find_job,
     find_open_job,
@@ -36,6 +37,7 @@ from rightofway.control.names import (
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import make_route_from
 from rightofway.errors import GaveUp, InputError, describe_defect, quote
+from rightofway.facts import Fact
 from rightofway.search import Distances
 from rightofway.site import VertexId
 
@@ -91,14 +93,15 @@ class Operator:
         for number, text in commands.list_unanswered():
             if number <= ledger.commands:  # it was carried out before a start
                 is_last = number == ledger.commands
-                answer = ledger.answer if is_last else "carried out before a start"
-                answers.append((number, {"done": not (is_last and ledger.failed), "text": answer}))
+                fact = ledger.answer if is_last else Fact("carried out before").as_dict()
+                answers.append((number, {"done": not (is_last and ledger.failed), "fact": fact}))
                 continue
             self._number = number
             try:
                 more, reply = self._obey(read_command(text))
             except (InputError, GaveUp) as error:
-                more, reply = [], {"done": False, "text": str(error)}
+                refusal = Fact("refused", reason=str(error))
+                more, reply = [], {"done": False, "fact": refusal.as_dict()}
             except UNSOUND:
                 raise
             except Exception as error:  # noqa: BLE001 (the guard: no command ends the control)
@@ -110,11 +113,12 @@ class Operator:
 
     def _fail(self, number: int, command: Any, error: Exception) -> tuple[list[Message], Answer]:
         """Answer a command that has raised as failed; no start may carry it out again."""
-        text = f"{describe_defect(error)}, from the command {quote(command)}"
+        defect = Fact("command with defect", defect=describe_defect(error), command=quote(command))
+        refusal = Fact("refused", reason=defect)
         if number > self._ledger.commands:  # else it was committed before it has raised
             self._number = number
-            self._dispatcher.control.commit(*self._answer(text, failed=True))
-        return [], {"done": False, "text": text}
+            self._dispatcher.control.commit(*self._answer(refusal, failed=True))
+        return [], {"done": False, "fact": refusal.as_dict()}
 
     def _obey(self, command: Mapping[str, Any]) -> tuple[list[Message], Answer]:
         """Carry out a command; return what is to be sent, and the answer."""
@@ -126,7 +130,7 @@ class Operator:
         places = [texts[key] for key in ("name", "to") if key in texts]
         ticks = None if lasts is None else clock.count_ticks(read_time(lasts))
         if kind == "list":
-            return [], {"done": True, "text": "", "jobs": list_jobs(ledger)}
+            return [], {"done": True, "fact": None, "jobs": list_jobs(ledger)}
         changes: dict[str, Callable[[], list[Message]]] = {
             "add": lambda: self.add_job(at or "", int(ticks or 0), robot, texts.get("after"))[1],
             "change": lambda: self.change_job(name, at, ticks),
@@ -136,11 +140,11 @@ class Operator:
             "close": lambda: self.close(*places),
             "open": lambda: self.open(*places),
             "place": lambda: self.place_robot(name, at),
-            "replan": lambda: self._replan(self._dispatcher.list_stops(), text="replanned"),
+            "replan": lambda: self._replan(self._dispatcher.list_stops(), fact=Fact("replanned")),
         }
         change = changes.get(kind) or partial(self.operate, kind, texts.get("name"))
         messages = change()
-        return messages, {"done": True, "text": ledger.answer}
+        return messages, {"done": True, "fact": ledger.answer}
 
     # --- robots ----------------------------------------------------------------------------------
 
@@ -164,8 +168,10 @@ class Operator:
             raise InputError.at("command", f"{quote(kind)} is no command (see rightofway jobs)")
         refuse_nameless({"kind": kind, "name": name})
         robots = range(len(ledger.names)) if name is None else [find_robot(ledger, name)]
-        text = f"{name or 'all robots'}: {kind}"
-        return self._note(*({**entry, "robot": robot} for robot in robots), text=text)
+        fact = Fact("all operated", operation=kind)
+        if name is not None:
+            fact = Fact("operated", robot=name, operation=kind)
+        return self._note(*({**entry, "robot": robot} for robot in robots), fact=fact)
 
     def place_robot(self, name: str, at: str | None = None) -> list[Message]:
         """Take in a robot again that was off the floor, where a person has put it.
@@ -202,7 +208,8 @@ class Operator:
         stops[robot] = list_stops_to_make(ahead, own.arrived - 1)
         begun = replace(own, route=make_route_from(own.route, place), is_off=False)
         begun.arrived = begun.released = first
-        return self._replan(stops, placed={robot: begun}, text=f"{name} goes on from {place}")
+        fact = Fact("robot placed", robot=name, place=place)
+        return self._replan(stops, placed={robot: begun}, fact=fact)
 
     # --- jobs ------------------------------------------------------------------------------------
 
@@ -255,11 +262,15 @@ class Operator:
         job = f"job{robots[number].next_job}"
         stops[number].insert(index, StopToMake(at, job, work))
         name = f"{self._ledger.names[number]}/{job}"
-        text = f"{name} at {at} is added{self._describe_neighbours(number, stops[number], index)}"
-        return name, self._replan(stops, text=text)
+        fact = Fact("only job added", job=name, place=at)
+        if neighbours := self._list_neighbours(number, stops[number], index):
+            fact = Fact("job added", job=name, place=at, neighbours=neighbours)
+        return name, self._replan(stops, fact=fact)
 
-    def _describe_neighbours(self, robot: int, stops: Sequence[StopToMake], index: int) -> str:
-        """Return before and after which jobs of a robot one of its stops is."""
+    def _list_neighbours(
+        self, robot: int, stops: Sequence[StopToMake], index: int
+    ) -> tuple[Fact, ...]:
+        """Return the jobs of a robot before and after one of its stops."""
         own, name = self._ledger.robots[robot], self._ledger.names[robot]
         route = own.route
         released = [
@@ -271,12 +282,11 @@ class Operator:
         jobs_of_stops = [(stop.place, stop.job) for stop in stops if stop.job]
         before = sum(bool(stop.job) for stop in stops[:index])
         earlier, later = [*released, *jobs_of_stops[:before]], jobs_of_stops[before + 1 :]
-        neighbours = [
-            f"{word} {name}/{job} at {place}"
-            for word, rows in (("after", earlier[-1:]), ("before", later[:1]))
+        return tuple(
+            Fact(kind, job=f"{name}/{job}", place=place)
+            for kind, rows in (("after job", earlier[-1:]), ("before job", later[:1]))
             for place, job in rows
-        ]
-        return f" {' and '.join(neighbours)}" if neighbours else ", its only job"
+        )
 
     def change_job(
         self, name: str, at: str | None = None, work: int | None = None
@@ -304,7 +314,7 @@ class Operator:
         stops[number][index] = old._replace(
             place=old.place if at is None else at, work=old.work if work is None else work
         )
-        return self._replan(stops, text=f"{name} is changed")
+        return self._replan(stops, fact=Fact("job changed", job=name))
 
     def withdraw_job(self, name: str) -> list[Message]:
         """Take a job back that is not released.
@@ -324,8 +334,8 @@ class Operator:
         stops = self._dispatcher.list_stops()
         number, index = find_open_job(self._ledger, stops, name)
         job = stops[number].pop(index).job
-        text = f"{name} is withdrawn"
-        return self._replan(stops, withdrawn=[(number, job)], text=text)
+        fact = Fact("job withdrawn", job=name)
+        return self._replan(stops, withdrawn=[(number, job)], fact=fact)
 
     def retry_job(self, name: str) -> list[Message]:
         """Have a robot do a job again that has failed: by a new order from where it stands.
@@ -342,9 +352,8 @@ class Operator:
         """
         entry = {"kind": "again", **find_failed_job(self._ledger, name)}
         robot = entry["robot"]
-        return self._note(
-            entry, {"kind": "cancel wanted", "robot": robot}, text=f"{name} is done again"
-        )
+        cancel = {"kind": "cancel wanted", "robot": robot}
+        return self._note(entry, cancel, fact=Fact("job repeated", job=name))
 
     def skip_job(self, name: str) -> list[Message]:
         """Give up a job that has failed: its robot goes on without it.
@@ -359,9 +368,8 @@ class Operator:
         InputError
             If it has not failed.
         """
-        return self._note(
-            {"kind": "skipped", **find_failed_job(self._ledger, name)}, text=f"{name} is skipped"
-        )
+        entry = {"kind": "skipped", **find_failed_job(self._ledger, name)}
+        return self._note(entry, fact=Fact("job skipped", job=name))
 
     def _name_vertex(self, name: str) -> str:
         """Return the name of the vertex that a name means: its own, or that of a station."""
@@ -439,35 +447,35 @@ class Operator:
         if known not in closed:
             remedy = f"closed are: {', '.join(map(name_place, closed)) or 'none'}"
             raise InputError.at("place", f"{name_place(names)} is not closed ({remedy})")
-        return self._change_floor({"kind": "opened", "names": known}, "open")
+        return self._change_floor({"kind": "opened", "names": known}, "opened")
 
     def _change_floor(self, entry: Entry, state: str) -> list[Message]:
         """Commit a change of the floor, then replan the rest if that is possible."""
-        text = f"{name_place(entry['names'])} is {state}"
-        messages = self._note(entry, text=text)
+        messages = self._note(entry, fact=describe_place(state, entry["names"]))
         return [*messages, *(self._dispatcher.replan_if_possible() or [])]
 
     # --- what all of them do ---------------------------------------------------------------------
 
-    def _note(self, *entries: Entry, text: str) -> list[Message]:
+    def _note(self, *entries: Entry, fact: Fact) -> list[Message]:
         """Commit what a command changes, with its answer."""
-        return self._dispatcher.control.note(*entries, *self._answer(text))
+        return self._dispatcher.control.note(*entries, *self._answer(fact))
 
     def _replan(
         self,
         stops: Sequence[Sequence[StopToMake]],
         *,
-        text: str,
+        fact: Fact,
         withdrawn: Collection[tuple[int, str]] = (),
         placed: Mapping[int, RobotLedger] | None = None,
     ) -> list[Message]:
         """Plan the rest with these stops; commit it with the answer."""
-        notes = self._answer(text)
+        notes = self._answer(fact)
         return self._dispatcher.replan(stops, withdrawn=withdrawn, placed=placed, notes=notes)
 
-    def _answer(self, text: str, *, failed: bool = False) -> list[Entry]:
+    def _answer(self, fact: Fact, *, failed: bool = False) -> list[Entry]:
         """Return the entry of the command that is under way, with its answer."""
         if self._number is None:
             return []
         number, self._number = self._number, None
-        return [{"kind": "command", "number": number, "answer": text, "failed": failed}]
+        entry = {"kind": "command", "number": number, "answer": fact.as_dict(), "failed": failed}
+        return [entry]

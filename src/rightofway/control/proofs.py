@@ -12,7 +12,7 @@ from rightofway.control.ledger import Ledger
 from rightofway.control.messages import RobotState
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.errors import escape_text
-from rightofway.phrases import Phrase
+from rightofway.facts import Fact
 
 __all__ = [
     "find_proven_visit",
@@ -20,12 +20,12 @@ __all__ = [
     "is_acknowledged_by",
     "is_taken_back",
     "list_facts",
-    "say_stray",
+    "make_stray",
     "take_fault",
 ]
 
-Report = Callable[[int, str], None]
-"""Receives a robot and a sentence on it."""
+Report = Callable[[int, Fact], None]
+"""Receives a robot and a fact about it."""
 
 
 def list_facts(
@@ -44,7 +44,7 @@ def list_facts(
             and state.order_id == own.order_id
             and _is_failure(own, action_id, job)
         ):
-            report(robot, Phrase("has failed in {job}: it goes no further", job=job))
+            report(robot, Fact("job failed", job=job))
             yield {"kind": "failed", "robot": robot, "job": job}
     if visit is not None and visit > own.arrived:
         yield {"kind": "arrived", "robot": robot, "visit": visit}
@@ -53,18 +53,16 @@ def list_facts(
         yield take_fault(robot, fault, state, report)
 
 
-def say_stray(state: RobotState) -> str:
+def make_stray(state: RobotState) -> Fact:
     """Return the fault of a robot that has lost its order elsewhere than where it was held."""
-    place = escape_text(state.last_place[:80])
-    return Phrase("it stands at {place}, which it does not hold", place=place)
+    return Fact("astray", place=escape_text(state.last_place[:80]))
 
 
-def take_fault(robot: int, fault: str, state: RobotState, report: Report) -> Entry:
+def take_fault(robot: int, fault: Fact, state: RobotState, report: Report) -> Entry:
     """Report a fault; return its entry."""
-    sentence = Phrase("is faulty: {fault}; a person has to look after it", fault=fault)
-    report(robot, sentence)
+    report(robot, Fact("faulty", fault=fault))
     place = state.last_place or None
-    return {"kind": "fault", "robot": robot, "fault": fault, "place": place}
+    return {"kind": "fault", "robot": robot, "fault": fault.as_dict(), "place": place}
 
 
 def _is_failure(own: RobotLedger, action_id: str, job: str) -> bool:
@@ -95,18 +93,14 @@ def find_proven_visit(own: RobotLedger, state: RobotState) -> int | None:
     return visit if visit >= begin else None
 
 
-def _find_fault(ledger: Ledger, robot: int, state: RobotState) -> str | None:
+def _find_fault(ledger: Ledger, robot: int, state: RobotState) -> Fact | None:
     """Return how a state contradicts all that was sent (rule 11)."""
     own = ledger.robots[robot]
     sent = own.orders.get(state.order_id)
     if sent is None:
         return _find_fault_of_order(ledger, robot, state)
     if state.update_id >= sent.updates:
-        return Phrase(
-            "it has update {update} of an order with {updates}",
-            update=str(state.update_id),
-            updates=str(sent.updates),
-        )
+        return Fact("unknown update", update=state.update_id, updates=sent.updates)
     visit = sent.offset + state.last_sequence_id // 2
     if state.update_id not in sent.ends or visit < own.route.first:
         return None  # of long ago: where it was is not kept
@@ -114,23 +108,22 @@ def _find_fault(ledger: Ledger, robot: int, state: RobotState) -> str | None:
     base = range(sent.offset, end + 1)
     beyond = [number for number in state.nodes if sent.offset + number // 2 not in base]
     if beyond:
-        return Phrase("it drives to node {node}, which was not released", node=str(beyond[0]))
+        return Fact("unreleased node", node=beyond[0])
     places = own.route.stretch(sent.offset, end + 1)
     if state.order_id == own.order_id and state.last_place not in {*places, ""}:
-        return Phrase("it is at {place}, off its way", place=escape_text(state.last_place[:80]))
+        return Fact("off way", place=escape_text(state.last_place[:80]))
     return None
 
 
-def _find_fault_of_order(ledger: Ledger, robot: int, state: RobotState) -> str | None:
+def _find_fault_of_order(ledger: Ledger, robot: int, state: RobotState) -> Fact | None:
     """Return what is wrong with an order that is not kept."""
     if not state.order_id:
         return None
     if not ledger.owns(robot, state.order_id):
-        order = escape_text(state.order_id[:80])
-        return Phrase("it has order {order}, which is not ours", order=order)
+        return Fact("foreign order", order=escape_text(state.order_id[:80]))
     number = ledger.find_number(robot, state.order_id)
     if number is not None and number < ledger.robots[robot].first_order and state.nodes:
-        return Phrase("it still has an order from before it was placed")
+        return Fact("old order")
     return None
 
 

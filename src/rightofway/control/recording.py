@@ -11,16 +11,17 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
-from rightofway.control.journal import JournalRow
-from rightofway.control.ledger import Ledger
+from rightofway.control.journal import Entry, JournalRow
+from rightofway.control.ledger import Ledger, refuse_entry
 from rightofway.control.notices import EVERY_KIND
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive
 from rightofway.control.story import Story
 from rightofway.errors import InputError, quote
+from rightofway.facts import Fact
 from rightofway.model import Plan
 from rightofway.phrases import to_parts
-from rightofway.report.driving import say_start
+from rightofway.report.facts import FactWriter
 from rightofway.viz.page.schema import DrivenFrame, DrivenRow, SaysRow
 
 __all__ = ["Recording", "RowSource"]
@@ -87,7 +88,7 @@ class Recording:
         self, plan: Plan, source: RowSource, clock: Callable[[], float] = time.time
     ) -> None:
         self._plan, self._source, self._clock = plan, source, clock
-        self._roadmap = plan.scenario.roadmap
+        self._roadmap, self._writer = plan.scenario.roadmap, FactWriter(plan.scenario)
         seconds = plan.scenario.units.seconds or 1
         self._per_second = 1 / float(plan.scenario.problem.clock.tick * seconds)
         self.now, self.is_running = 0.0, False
@@ -166,10 +167,9 @@ class Recording:
     def _take(self, group: Sequence[JournalRow]) -> None:
         """Take in the entries of one moment."""
         moment = group[0].moment
-        if moment is not None:
-            if self._began is None:
-                self._began = group[0].entry.get("began", moment)  # a snapshot knows it
-            self._moment, self._seen = max(self._moment, moment), self._clock()
+        if self._began is None:
+            self._began = group[0].entry.get("began", moment)  # a snapshot knows it
+        self._moment, self._seen = max(self._moment, moment), self._clock()
         tick = round(
             max(self._tick(self._moment), self._rows[-1][0] if self._rows else 0), DECIMALS
         )
@@ -182,8 +182,8 @@ class Recording:
             self._compare(robot, tick)
         if self._story is not None:
             for happening in self._story.go_on():
-                robot, kind, text, others = happening
-                says: SaysRow = (tick, robot, "says", kind, to_parts(text), list(others))
+                robot, kind, fact, others = happening
+                says: SaysRow = (tick, robot, "says", kind, self._write(fact), list(others))
                 self._rows.append(says)
                 self._shown[robot].wait = says if kind == "wait" else None
 
@@ -193,13 +193,16 @@ class Recording:
         kind = entry["kind"]
         self._ledger.read(row.number, entry)
         if kind == "notice":
-            self._notice(entry, tick)
+            try:
+                self._notice(entry, tick)
+            except Exception as error:
+                raise refuse_entry(row.number, entry, error) from error
             return ()
         if kind == "pace":
             self._pace, self._is_simulated = entry["seconds"], True
             return ()
         if kind == "started":
-            self._rows.append((tick, -1, "says", "news", to_parts(say_start()), []))
+            self._rows.append((tick, -1, "says", "news", self._write(Fact("control started")), []))
         if kind in EVERYBODY:
             if not self._shown:
                 self._refuse_another_plan()
@@ -208,7 +211,7 @@ class Recording:
             return range(len(self._shown))
         robot = int(entry.get("robot", -1))
         if kind == "fault":
-            self._alarm(robot, "fault", self._told.get(robot, entry["fault"]), tick)
+            self._alarm(robot, "fault", self._told.get(robot) or self._write(entry["fault"]), tick)
         elif kind == "failed":
             self._alarm(robot, "failed", self._told.get(robot, entry["job"]), tick)
         return () if robot < 0 else (robot,)
@@ -227,10 +230,16 @@ class Recording:
                     message = f"is of another map, with {quote(place)} (give the plan of it)"
                     raise InputError.at("journal", message) from None
 
-    def _notice(self, entry: Any, tick: float) -> None:
-        """Show what people were told."""
-        robot, about, text = entry["robot"], entry["about"], entry["text"]
-        if text:
+    def _write(self, fact: Fact | Entry) -> Any:
+        """Return the sentence of a fact, or of one as a journal has it, for pages."""
+        fact = fact if isinstance(fact, Fact) else Fact.from_dict(fact)
+        return to_parts(self._writer.write(fact))
+
+    def _notice(self, entry: Entry, tick: float) -> None:
+        """Show a notice."""
+        robot, about, fact = entry["robot"], entry["about"], entry["fact"]
+        text = None if fact is None else self._write(fact)
+        if text is not None:
             is_alarm = about and not entry["over"]
             self._rows.append((tick, robot, "says", "alarm" if is_alarm else "news", text, []))
             self._told[robot] = text

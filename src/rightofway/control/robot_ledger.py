@@ -59,7 +59,7 @@ class RobotLedger:
     cancel: Cancel | None = None
     cancels: int = 0
     is_on_hold: bool = False
-    fault: str | None = None
+    fault: Entry | None = None  # as a fact has it
     strays_at: str | None = None  # the place that a faulty robot names
     is_off: bool = False  # taken off the floor
     jobs_of: dict[str, str] = field(default_factory=dict)  # action id: job

@@ -15,8 +15,8 @@ import numpy as np
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.notices import Notices
 from rightofway.control.robot_ledger import RobotLedger
+from rightofway.facts import Fact
 from rightofway.model.route import compute_drives_along, compute_turns_along
-from rightofway.phrases import Phrase
 
 __all__ = ["STILL", "Standstill"]
 
@@ -87,13 +87,12 @@ class Standstill:
                 continue  # that has an alarm already
             elif now - stand.tick > 2 * self._count_drive(robot, own) + self._patience:
                 route = own.route
-                sentence = Phrase(
-                    "does not move: it was at {place} last, and its way to {target} is released",
+                begin = Fact(
+                    "not moving",
                     place=route.get_place(own.arrived),
                     target=route.get_place(own.released),
                 )
-                end = Phrase("moves again, or has no way released")
-                self._notices.begin(robot, STILL, sentence, end)
+                self._notices.begin(robot, STILL, begin, Fact("moving"))
 
     def _count_drive(self, robot: int, own: RobotLedger) -> int:
         """Return how long a robot turns and drives to its next vertex by plan [ticks]."""

@@ -1,4 +1,4 @@
-"""A log that reads as a story: who sets out, waits for whom, goes on, and has done its work."""
+"""The story of a run: which robot sets out, waits for which, goes on, and has done its work."""
 
 from __future__ import annotations
 
@@ -7,20 +7,11 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 from rightofway.control.ledger import Ledger
+from rightofway.control.names import describe_place
 from rightofway.control.releases import find_closed, list_strayed_to
 from rightofway.control.robot_ledger import RobotLedger
-from rightofway.phrases import Phrase
+from rightofway.facts import Fact
 from rightofway.precedence import Part
-from rightofway.report.driving import (
-    describe_end_of_way,
-    finishes_work,
-    goes_on,
-    has_arrived,
-    has_left,
-    is_open,
-    sets_out,
-    waits_until,
-)
 
 __all__ = ["Happening", "Story"]
 
@@ -34,15 +25,15 @@ class Happening(NamedTuple):
         Its number.
     kind
         Whether it has done work, drives, waits for others, or is at the end of its route.
-    text
-        A sentence about it.
+    fact
+        Robot, places and conditions of it.
     others
         The robots that it waits for.
     """
 
     robot: int
     kind: Literal["work", "drive", "wait", "end"]
-    text: Phrase
+    fact: Fact
     others: tuple[int, ...] = ()
 
 
@@ -52,13 +43,13 @@ class _Chapter:
 
     finished: int = 0
     waits_for: int | None = None  # the part
-    conditions: frozenset[str] = frozenset()  # of going on, when this was written
+    conditions: frozenset[Fact] = frozenset()  # of going on, when this was written
     has_set_out: bool = False
     has_ended: bool = False
 
 
 class Story:
-    """What has happened, in sentences, each once.
+    """The events of a run, each once.
 
     Parameters
     ----------
@@ -96,18 +87,20 @@ class Story:
         if own.jobs_done > chapter.finished:
             chapter.finished = own.jobs_done
             jobs = own.jobs_done + len(own.route.all_jobs - own.finished)
-            yield Happening(robot, "work", finishes_work(name, place, chapter.finished, jobs))
+            done = Fact("work done", robot=name, place=place, done=chapter.finished, jobs=jobs)
+            yield Happening(robot, "work", done)
         waited = chapter.waits_for is not None and own.released >= chapter.waits_for
         if waited or (own.released > own.arrived and not chapter.has_set_out):
-            drives = goes_on if chapter.has_set_out else sets_out
+            kind = "goes on" if chapter.has_set_out else "sets out"
             chapter.waits_for, chapter.has_set_out = None, True
             target = own.route.get_place(own.released)
-            yield Happening(robot, "drive", drives(name, place, target))
+            drive = Fact(kind, robot=name, place=place, target=target)
+            yield Happening(robot, "drive", drive)
         next_part = own.released + 1
         if next_part == own.route.end:
             if own.is_done and not chapter.has_ended:
                 chapter.has_ended = True
-                yield Happening(robot, "end", describe_end_of_way(name, place))
+                yield Happening(robot, "end", Fact("end of way", robot=name, place=place))
             return
         if chapter.has_ended:  # it was given more to do
             chapter.has_ended = chapter.has_set_out = False
@@ -121,23 +114,32 @@ class Story:
         if conditions and (is_new or not chapter.conditions.issuperset(conditions)):
             chapter.waits_for, chapter.conditions = next_part, frozenset(conditions)
             self.waits[robot] += is_new
-            yield Happening(robot, "wait", waits_until(name, place, conditions), awaited)
+            wait = Fact("waits", robot=name, place=place, arrivals=tuple(conditions))
+            yield Happening(robot, "wait", wait, awaited)
 
     def _list_conditions(
         self, robot: int, own: RobotLedger, part: int
-    ) -> tuple[list[Phrase], tuple[int, ...]]:
+    ) -> tuple[list[Fact], tuple[int, ...]]:
         """Return the conditions under which a part may be released, and the robots in them."""
         ledger, names = self._ledger, self._names
         tail, head = own.route.get_place(part - 1), own.route.get_place(part)
         missing = ledger.graph.list_missing(Part(robot, part), ledger.arrived)
         conditions = [
-            has_arrived(names[arrival.robot], self._place(arrival.robot, arrival.visit))
+            Fact(
+                "robot at place",
+                robot=names[arrival.robot],
+                place=self._place(arrival.robot, arrival.visit),
+            )
             for arrival in missing
         ]
         closed, strayed = find_closed(ledger, tail, head), list_strayed_to(ledger, head)
         if closed is not None:
-            conditions.append(is_open(closed))
-        conditions += [has_left(names[other], head) for other in strayed if other != robot]
+            conditions.append(describe_place("open", closed))
+        conditions += [
+            Fact("robot has left", robot=names[other], place=head)
+            for other in strayed
+            if other != robot
+        ]
         return conditions, (*(arrival.robot for arrival in missing), *strayed)
 
     def _place(self, robot: int, visit: int) -> str:

@@ -7,15 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from rightofway.control.commands import Answer, Commands, say_answer
+from rightofway.control.commands import Answer, Commands
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.messages import Message
 from rightofway.control.notices import Notices
 from rightofway.control.operator import Operator
 from rightofway.control.standstill import Standstill
+from rightofway.facts import Fact
 from rightofway.model import NEVER
 from rightofway.precedence import Part
-from rightofway.report.driving import waits_for_closure
 
 __all__ = ["Supervisor"]
 
@@ -31,7 +31,7 @@ class Supervisor:
     dispatcher
         The work of robots.
     notices
-        What people are told.
+        Receives facts for people.
     read_ticks
         Returns the time since the run began [ticks].
     commands
@@ -58,8 +58,8 @@ class Supervisor:
         dispatcher.report = self._report_replanning
         dispatcher.keep_closures(read_ticks)
 
-    def _report_replanning(self, sentence: str, is_over: bool) -> None:
-        self._notices.report(sentence, PLAN, is_over=is_over)
+    def _report_replanning(self, fact: Fact | None, is_over: bool) -> None:
+        self._notices.report(fact, PLAN, is_over=is_over)
 
     def take_turn(self) -> list[Message]:
         """Return what is to be sent because time has passed; call it every second."""
@@ -74,7 +74,6 @@ class Supervisor:
         if self._dispatcher.closures is None:
             return
         ledger = self._dispatcher.ledger
-        format_moment = self._dispatcher.plan.scenario.quantities.format_moment
         for robot, own in enumerate(ledger.robots):
             part, route = own.released + 1, own.route
             is_at_end = own.arrived == own.released and own.finished.issuperset(
@@ -87,10 +86,16 @@ class Supervisor:
             if (closed := self._dispatcher.find_closed(robot, part)) is None:
                 continue
             self._told[robot] = part
-            end = None if closed.end == NEVER else format_moment(closed.end)
-            place, head = route.get_place(own.arrived), route.get_place(part)
-            sentence = waits_for_closure(place, head, format_moment(closed.begin), end)
-            self._notices.report_on(robot, sentence)
+            ends = {} if closed.end == NEVER else {"end": closed.end}
+            fact = Fact(
+                "waits for opening" if ends else "waits for good",
+                place=route.get_place(own.arrived),
+                head=route.get_place(part),
+                begin=closed.begin,
+                about=self._dispatcher.plan.scenario,
+                **ends,
+            )
+            self._notices.report_on(robot, fact)
 
     def obey(self) -> list[Message]:
         """Carry out what people have asked for; return what is to be sent."""
@@ -99,8 +104,8 @@ class Supervisor:
         messages, answers = self.operator.obey(self._commands)
         self._answers += answers
         for _, answer in answers:
-            if text := say_answer(answer):
-                self._notices.report(text)
+            if answer["fact"]:
+                self._notices.report(Fact.from_dict(answer["fact"]))
         return messages
 
     def answer(self) -> None:

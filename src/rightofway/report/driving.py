@@ -1,117 +1,92 @@
-"""Sentences on robots that drive a plan by right of way: the story of a run, and what is wrong.
-
-All are phrases: the log, the live page and the replay of a journal show them.
-"""
+"""The report on a plan that robots have driven."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator
 
-from rightofway.phrases import Phrase, join_items
+from rightofway.execution.drive_result import DriveResult
+from rightofway.phrases import Phrase, chain_items, say_count
+from rightofway.quantities import Quantities
+from rightofway.report.lines import Facts, Part, Table, lay_out
 
-__all__ = [
-    "describe_end_of_way",
-    "describe_robot",
-    "finishes_work",
-    "goes_on",
-    "has_arrived",
-    "has_left",
-    "is_open",
-    "say_start",
-    "sets_out",
-    "waits_for_closure",
-    "waits_until",
-]
+__all__ = ["report_drive"]
+
+MAX_ROBOTS = 20
+"""Robots in the report; --json has them all."""
 
 
-def describe_robot(robot: str, predicate: str) -> Phrase:
-    """Return a sentence on a robot.
+def report_drive(result: DriveResult, quantities: Quantities) -> str:
+    """Return what was done, how much later than planned, and by how many messages.
 
     Parameters
     ----------
-    robot
-        Its name.
-    predicate
-        What it does or is, without its name.
+    result
+        The run.
+    quantities
+        How times are written.
     """
-    return Phrase("{robot} {predicate}", robot=robot, predicate=predicate)
+    facts = Facts(list(_totals(result, quantities)))
+    return lay_out([facts, "", *_robots(result, quantities)])
 
 
-def say_start() -> Phrase:
-    """Return that a control has begun to drive a plan, or goes on with it."""
-    return Phrase("the control has started")
-
-
-def sets_out(robot: str, place: str, target: str) -> Phrase:
-    """Return that a robot begins to drive, and how far its way is released."""
-    return Phrase(
-        "{robot} sets out from {place} to {target}", robot=robot, place=place, target=target
-    )
-
-
-def goes_on(robot: str, place: str, target: str) -> Phrase:
-    """Return that a robot drives again after a wait, and how far its way is released."""
-    return Phrase(
-        "{robot} goes on from {place} to {target}", robot=robot, place=place, target=target
-    )
-
-
-def waits_until(robot: str, place: str, conditions: Sequence[str]) -> Phrase:
-    """Return where a robot waits, and what has to be the case before it goes on."""
-    return Phrase(
-        "{robot} waits at {place} until {arrivals}",
-        robot=robot,
-        place=place,
-        arrivals=join_items(conditions),
-    )
-
-
-def has_arrived(robot: str, place: str) -> Phrase:
-    """Return the condition that a robot is at a place."""
-    return Phrase("{robot} is at {place}", robot=robot, place=place)
-
-
-def has_left(robot: str, place: str) -> Phrase:
-    """Return the condition that a robot which is off its way has left a place."""
-    return Phrase("{robot} has left {place}", robot=robot, place=place)
-
-
-def is_open(names: Sequence[str]) -> Phrase:
-    """Return the condition that a place is open, or the lane between two places."""
-    if len(names) == 1:
-        return Phrase("{place} is open", place=names[0])
-    return Phrase("the lane between {place} and {other} is open", place=names[0], other=names[-1])
-
-
-def waits_for_closure(place: str, head: str, begin: str, end: str | None) -> Phrase:
-    """Return the predicate that a robot waits, because the way before it is closed by the clock."""
-    if end is None:
-        return Phrase(
-            "waits at {place}: the way to {head} is closed from {begin} on",
-            place=place,
-            head=head,
-            begin=begin,
+def _totals(result: DriveResult, quantities: Quantities) -> Iterator[tuple[str, str]]:
+    yield Phrase("jobs"), Phrase("{number} done", number=str(sum(result.jobs)))
+    if result.completion is None:
+        time = quantities.format_duration(result.now)
+        yield Phrase("laps"), Phrase("{number} in {time}", number=str(sum(result.laps)), time=time)
+    elif None in result.completion:
+        ended = sum(completion is not None for completion in result.completion)
+        yield (
+            Phrase("ended"),
+            Phrase(
+                "{ended} of {robots} at the end of their way after {time}",
+                ended=str(ended),
+                robots=say_count(len(result.completion), "robot", "robots"),
+                time=quantities.format_duration(result.now),
+            ),
         )
-    return Phrase(
-        "waits at {place}: the way to {head} is closed from {begin} to {end}",
-        place=place,
-        head=head,
-        begin=begin,
-        end=end,
+    else:
+        makespan = max(completion or 0 for completion in result.completion)
+        text = Phrase(
+            "{makespan}; planned {planned}",
+            makespan=quantities.format_duration(makespan),
+            planned=quantities.format_duration(max(result.plan.completions)),
+        )
+        yield Phrase("makespan"), text
+    sent = result.messages
+    messages = (
+        say_count(sent.get("order", 0), "order", "orders"),
+        say_count(sent.get("instantActions", 0), "instant action", "instant actions"),
+        say_count(sent.get("state", 0), "state", "states"),
     )
+    yield Phrase("messages"), chain_items(messages)
 
 
-def finishes_work(robot: str, place: str, done: int, jobs: int) -> Phrase:
-    """Return that a robot has done a job, and how many of its jobs are done."""
-    return Phrase(
-        "{robot} has done its work at {place} ({done} of {jobs})",
-        robot=robot,
-        place=place,
-        done=str(done),
-        jobs=str(jobs),
-    )
-
-
-def describe_end_of_way(robot: str, place: str) -> Phrase:
-    """Return that a robot has come to the end of its route."""
-    return Phrase("{robot} is at the end of its way, {place}", robot=robot, place=place)
+def _robots(result: DriveResult, quantities: Quantities) -> Iterator[Part]:
+    robots = result.plan.scenario.robots
+    if result.completion is None:
+        yield Phrase("laps of each robot")
+        headings = (Phrase("laps"), Phrase("mean lap"))
+        times = [
+            (str(laps), quantities.format_cell(round(result.now / laps)) if laps else "-")
+            for laps in result.laps
+        ]
+    else:
+        yield quantities.format_heading(Phrase("completion of each robot"))
+        headings = (Phrase("planned"), Phrase("actual"))
+        pairs = zip(result.plan.completions, result.completion, strict=True)
+        times = [
+            (
+                quantities.format_cell(planned),
+                "-" if actual is None else quantities.format_cell(actual),
+            )
+            for planned, actual in pairs
+        ]
+    rows = [
+        (robots[robot].name, str(result.jobs[robot]), str(result.waits[robot]), *times[robot])
+        for robot in range(min(len(robots), MAX_ROBOTS))
+    ]
+    yield Table((Phrase("robot"), Phrase("jobs"), Phrase("waits"), *headings), rows)
+    if len(robots) > MAX_ROBOTS:
+        more = say_count(len(robots) - MAX_ROBOTS, "more robot", "more robots")
+        yield Phrase("… and {robots}", robots=more)

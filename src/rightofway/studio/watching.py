@@ -14,12 +14,15 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from rightofway.control.commands import Commands
+from rightofway.control.commands import Answer, Commands
 from rightofway.control.journal import JournalReader
 from rightofway.control.recording import Recording
 from rightofway.errors import InputError
+from rightofway.facts import Fact
 from rightofway.languages import read_tables
 from rightofway.model import Plan
+from rightofway.phrases import to_parts
+from rightofway.report.facts import FactWriter
 from rightofway.studio.errors import Busy, Refused
 from rightofway.viz.page.document import as_compact_json, make_document
 from rightofway.viz.page.payload import make_payload
@@ -186,5 +189,14 @@ class Watched:
         finally:
             commands.close()
         if answer is None:
-            return {"done": False, "text": "no control runs: it is carried out at its next start"}
-        return answer
+            refusal = Fact("refused", reason=Fact("no control"))
+            answer = {"done": False, "fact": refusal.as_dict()}
+        return _write_answer(answer)
+
+
+def _write_answer(answer: Answer) -> dict[str, Any]:
+    """Return an answer as pages show it: a refusal with its reason."""
+    if answer["done"]:
+        return {"done": True}
+    refusal = Fact.from_dict(answer["fact"])
+    return {"done": False, "text": to_parts(FactWriter(None).write(refusal.values["reason"]))}

@@ -45,9 +45,10 @@ from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
     from rightofway.control.broker import Broker
-    from rightofway.control.drive_result import DriveResult
     from rightofway.control.endpoints import Letter
     from rightofway.control.identities import Identity
+    from rightofway.execution.drive_result import DriveResult
+    from rightofway.facts import Fact
     from rightofway.quantities import Quantities
 
 INTERRUPTED, TERMINATED = 130, 143
@@ -224,9 +225,9 @@ class _Output:
 
             put_json({**describe_measures(result.plan.scenario), **details, **result.as_dict()})
         else:
-            from rightofway.control.report import report
+            from rightofway.report.driving import report_drive
 
-            put_report(report(result, self.quantities))
+            put_report(report_drive(result, self.quantities))
 
 
 def _replay(journal: Path, output: _Output) -> int:
@@ -249,11 +250,15 @@ def _drive_demo(
 ) -> None:
     """Drive a plan with simulated robots; the options are those of `drive_demo`."""
     from rightofway.control.demo import drive_demo, make_pause
+    from rightofway.report.facts import FactWriter
 
     shown, quantities = output.shown, output.quantities
 
-    def narrate(tick: int, sentence: str) -> None:
-        say(Phrase("{time}  {text}", time=f"{quantities.format_cell(tick):>8}", text=sentence))
+    writer = FactWriter(shown.plan.scenario)
+
+    def narrate(tick: int, fact: Fact) -> None:
+        time = f"{quantities.format_cell(tick):>8}"
+        say(Phrase("{time}  {text}", time=time, text=writer.write(fact)))
 
     with _kept_demo(shown if output.is_live else None, journal) as file:
         outcome = drive_demo(
@@ -330,8 +335,10 @@ def _drive_at(
     from rightofway.control.commands import Commands
     from rightofway.control.driver import Driver
     from rightofway.control.journal import SqliteJournal
+    from rightofway.report.facts import FactWriter
 
     shown, plan, counted = output.shown, output.shown.plan, None
+    writer = FactWriter(plan.scenario)
     if output.page:
         shown.require_packages("--page")
     if metrics is not None:
@@ -349,7 +356,7 @@ def _drive_at(
                     laps=laps,
                     commands=Commands(journal),
                     switch=switch,
-                    report=_narrate,
+                    report=lambda fact: _narrate(writer.write(fact)),
                     metrics=counted,
                     began=opened.read_begin(),
                 )

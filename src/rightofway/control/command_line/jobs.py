@@ -95,6 +95,8 @@ def jobs(
         raise click.UsageError("a job is somewhere (give --at)")
     from rightofway.control.commands import NAMED, Commands
     from rightofway.control.journal import JournalReader
+    from rightofway.facts import Fact
+    from rightofway.report.facts import FactWriter
 
     if action in NAMED and not name:
         raise click.UsageError(f"{action} needs a NAME")
@@ -115,10 +117,10 @@ def jobs(
         return 3
     if as_json:
         put_json(dict(answer))
-    elif not answer["done"]:
-        say(Phrase("refused: {text}", text=answer["text"]))
+    elif action == "list" and answer["done"]:
+        rows = (map(job.get, ("name", "at", "state")) for job in answer["jobs"])
+        put_report("\n".join("  ".join(f"{cell:12}" for cell in row).rstrip() for row in rows))
     else:
-        rows = (map(job.get, ("name", "at", "state")) for job in answer.get("jobs", ()))
-        lines = ["  ".join(f"{cell:12}" for cell in row).rstrip() for row in rows]
-        put_report("\n".join(lines) if action == "list" else str(answer["text"]))
+        sentence = FactWriter(None).write(Fact.from_dict(answer["fact"]))
+        (put_report if answer["done"] else say)(sentence)
     return 0 if answer["done"] else 1

@@ -1,6 +1,6 @@
-/** @import { DrivenFrame, FeedData } from "./payload.d.ts" */
+/** @import { DrivenFrame, FeedData, PhraseData } from "./payload.d.ts" */
 
-/** @typedef {{ done: boolean, text: string }} OrderAnswer What became of an order of a person. */
+/** @typedef {{ done: boolean, text?: PhraseData }} OrderAnswer What became of an order of a person. */
 
 /**
  * Listen to frames, for ever: a browser that has lost the server asks again, and names the last frame that it has.

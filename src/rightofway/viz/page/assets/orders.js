@@ -1,5 +1,6 @@
 import { sendOrder } from "./feed.js";
 import { texts } from "./language.js";
+import { said } from "./library.js";
 
 /** @import { Choice } from "./choice.js" */
 /** @import { Driven } from "./driven.js" */
@@ -111,6 +112,7 @@ export class Orders {
     this.answer.textContent = texts.driven.asked;
     const { done, text } = await sendOrder(this.address, { kind, name, at });
     const { driven: own } = texts;
-    this.answer.textContent = done ? own.carriedOut : own.refused(text || own.disconnected);
+    const reason = text ? said(text) : own.disconnected;
+    this.answer.textContent = done ? own.carriedOut : own.refused(reason);
   }
 }
