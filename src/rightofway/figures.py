@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from rightofway.check import Fault, Report
     from rightofway.facts import Fact
+    from rightofway.metrics import Change
     from rightofway.model import LostTime, Plan, Scenario, Tick, Wait
 
 
@@ -62,17 +63,22 @@ class PackageFigures:
 class PackageTeller:
     """`rightofway.facts.Teller` by `rightofway.report`, in English."""
 
-    def tell_fact(self, fact: Fact | Fault | Report) -> str:
-        """Return a fact, a fault or a report of the judge as sentences."""
-        from rightofway.check import Fault, Report
+    def tell_fact(self, fact: Fact | Fault | Report | Change) -> str:
+        """Return a fact, a fault, a report of the judge or a change as sentences."""
+        from rightofway.facts import Fact
         from rightofway.report.facts import FactWriter
+
+        if isinstance(fact, Fact):
+            return str(FactWriter(fact.about).write(fact))
+        from rightofway.check import Fault, Report
+        from rightofway.report.comparison import describe_change
         from rightofway.report.judgement import list_report_sentences, write_fault
 
         if isinstance(fact, Fault):
             return str(write_fault(fact))
         if isinstance(fact, Report):
             return "\n".join(list_report_sentences(fact))
-        return str(FactWriter(fact.about).write(fact))
+        return str(describe_change(fact)["text"])
 
     def summarize_report(self, report: Report) -> str:
         """Return the number of faults of each kind."""

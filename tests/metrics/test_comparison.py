@@ -9,8 +9,11 @@ from typing import Any
 import pytest
 
 from rightofway.errors import InputError
+from rightofway.facts import Fact
 from rightofway.metrics import compare, find_changes
 from rightofway.model import Closure, Robot, Scenario, Stop
+from rightofway.model.attributes import Attribute
+from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
 from rightofway.quantities import Units
 from rightofway.site import VertexId, make_grid_roadmap
 from tests.builders.plans import door, door_shifted, loop
@@ -85,14 +88,32 @@ def test_too_many_plans_are_refused() -> None:
 
 def test_changes_of_a_robot_are_in_its_units() -> None:
     faster = scenario(speed=Fraction(3, 2), radius=Fraction(1, 5))
-    found = [change.text for change in find_changes(scenario(), faster)]
+    found = [str(change) for change in find_changes(scenario(), faster)]
     assert found[:2] == ["R1: speed 1 m/s → 1.5 m/s", "R1: radius 0 m → 0.2 m"]
+
+
+def test_the_same_values_in_another_unit_are_no_change() -> None:
+    """1 m/s is 1000 mm/s; a radius of 0.2 m is 200 mm, and one of 300 mm is another one."""
+    metres = scenario(radius=Fraction(1, 5), speed=Fraction(1))
+    small = replace(metres.robots[0], speed=Fraction(1000), radius=Fraction(200))
+    millimetres = replace(metres, units=Units(length="mm", time="s"), robots=(small,))
+    keys = {change.key for change in find_changes(metres, millimetres)}
+    assert not keys & {"speed", "radius"}
+    other = replace(millimetres, robots=(replace(small, radius=Fraction(300)),))
+    (change,) = [each for each in find_changes(metres, other) if each.key == "radius"]
+    assert str(change) == "R1: radius 0.2 m → 300 mm"
+    assert change.before == Fact("length", value=Fraction(1, 5))
+
+
+@pytest.mark.parametrize("attribute", [*ROBOT_ATTRIBUTES, *RULE_ATTRIBUTES], ids=str)
+def test_an_attribute_without_a_value_is_a_known_fact(attribute: Attribute) -> None:
+    assert str(Fact(attribute.unset)) == attribute.unset
 
 
 def test_changes_of_places_and_work_name_them() -> None:
     before = scenario()
     moved = replace(before.robots[0], home=VertexId(4), stops=(stop(3, 5),))
-    found = [change.text for change in find_changes(before, replace(before, robots=(moved,)))]
+    found = [str(change) for change in find_changes(before, replace(before, robots=(moved,)))]
     assert found == [
         "R1: home (0.5, 0.5) → (0.5, 1.5)",
         "R1: stops (2.5, 0.5) → (3.5, 0.5)",
@@ -105,18 +126,18 @@ def test_robots_that_change_in_the_same_way_are_one_entry() -> None:
     first = before.robots[0]
     fleet = tuple(replace(first, name=f"R{i}", home=VertexId(i)) for i in range(1, 4))
     added = find_changes(before, replace(before, robots=(first, *fleet[1:])))
-    assert [change.text for change in added] == ["R2 and R3: added"]
+    assert [str(change) for change in added] == ["R2 and R3: added"]
     slow = tuple(replace(robot, speed=Fraction(1, 2)) for robot in fleet)
     found = find_changes(replace(before, robots=fleet), replace(before, robots=slow))
-    assert [change.text for change in found] == ["3 robots: speed 1 m/s → 0.5 m/s"]
+    assert [str(change) for change in found] == ["3 robots: speed 1 m/s → 0.5 m/s"]
     gone = find_changes(replace(before, robots=fleet), replace(before, robots=fleet[:2]))
-    assert [change.text for change in gone] == ["R3: removed"]
+    assert [str(change) for change in gone] == ["R3: removed"]
 
 
 def test_changes_of_map_rules_and_closures_are_said() -> None:
     before = scenario()
     walled = scenario(("....", "...@"))
-    assert [change.text for change in find_changes(before, walled)] == [
+    assert [str(change) for change in find_changes(before, walled)] == [
         "map: 8 free cells → 7 free cells"
     ]
     closed = replace(
@@ -126,14 +147,14 @@ def test_changes_of_map_rules_and_closures_are_said() -> None:
             Closure(edge=(VertexId(5), VertexId(6))),
         ),
     )
-    assert [change.text for change in find_changes(before, closed)] == [
+    assert [str(change) for change in find_changes(before, closed)] == [
         "(1.5, 0.5): closed", "(1.5, 1.5) to (2.5, 1.5): closed",
     ]  # fmt: skip
-    assert [change.text for change in find_changes(closed, before)] == [
+    assert [str(change) for change in find_changes(closed, before)] == [
         "(1.5, 0.5): open", "(1.5, 1.5) to (2.5, 1.5): open",
     ]  # fmt: skip
     later = replace(before, rules=replace(before.rules, headway=Fraction(1), rotations=False))
-    assert [change.text for change in find_changes(before, later)] == [
+    assert [str(change) for change in find_changes(before, later)] == [
         "rules: headway 0 s → 1 s", "rules: rotations yes → no",
     ]  # fmt: skip
 

@@ -1,4 +1,4 @@
-"""In what a scenario differs from another one, as a person would say it: ``R2: speed 1 → 2``.
+"""Differences of two scenarios: robots, map, rules and closures, each with both values.
 
 Robots are the same where their names are; places, where their names are or, on maps of cells of
 different sizes, where they lie within a cell of each other.
@@ -6,59 +6,57 @@ different sizes, where they lie within a cell of each other.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, fields
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
 from rightofway.arguments import checks_arguments
+from rightofway.facts import Fact, get_teller
 from rightofway.model import Robot, Scenario
 from rightofway.model.attributes import Attribute
 from rightofway.model.closures import Closure
-from rightofway.model.place_names import PlaceNames
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
-from rightofway.quantities import Quantities, format_decimal
+from rightofway.quantities import Units
 from rightofway.site import Roadmap
 
-NAMED = 2
-"""Robots with the same change that are named; more are counted."""
+Subject = Literal["robots", "map", "rules", "place"]
+"""The parts of a scenario that differ."""
+
+Difference = tuple[str, Fact | None, Fact | None]
+"""A key, and the values before and after."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Change:
-    """Something in which a scenario differs from another one.
+    """A difference of two scenarios.
 
     Attributes
     ----------
     subject
-        What has changed: a robot, several robots, ``map``, ``rules``, a place.
+        The part of the scenario.
     robots
-        The names of the robots that have changed in this way; empty where it is something else.
+        The names of the robots that have changed in this way; empty for other subjects.
+    place
+        The place that is closed or open; None for other subjects.
     key
-        What of it: ``speed``, ``home``, ``headway``, ``added``, ``removed``, ``closed``, ``open``;
-        empty for the size of a map.
+        The attribute or the event: ``speed``, ``home``, ``headway``, ``added``, ``removed``,
+        ``closed``, ``open``; empty for the size of a map.
     before, after
-        The values as people read them; empty where there is none.
+        The values; None where there is none.
     """
 
-    subject: str
+    subject: Subject
     key: str
-    before: str = ""
-    after: str = ""
+    before: Fact | None = None
+    after: Fact | None = None
     robots: tuple[str, ...] = ()
+    place: Fact | None = None
 
-    @property
-    def text(self) -> str:
-        """The change as a line: ``R2: speed 1 m/s → 2 m/s``."""
-        values = f"{self.before} → {self.after}" if self.before or self.after else ""
-        return f"{self.subject}: {' '.join(filter(None, (self.key, values)))}"
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return the attributes and the text by name."""
-        named = {field.name: getattr(self, field.name) for field in fields(self)}
-        return {**named, "robots": list(self.robots), "text": self.text}
+    def __str__(self) -> str:
+        return get_teller().tell_fact(self)
 
 
 @checks_arguments
@@ -76,30 +74,33 @@ def find_changes(before: Scenario, after: Scenario) -> tuple[Change, ...]:
         Robots, in the order of ``after``, those that are removed last; then map, rules, closures.
         Robots that change in the same way are one entry.
     """
-    robots_of_change: dict[tuple[str, str, str], list[str]] = {}
+    robots_of_change: dict[Difference, list[str]] = {}
     was = {robot.name: robot for robot in before.robots}
-    is_same_place = _places(before.roadmap, after.roadmap)
+    is_same_place = _make_place_test(before.roadmap, after.roadmap)
     for robot in after.robots:
         old = was.pop(robot.name, None)
-        differing = (
-            [("added", "", "")] if old is None else _robot(before, old, after, robot, is_same_place)
+        differing: Iterable[Difference] = (
+            [("added", None, None)]
+            if old is None
+            else _compare_robots(before, old, after, robot, is_same_place)
         )
         for change in differing:
             robots_of_change.setdefault(change, []).append(robot.name)
     for name in was:
-        robots_of_change.setdefault(("removed", "", ""), []).append(name)
+        robots_of_change.setdefault(("removed", None, None), []).append(name)
     robots = [
-        Change(subject=_named(names), robots=tuple(names), key=key, before=old, after=new)
+        Change(subject="robots", robots=tuple(names), key=key, before=old, after=new)
         for (key, old, new), names in robots_of_change.items()
     ]
-    return (*robots, *_map(before, after), *_rules(before, after), *_closures(before, after))
+    return (
+        *robots,
+        *_compare_maps(before, after),
+        *_compare_rules(before, after),
+        *_compare_closures(before, after),
+    )
 
 
-def _named(names: list[str]) -> str:
-    return " and ".join(names) if len(names) <= NAMED else f"{len(names)} robots"
-
-
-def _places(before: Roadmap, after: Roadmap) -> Callable[[int, int], bool]:
+def _make_place_test(before: Roadmap, after: Roadmap) -> Callable[[int, int], bool]:
     """Return whether a vertex of one map is the place of a vertex of the other one."""
     old_grid, other = before.grid, after.grid
     if old_grid is None or other is None or (old_grid.cell_size, old_grid.columns) == (
@@ -112,112 +113,155 @@ def _places(before: Roadmap, after: Roadmap) -> Callable[[int, int], bool]:
     )
 
 
-def _robot(
+def _compare_robots(
     before: Scenario,
     old: Robot,
     after: Scenario,
     new: Robot,
     is_same_place: Callable[[int, int], bool],
-) -> Iterator[tuple[str, str, str]]:
-    """Yield what of a robot differs: key and both values in words."""
-    was, now = PlaceNames(before).describe_place, PlaceNames(after).describe_place
+) -> Iterator[Difference]:
+    """Yield the differences of a robot."""
     if not is_same_place(old.home, new.home):
-        yield "home", was(old.home), now(new.home)
-    stops, then = [stop.at for stop in old.stops], [stop.at for stop in new.stops]
+        home, moved = (
+            Fact("listed place", scenario, place=int(robot.home))
+            for scenario, robot in ((before, old), (after, new))
+        )
+        yield "home", home, moved
+    stops, then = ([int(stop.at) for stop in robot.stops] for robot in (old, new))
     if len(stops) != len(then) or not all(map(is_same_place, stops, then)):
-        yield "stops", ", ".join(map(was, stops)), ", ".join(map(now, then))
-    works = [
-        ", ".join(_time(scenario, stop.work) for stop in robot.stops)
-        for scenario, robot in ((before, old), (after, new))
-    ]
-    if works[0] != works[1]:
-        yield "work", works[0], works[1]
-    yield from _attributes(ROBOT_ATTRIBUTES, before, old, after, new)
+        was, now = (
+            Fact("listed places", scenario, places=tuple(places)) if places else None
+            for scenario, places in ((before, stops), (after, then))
+        )
+        yield "stops", was, now
+    works, others = ([stop.work for stop in robot.stops] for robot in (old, new))
+    if not _are_all_same("time", before, works, after, others):
+        was, now = (
+            Fact("times", scenario, times=tuple(times)) if times else None
+            for scenario, times in ((before, works), (after, others))
+        )
+        yield "work", was, now
+    yield from _compare_attributes(ROBOT_ATTRIBUTES, before, old, after, new)
 
 
-def _time(scenario: Scenario, value: Fraction) -> str:
-    """Return a time [time unit] as people read it."""
-    quantities = scenario.quantities
-    times = Quantities(units=quantities.units, tick=Fraction(1))
-    return (
-        times.format_cell(value)
-        if quantities.units.seconds is None
-        else times.format_duration(value)
+def _find_scale(measure: str, units: Units) -> Fraction | None:
+    """Return the size of a unit in metres and seconds, or None where it is not known."""
+    metres, seconds = units.metres, units.seconds
+    if measure == "speed":
+        return metres / seconds if metres and seconds else None
+    return {"length": metres, "time": seconds}.get(measure)
+
+
+def _are_same(measure: str, before: Scenario, was: Any, after: Scenario, now: Any) -> bool:
+    """Return whether two values are the same, in the units of their scenarios."""
+    if not isinstance(was, Fraction) or not isinstance(now, Fraction):
+        return bool(was == now)
+    scale, other = (_find_scale(measure, scenario.units) for scenario in (before, after))
+    if scale is None or other is None:
+        return was == now and scale == other
+    return was * scale == now * other
+
+
+def _are_all_same(
+    measure: str, before: Scenario, was: Sequence[Any], after: Scenario, now: Sequence[Any]
+) -> bool:
+    """Return whether there are as many values in both scenarios, each the same."""
+    return len(was) == len(now) and all(
+        _are_same(measure, before, value, after, other)
+        for value, other in zip(was, now, strict=True)
     )
 
 
-def _value(scenario: Scenario, attribute: Attribute, value: Any) -> str:
-    """Return a value of a robot or a rule as people read it."""
+def _make_value(scenario: Scenario, attribute: Attribute, value: Any) -> Fact:
+    """Return a value of a robot or a rule as a fact."""
     if value is None:
-        return attribute.unset
+        return Fact(attribute.unset)
     if isinstance(value, bool):
-        return "yes" if value else "no"
-    if attribute.measure == "speed":
-        return scenario.quantities.format_speed(value)
-    if attribute.measure == "length":
-        return scenario.quantities.format_length(value)
+        return Fact("yes" if value else "no")
     if isinstance(value, str):
-        return value
-    return _time(scenario, value) if attribute.measure == "time" else format_decimal(value)
+        return Fact("word", value=value)
+    return Fact(attribute.measure or "number", scenario, value=value)
 
 
-def _attributes(
+def _compare_attributes(
     attributes: Iterable[Attribute], before: Scenario, old: Any, after: Scenario, new: Any
-) -> Iterator[tuple[str, str, str]]:
-    """Yield what differs between two robots or rules: name and both values in words."""
+) -> Iterator[Difference]:
+    """Yield the differences of two robots or of rules: name and both values."""
     for attribute in attributes:
-        was = _value(before, attribute, getattr(old, attribute.name))
-        now = _value(after, attribute, getattr(new, attribute.name))
-        if was != now:
-            yield attribute.name.replace("_", " "), was, now
+        was, now = (getattr(owner, attribute.name) for owner in (old, new))
+        if not _are_same(attribute.measure, before, was, after, now):
+            key = attribute.name.replace("_", " ")
+            yield key, _make_value(before, attribute, was), _make_value(after, attribute, now)
 
 
-def _rules(before: Scenario, after: Scenario) -> Iterator[Change]:
-    for key, was, now in _attributes(RULE_ATTRIBUTES, before, before.rules, after, after.rules):
+def _compare_rules(before: Scenario, after: Scenario) -> Iterator[Change]:
+    for key, was, now in _compare_attributes(
+        RULE_ATTRIBUTES, before, before.rules, after, after.rules
+    ):
         yield Change(subject="rules", key=key, before=was, after=now)
 
 
-def _map(before: Scenario, after: Scenario) -> Iterator[Change]:
-    """Yield one change where the maps differ: by their sizes where these say it."""
+def _compare_maps(before: Scenario, after: Scenario) -> Iterator[Change]:
+    """Yield one change where the maps differ: by their sizes where these differ."""
     old_roadmap, other = before.roadmap, after.roadmap
     if old_roadmap == other:
         return
-    sizes = []
-    for roadmap in (old_roadmap, other):
-        cells, vertices = roadmap.grid is not None, roadmap.n_vertices
-        sizes.append(f"{vertices} free cells" if cells else f"{vertices} vertices")
+    sizes = [
+        Fact("n_vertices" if roadmap.grid is None else "n_free_cells", number=roadmap.n_vertices)
+        for roadmap in (old_roadmap, other)
+    ]
     if sizes[0] == sizes[1] and old_roadmap.grid is None:
-        sizes = [f"{len(roadmap.heads)} edges" for roadmap in (old_roadmap, other)]
+        sizes = [Fact("n_edges", number=len(roadmap.heads)) for roadmap in (old_roadmap, other)]
     if sizes[0] == sizes[1]:
         yield Change(subject="map", key="changed")
     else:
         yield Change(subject="map", key="", before=sizes[0], after=sizes[1])
 
 
-def _closures(before: Scenario, after: Scenario) -> Iterator[Change]:
-    was, now = _closed(before), _closed(after)
-    for place in now:
-        if place not in was:
-            yield Change(subject=place, key="closed")
-        elif was[place] != now[place]:
-            yield Change(subject=place, key="closed", before=was[place], after=now[place])
-    for place in was:
-        if place not in now:
-            yield Change(subject=place, key="open")
+Place = tuple[Hashable, ...]
+"""A vertex, or the ends of an edge, by names; cells with units by their middles."""
 
 
-def _closed(scenario: Scenario) -> dict[str, str]:
-    """Return where something is closed, and when."""
+def _compare_closures(before: Scenario, after: Scenario) -> Iterator[Change]:
+    was, now = _list_closures(before), _list_closures(after)
+    for name, (place, closures) in now.items():
+        if name not in was:
+            yield Change(subject="place", place=place, key="closed")
+        elif not _are_all_same(
+            "time", before, _list_times(was[name][1]), after, _list_times(closures)
+        ):
+            old, new = (
+                Fact("closed at", scenario, times=tuple(map(_describe_time, each)))
+                for scenario, each in ((before, was[name][1]), (after, closures))
+            )
+            yield Change(subject="place", place=place, key="closed", before=old, after=new)
+    for name, (place, _) in was.items():
+        if name not in now:
+            yield Change(subject="place", place=place, key="open")
 
-    def when(closure: Closure) -> str:
-        until = "the end" if closure.until is None else _time(scenario, closure.until)
-        return f"{_time(scenario, closure.from_)} to {until}"
 
-    shown_values: dict[str, str] = {}
+def _list_times(closures: Iterable[Closure]) -> list[Fraction | None]:
+    return [time for closure in closures for time in (closure.from_, closure.until)]
+
+
+def _list_closures(scenario: Scenario) -> dict[Place, tuple[Fact, list[Closure]]]:
+    """Return the places that are closed, each with its closures."""
+    roadmap = scenario.roadmap
+    is_measured = roadmap.has_cells and scenario.units.length
+    found: dict[Place, tuple[Fact, list[Closure]]] = {}
     for closure in scenario.closures:
-        ends = [closure.at] if closure.edge is None else closure.edge
-        place = " to ".join(
-            PlaceNames(scenario).describe_place(int(end)) for end in ends if end is not None
+        ends = [int(end) for end in closure.edge or (closure.at,) if end is not None]
+        place = (
+            Fact("listed place", scenario, place=ends[0])
+            if len(ends) == 1
+            else Fact("listed edge", scenario, tail=ends[0], head=ends[1])
         )
-        shown_values[place] = ", ".join(filter(None, (shown_values.get(place), when(closure))))
-    return shown_values
+        name = tuple(roadmap.get_point(end) if is_measured else roadmap.name(end) for end in ends)
+        found.setdefault(name, (place, []))[1].append(closure)
+    return found
+
+
+def _describe_time(closure: Closure) -> Fact:
+    if closure.until is None:
+        return Fact("to the end", begin=closure.from_)
+    return Fact("from time to time", begin=closure.from_, until=closure.until)

@@ -17,7 +17,6 @@ from rightofway.errors import InputError
 from rightofway.metrics.changes import Change, find_changes
 from rightofway.metrics.measure import measure
 from rightofway.model import Plan
-from rightofway.quantities import Units, format_decimal
 
 MAX_COMPARED = 8
 """Plans that are compared at once."""
@@ -57,7 +56,7 @@ class Comparison:
         plans with the smallest figures; sums over different robots have no best one.
         """
         units, fleets = self.plans[0].scenario.units, [_names(plan) for plan in self.plans]
-        plans = list(map(self._plan, self.plans, self.scales, self.changes))
+        plans = list(map(self._list_figures, self.plans, self.scales))
         is_one_fleet = all(fleet == fleets[0] for fleet in fleets)
         return {
             "tick": [self.tick.numerator, self.tick.denominator],
@@ -75,8 +74,8 @@ class Comparison:
         }
 
     @staticmethod
-    def _plan(plan: Plan, scale: int, changed: Sequence[Change]) -> dict[str, Any]:
-        metrics, run, duration = measure(plan), plan.run, plan.scenario.quantities.format_duration
+    def _list_figures(plan: Plan, scale: int) -> dict[str, Any]:
+        metrics, run = measure(plan), plan.run
         costs = {
             "flowtime": metrics.flowtime,
             "makespan": metrics.makespan,
@@ -91,12 +90,6 @@ class Comparison:
             **{key: scale * ticks for key, ticks in costs.items()},
             "gap": gap,
             "robots": len(plan.scenario.robots),
-            "text": {
-                **{key: duration(ticks) for key, ticks in costs.items()},
-                "gap": "" if gap is None else f"{gap:.1%}",
-                "seconds": "" if run.seconds is None else f"{format_decimal(run.seconds)} s",
-            },
-            "changes": [change.as_dict() for change in changed],
         }
 
     def _completions(self) -> Iterator[list[int | None]]:
@@ -134,8 +127,9 @@ def compare(plans: Sequence[Plan], titles: Sequence[str] = ()) -> Comparison:
     for place, plan in enumerate(plans):
         tick, units = plan.scenario.problem.clock.tick, plan.scenario.units
         if (units.seconds is None) != (first.units.seconds is None):
+            own, other = units.time or "no unit", first.units.time or "no unit"
             message = (
-                f"its times are in {_unit(units)}, those of the first plan in {_unit(first.units)},"
+                f"its times are in {own}, those of the first plan in {other},"
                 " so they cannot be compared (give both scenarios a unit of time, or none)"
             )
             raise InputError.at((titles[place] if titles else "") or f"plan {place + 1}", message)
@@ -149,10 +143,6 @@ def compare(plans: Sequence[Plan], titles: Sequence[str] = ()) -> Comparison:
         robots=tuple(dict.fromkeys(name for plan in plans for name in _names(plan))),
         changes=tuple(find_changes(first, plan.scenario) for plan in plans),
     )
-
-
-def _unit(units: Units) -> str:
-    return units.time or "no unit"
 
 
 def _names(plan: Plan) -> tuple[str, ...]:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache, cached_property
 from importlib.resources import files
@@ -19,7 +20,7 @@ from rightofway.errors import join_names
 from rightofway.facts import Fact
 from rightofway.model import Scenario
 from rightofway.model.place_names import PlaceNames, describe_middle
-from rightofway.phrases import Phrase, join_items
+from rightofway.phrases import Phrase, chain_items, join_items
 from rightofway.quantities import Quantities, Units, format_decimal
 
 if TYPE_CHECKING:
@@ -170,6 +171,11 @@ class FactWriter:
             "few_robots": lambda robots: join_names(list(map(self.name_robot, robots))),
             "place": self.name_place,
             "spot": self._describe_place,
+            "spots": lambda places: chain_items(list(map(self._describe_place, places))),
+            "speed": self.quantities.format_speed,
+            "time": self._write_time,
+            "times": lambda times: chain_items(list(map(self._write_time, times))),
+            "list": lambda facts: chain_items(list(map(self.write, facts))),
             "and": lambda facts: join_items([self.write(fact) for fact in facts]),
             "angle": lambda degrees: format_decimal(degrees, 6),
             "decimal": "{:g}".format,
@@ -228,6 +234,12 @@ class FactWriter:
 
     def _describe_place(self, vertex: int) -> str:
         return self._plain_places.describe_place(vertex)
+
+    def _write_time(self, value: Fraction) -> str:
+        """Return a time [time unit], without words where no unit is known."""
+        times = replace(self.quantities, tick=Fraction(1), in_ticks=False)
+        has_unit = times.units.seconds is not None
+        return times.format_duration(value) if has_unit else times.format_cell(value)
 
     def _write_until(self, tick: int) -> str:
         """Return a point in time that follows another one in a sentence: ``2``, ``6 min 23 s``."""

@@ -9,6 +9,7 @@ from typing import Any
 from rightofway.check import Report, check
 from rightofway.metrics.comparison import Comparison
 from rightofway.model import NEVER, Plan
+from rightofway.report.comparison import export_comparison
 
 LISTED_FAULTS = 1000
 """The most faults that a page lists; all are counted."""
@@ -39,7 +40,7 @@ def _judge_excerpt(plan: Plan) -> Report:
 
 def make_comparison_data(comparison: Comparison) -> dict[str, Any]:
     """Return a comparison as plain data, with how many ``faults`` the judge finds in each plan."""
-    data = comparison.as_dict()
+    data = export_comparison(comparison)
     for figures, plan in zip(data["plans"], comparison.plans, strict=True):
         figures["faults"] = give_verdict(plan).total
     return data

@@ -15,6 +15,7 @@ from rightofway.io.json_text import parse_json
 from rightofway.io.scenario.reader import read_scenario
 from rightofway.metrics import compare, find_changes
 from rightofway.model import Plan
+from rightofway.report.comparison import describe_change
 from rightofway.report.plan_data import make_summary_data
 from rightofway.studio.messages import Blobs, Emit, zip_text
 from rightofway.studio.tasks.documents import compute_figures
@@ -147,4 +148,4 @@ def list_changes(_emit: Emit, blobs: Blobs) -> Result:
     """Return in what the scenario of a plan differs from that of the plan before."""
     before, after = (read_scenario(parse_json(blob.decode())["scenario"], None) for blob in blobs)
     differences = find_changes(before.scenario, after.scenario)
-    return ({"changes": [change.as_dict() for change in differences]},)
+    return ({"changes": list(map(describe_change, differences))},)

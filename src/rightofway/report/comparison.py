@@ -1,0 +1,69 @@
+"""Compared plans as people read them: figures, and differences of their scenarios."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rightofway.facts import Fact
+from rightofway.metrics.changes import Change
+from rightofway.metrics.comparison import Comparison
+from rightofway.model import Plan
+from rightofway.phrases import join_items
+from rightofway.quantities import format_decimal
+from rightofway.report.facts import FactWriter
+
+COSTS = ("flowtime", "makespan", "lower_bound", "alone")
+"""Figures in ticks."""
+
+NAMED = 2
+"""Robots with the same change that are named; more are counted."""
+
+
+def export_comparison(comparison: Comparison) -> dict[str, Any]:
+    """Return a comparison as plain data, with figures and changes in English."""
+    data = comparison.as_dict()
+    rows = zip(data["plans"], comparison.plans, comparison.scales, comparison.changes, strict=True)
+    for figures, plan, scale, changes in rows:
+        figures["text"] = _write_figures(figures, plan, scale)
+        figures["changes"] = list(map(describe_change, changes))
+    return data
+
+
+def _write_figures(figures: dict[str, Any], plan: Plan, scale: int) -> dict[str, str]:
+    duration, seconds = plan.scenario.quantities.format_duration, plan.run.seconds
+    gap = figures["gap"]
+    return {
+        **{key: duration(figures[key] // scale) for key in COSTS},
+        "gap": "" if gap is None else f"{gap:.1%}",
+        "seconds": "" if seconds is None else f"{format_decimal(seconds)} s",
+    }
+
+
+def describe_change(change: Change) -> dict[str, Any]:
+    """Return a difference of two scenarios as plain data, with its text: ``R2: speed 1 → 2``."""
+    subject = _name_subject(change)
+    before, after = map(_write_value, (change.before, change.after))
+    values = f"{before} → {after}" if before or after else ""
+    return {
+        "subject": subject,
+        "key": change.key,
+        "before": before,
+        "after": after,
+        "robots": list(change.robots),
+        "text": f"{subject}: {' '.join(filter(None, (change.key, values)))}",
+    }
+
+
+def _write_value(value: Fact | None) -> str:
+    return "" if value is None else FactWriter(value.about).write(value)
+
+
+def _name_subject(change: Change) -> str:
+    if change.place is not None:
+        return _write_value(change.place)
+    robots = change.robots
+    if not robots:
+        return change.subject
+    if len(robots) > NAMED:
+        return FactWriter(None).write(Fact("n_robots", number=len(robots)))
+    return join_items(robots)
