@@ -13,6 +13,7 @@ import { PlanPanel } from "./runs/panel.js";
 import { Rail } from "./draw/rail.js";
 import { RobotPanel } from "./robots/panel.js";
 import { droppedFiles } from "./shelf.js";
+import { SideEdge } from "./side_width.js";
 import { Start } from "./start.js";
 import { Status } from "./status.js";
 import { Studio, TABS } from "./studio.js";
@@ -55,6 +56,7 @@ function App() {
     ${studio && !isStarting && html`<${Status} studio=${studio} />`}
     </main>
     <aside class="side" aria-label=${words.side} hidden=${isStarting}>
+      <${SideEdge} />
       ${studio && html`<${Tabs} studio=${studio} />`}
       <section id="card" class="card" aria-live="polite" ref=${card} hidden></section>
       <div class="panel" role="tabpanel" id="panel" aria-labelledby=${`tab-${tab}`}>

@@ -9,6 +9,9 @@ const UNITS = { ms: "Millisekunde", s: "Sekunde", min: "Minute", h: "Stunde" };
 export const GERMAN = {
   mapRole: "Karte zum Zeichnen",
   side: "Karte, Roboter, Plan",
+  sideWidth: "Breite der Seitenleiste",
+  sideWidthHint:
+    "Ziehen macht die Seitenleiste breiter, ebenso ← →; ein Doppelklick stellt die übliche Breite her",
   toolbar: "Werkzeuge",
   tabs: { map: "Karte", robots: "Roboter", plan: "Plan" },
   keys: "Hilfe und Tasten",

@@ -13,6 +13,8 @@ const UNITS = { ms: "millisecond", s: "second", min: "minute", h: "hour" };
 export const ENGLISH = {
   mapRole: "map to draw on",
   side: "Map, robots, plan",
+  sideWidth: "Width of the panel",
+  sideWidthHint: "Drag to widen the panel, or press ← →; a double click gives the usual width",
   toolbar: "Tools",
   tabs: { map: "Map", robots: "Robots", plan: "Plan" },
   keys: "Help and keys",
