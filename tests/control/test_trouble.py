@@ -489,7 +489,7 @@ def test_a_robot_that_is_passed_no_longer_is_planned_with_again(
 def rows() -> list[list[str]]:
     """Return the cells of the table of the page, without its head."""
     page = (ROOT / "docs/control.md").read_text(encoding="utf-8")
-    section = page.partition("## What goes wrong\n")[2].partition("\n## ")[0]
+    section = page.partition("## Failures\n")[2].partition("\n## ")[0]
     lines = [line for line in section.splitlines() if line.startswith("| ")]
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
 
