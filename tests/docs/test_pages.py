@@ -171,7 +171,7 @@ def test_the_page_on_pictures_has_every_name_of_its_room() -> None:
 
 def test_the_page_on_the_model_has_every_kind_of_fault() -> None:
     page = (DOCS / "model.md").read_text(encoding="utf-8")
-    _, _, judge = page.partition("## What the judge looks for")
+    _, _, judge = page.partition("## Faults of plans")
     assert re.findall(r"^\| `([a-z ]+)` \|", judge, re.MULTILINE) == list(get_args(FaultKind))
 
 
