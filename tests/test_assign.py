@@ -60,7 +60,7 @@ def test_each_robot_starts_where_its_first_stop_is_near(street: Path) -> None:
     """R1 has 10 m from P2 and from P4, and takes the earlier one in the file."""
     found = loaded(street, {"target": "b"}, {"target": "a"}, {"target": "b"})
     assert homes(found) == ["P2", "P1", "P4"]
-    assert found.notes[-1] == "homes dealt out: R1 at P2, R2 at P1 and R3 at P4"
+    assert str(found.notes[-1]) == "homes dealt out: R1 at P2, R2 at P1 and R3 at P4"
 
 
 def test_written_homes_and_stops_are_nobody_elses_home(street: Path) -> None:

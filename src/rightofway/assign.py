@@ -11,8 +11,8 @@ from dataclasses import replace
 from fractions import Fraction
 
 from rightofway.errors import InputError, join_names
+from rightofway.facts import Fact
 from rightofway.model import Robot, Rules, Tick
-from rightofway.phrases import Phrase
 from rightofway.site import Roadmap, VertexId, measure_squared_distance
 
 __all__ = ["HOMELESS", "deal_homes"]
@@ -29,7 +29,7 @@ FAR = 2**31 - 1
 
 def deal_homes(
     robots: Sequence[Robot], roadmap: Roadmap, rules: Rules
-) -> tuple[list[Robot], tuple[Phrase, ...]]:
+) -> tuple[list[Robot], tuple[Fact, ...]]:
     """Return the robots, each with a home, and a note on the homes given to `HOMELESS` ones.
 
     In the order of the robots, each gets the free place that has the shortest way to its first
@@ -138,18 +138,14 @@ def _too_few(homeless: Sequence[Robot], robot: Robot, places: int, homes: int, s
 
 def _note(
     homeless: Sequence[Robot], dealt: Sequence[Robot], roadmap: Roadmap, places: int
-) -> Iterator[Phrase]:
+) -> Iterator[Fact]:
     names = {robot.name for robot in homeless}
     if len(names) > NAMED:
-        yield Phrase(
-            "homes dealt out: {number} of {places} parking and charging places",
-            number=str(len(names)),
-            places=str(places),
-        )
+        yield Fact("many homes dealt out", number=len(names), places=places)
     elif names:
-        pairs = [
-            Phrase("{robot} at {place}", robot=robot.name, place=roadmap.name(robot.home))
+        homes = [
+            Fact("dealt home", robot=robot.name, place=roadmap.name(robot.home))
             for robot in dealt
             if robot.name in names
         ]
-        yield Phrase("homes dealt out: {homes}", homes=join_names(pairs))
+        yield Fact("homes dealt out", homes=tuple(homes))

@@ -12,12 +12,11 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from rightofway.arguments import checks_arguments, get_value
 from rightofway.errors import InputError, describe_error, quote
-from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
-__all__ = ["EXTRAS", "load_library", "load_plugins", "need"]
+__all__ = ["EXTRAS", "PluginWarning", "load_library", "load_plugins", "need"]
 
 T = TypeVar("T")
 
@@ -27,6 +26,10 @@ EXTRAS = {
     "openpyxl": "xlsx",
 }
 """Optional libraries, and the extra that installs each."""
+
+
+class PluginWarning(UserWarning):
+    """A plugin of another package is left out because it failed."""
 
 
 @checks_arguments
@@ -55,7 +58,7 @@ def load_library(module: str, purpose: str) -> Any:
 def load_plugins(group: str, kind: type[T]) -> dict[str, T]:
     """Return the objects that other packages add by entry points of a group, by name.
 
-    A plugin that fails is left out, with a `UserWarning` that names it and its package.
+    A plugin that fails is left out, with a `PluginWarning` that names it and its package.
     """
     from importlib.metadata import entry_points  # here, because it imports much
 
@@ -66,19 +69,15 @@ def load_plugins(group: str, kind: type[T]) -> dict[str, T]:
             if not isinstance(plugin, kind):
                 raise TypeError(f"{quote(plugin)} is no {kind.__name__}")  # noqa: TRY301
         except (Exception, SystemExit) as error:  # noqa: BLE001 - code of others
-            warnings.warn(_describe_failure(point, error), stacklevel=2)
+            warnings.warn(_describe_failure(point, error), PluginWarning, stacklevel=2)
         else:
             plugins.setdefault(point.name, plugin)
     return plugins
 
 
-def _describe_failure(point: EntryPoint, error: BaseException) -> Phrase:
+def _describe_failure(point: EntryPoint, error: BaseException) -> str:
     package = point.dist.name if point.dist else point.module.partition(".")[0]
-    return Phrase(
-        "{group}: the plugin {name} of the package {package} is left out: {error} (update or"
-        " uninstall {package})",
-        group=point.group,
-        name=point.name,
-        package=package,
-        error=describe_error(error),
+    return (
+        f"{point.group}: the plugin {point.name} of the package {package} is left out:"
+        f" {describe_error(error)} (update or uninstall {package})"
     )

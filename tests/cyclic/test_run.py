@@ -132,7 +132,10 @@ def test_robots_that_live_in_each_others_corridor_come_to_a_standstill() -> None
     run = run_laps(grid_fleet(["...."], [("N0", "N3"), ("N3", "N0")]))
     [group] = run.groups
     assert group.ends == "deadlock"
-    assert group.why.startswith("waiting cannot keep R1 and R2 apart at ")
+    assert group.why is not None
+    assert group.why.kind == "deadlock"
+    assert (group.why.values["one"], group.why.values["other"]) == (0, 1)
+    assert str(group.why).startswith("waiting cannot keep R1 and R2 apart at ")
     assert group.pattern is None
 
 

@@ -11,6 +11,7 @@ import pytest
 import rightofway
 from rightofway.errors import InputError
 from rightofway.execution import SimulationResult, replay
+from rightofway.facts import Fact
 from rightofway.model import Plan, PlannerRun, Rules, Track
 from rightofway.model.units import Clock
 from tests.builders.fleets import grid_fleet, random_fleet
@@ -101,8 +102,8 @@ def test_an_interrupt_may_keep_the_runs_that_were_made(
     monkeypatch.setattr("rightofway.execution.simulation.CHUNK", 1)
     whole = rightofway.simulate(plan, "chance:0.1x9", runs=3, switch=switch)
 
-    def interrupt(sentence: str) -> None:
-        if sentence.startswith("3 "):
+    def interrupt(progress: Fact) -> None:
+        if progress.values["done"] == 3:
             raise KeyboardInterrupt
 
     def asked(*, keep_runs: bool) -> SimulationResult:

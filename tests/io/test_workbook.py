@@ -229,7 +229,7 @@ def test_a_roadmap_is_two_sheets_of_vertices_and_edges(tmp_path: Path) -> None:
     loaded = load_with_notes(path)
     roadmap = loaded.scenario.roadmap
     assert roadmap.name(loaded.scenario.robots[0].home) == "dock"
-    assert loaded.notes[-1] == "homes dealt out: R1 at dock"
+    assert str(loaded.notes[-1]) == "homes dealt out: R1 at dock"
     write_scenario(loaded.scenario, tmp_path / "again.xlsx")
     assert rightofway.load(tmp_path / "again.xlsx") == loaded.scenario
     workbook["Vertices"]["D3"] = "maybe"

@@ -109,3 +109,31 @@ def test_the_forms_of_a_template_are_known(kind: str) -> None:
     given = read_templates()["facts"][kind]
     for template in [given] if isinstance(given, str) else given.values():
         assert {form for _, form in VALUE.findall(template)} <= known
+
+
+PAIR = Fact("deadlock", one=0, other=0, place=Fact("place at time", name=1, what=3))
+PAIR_TEXT = "waiting cannot keep R1 and R1 apart at N1 (time 3)"
+HOMES = tuple(Fact("dealt home", robot=f"R{number}", place="P") for number in (1, 2))
+
+
+@pytest.mark.parametrize(
+    ("fact", "sentence"),
+    [
+        (Fact("runs done", done=3, runs=10), "3 of 10 runs"),
+        (
+            Fact("groups done", number=1, groups=4, robots=7),
+            "1 of 4 groups done, the next one has 7 robots",
+        ),
+        (
+            Fact("deadlock in a circle", ROW, deadlock=PAIR, robots=(0, 0, 0)),
+            f"{PAIR_TEXT}: in a circle, R1, R1, R1 would each wait for the next",
+        ),
+        (
+            Fact("many homes dealt out", number=7, places=9),
+            "homes dealt out: 7 of 9 parking and charging places",
+        ),
+        (Fact("homes dealt out", homes=HOMES), "homes dealt out: R1 at P and R2 at P"),
+    ],
+)
+def test_facts_of_work_and_homes_are_sentences(fact: Fact, sentence: str) -> None:
+    assert str(fact) == sentence

@@ -35,7 +35,6 @@ from rightofway import __version__
 from rightofway.cli.parts import GROUPS, MODULES, load_command
 from rightofway.cli.terminal import add_shared_options, complain, say, speak_utf8
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists, describe_error
-from rightofway.phrases import Phrase
 
 MANY = 1000
 """Characters of the longest sentence of help, which is not cut."""
@@ -221,8 +220,10 @@ def _say_warnings() -> Iterator[None]:
         show = warnings.showwarning
 
         def show_or_say(message: Warning | str, *more: Any, **named: Any) -> None:
-            text = message.args[0] if isinstance(message, Warning) and message.args else None
-            say(text) if isinstance(text, Phrase) else show(message, *more, **named)
+            from rightofway.extras import PluginWarning
+
+            is_ours = isinstance(message, PluginWarning)
+            say(str(message)) if is_ours else show(message, *more, **named)
 
         warnings.showwarning = show_or_say
         yield

@@ -16,6 +16,7 @@ import click
 
 from rightofway.deadline import Deadline
 from rightofway.errors import escape_text
+from rightofway.facts import Fact
 from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
@@ -106,7 +107,7 @@ def format_json(value: Any) -> str:
 @contextmanager
 def show_progress(
     limit: float | None = None, since: float | None = None
-) -> Iterator[Callable[[str], None]]:
+) -> Iterator[Callable[[Fact | str], None]]:
     """Yield a function that shows progress in the last line of a terminal; elsewhere, nothing.
 
     The line begins with the time since the command began, and the time limit [s] if there is one:
@@ -120,13 +121,13 @@ def show_progress(
     latest, ended = [""], threading.Event()
     from rightofway.quantities import format_decimal
 
-    def show(message: str) -> None:
-        latest[0] = message
+    def show(message: Fact | str) -> None:
+        latest[0] = str(message)
         passed = f"{time.monotonic() - began:.1f}"
         seconds = Phrase("{time} s", time=passed)
         if limit is not None:
             seconds = Phrase("{time} of {limit} s", time=passed, limit=format_decimal(limit))
-        line = ", ".join(filter(None, [seconds, message]))
+        line = ", ".join(filter(None, [seconds, latest[0]]))
         while len(line) >= measure_width() and ", " in line:
             line = line.rpartition(", ")[0]
         click.echo(f"{CLEAR}{line[: measure_width() - 1]}", err=True, nl=False)

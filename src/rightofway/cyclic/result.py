@@ -16,6 +16,7 @@ from rightofway.cyclic.bottleneck import Bottleneck, find_bottleneck
 from rightofway.cyclic.pattern import History, Pattern
 from rightofway.cyclic.route import GroupContext
 from rightofway.cyclic.warmup import MeasuredLaps, measure
+from rightofway.facts import Fact
 from rightofway.model import NEVER, Scenario, Tick, Track
 from rightofway.precedence import CyclicSchedule, TimedEventGraph, find_rotation
 from rightofway.site import VertexId
@@ -106,7 +107,7 @@ class GroupResult:
     ends: Literal["repeats", "deadlock", "open"]
     history: tuple[Sequence[int], ...]
     pattern: Pattern | None = None
-    why: str = ""
+    why: Fact | None = None
     comparison: BaselineComparison | None = None
 
     @property

@@ -18,12 +18,10 @@ from rightofway.cyclic.route import (
 from rightofway.cyclic.rules import NATIVE_RULES, RULES
 from rightofway.cyclic.simulator import CyclicSimulator, Deadlock
 from rightofway.errors import GaveUp
+from rightofway.facts import Fact
 from rightofway.model import Scenario, require_time_limit
 from rightofway.model.given import require_functions, require_scenario
-from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase
 from rightofway.planners import Deadline
-from rightofway.planners.conflict_resolution import describe_deadlock
 from rightofway.values import make_word_reader, read_at
 
 Simulation = CyclicSimulator | RollingHorizon
@@ -36,7 +34,7 @@ def run_laps(
     *,
     routes: str = "clear",
     time_limit: float | None = 10,
-    report: Callable[[str], None] | None = None,
+    report: Callable[[Fact], None] | None = None,
 ) -> CyclicResult:
     """Simulate repeated laps of all robots until the pattern of the fleet repeats.
 
@@ -108,7 +106,7 @@ def make_simulation(context: GroupContext, rule: str) -> Simulation:
 def share_time(
     simulations: Sequence[Simulation],
     deadline: Deadline,
-    report: Callable[[str], None],
+    report: Callable[[Fact], None],
     *,
     least_share: float = 0.05,
 ) -> list[GroupResult]:
@@ -123,14 +121,7 @@ def share_time(
         left = sum(sizes[index] for index in open_ones)
         for index in open_ones:
             known = sum(simulation.ends != "open" for simulation in results.values())
-            report(
-                Phrase(
-                    "{number} of {groups} groups done, the next one has {robots} robots",
-                    number=str(known),
-                    groups=str(len(simulations)),
-                    robots=str(sizes[index]),
-                )
-            )
+            report(Fact("groups done", number=known, groups=len(simulations), robots=sizes[index]))
             share = deadline.shorten(max(sizes[index] / left, least_share))
             left -= sizes[index]
             results[index] = advance(simulations[index], share)
@@ -156,16 +147,20 @@ def advance(simulation: Simulation, deadline: Deadline) -> GroupResult:
         return GroupResult(
             context=context,
             ends="open",
-            why=Phrase("no state came again within the time limit"),
+            why=Fact("no state again"),
             history=tuple(simulation.history),
         )
     pattern = find_pattern(simulation.history, [len(lap) for lap in context.laps], recurrence)
     return GroupResult(context=context, ends="repeats", history=pattern.history, pattern=pattern)
 
 
-def _explain(deadlock: Deadlock, context: GroupContext) -> str:
-    names, place = context.names, PlaceNames(context.scenario)
-    i, j = (names[robot] for robot in deadlock.robots)
-    moment = context.scenario.quantities.format_moment(deadlock.tick)
-    where = Phrase("{name} ({what})", name=place(deadlock.vertex), what=moment)
-    return describe_deadlock((i, j), where, [names[robot] for robot in deadlock.circle])
+def _explain(deadlock: Deadlock, context: GroupContext) -> Fact:
+    """Return the two robots that no waiting keeps apart, and the circle that a wait would close."""
+    scenario, robots = context.scenario, context.robots
+    one, other = (robots[position] for position in deadlock.robots)
+    place = Fact("place at time", name=int(deadlock.vertex), what=int(deadlock.tick))
+    pair = Fact("deadlock", scenario, one=one, other=other, place=place)
+    if len(deadlock.circle) < 3:  # noqa: PLR2004 (the two themselves)
+        return pair
+    circle = tuple(robots[position] for position in deadlock.circle)
+    return Fact("deadlock in a circle", scenario, deadlock=pair, robots=circle)

@@ -31,9 +31,9 @@ from rightofway.cyclic.run import advance, make_simulation
 from rightofway.cyclic.startup import start
 from rightofway.deadline import limit_loop, limit_work
 from rightofway.errors import GaveUp, InputError
+from rightofway.facts import Fact
 from rightofway.model import Scenario, Tick, require_time_limit
 from rightofway.model.given import require_functions, require_number, require_scenario, require_seed
-from rightofway.phrases import Phrase
 from rightofway.planners import Deadline
 from rightofway.planners.routing import ROUTING
 from rightofway.precedence import unroll_schedule
@@ -76,7 +76,7 @@ def find_best_timetable(
     time_limit: float | None = 10,
     rounds: int | None = None,
     seed: int = 0,
-    report: Callable[[str], None] | None = None,
+    report: Callable[[Fact], None] | None = None,
 ) -> CyclicResult:
     """Choose laps, their numbers per period and rights of way for the most value of laps per tick.
 
@@ -146,7 +146,7 @@ def _choose_all(
     *,
     rounds: int | None,
     seed: int,
-    report: Callable[[str], None] | None,
+    report: Callable[[Fact], None] | None,
 ) -> list[GroupResult]:
     """Choose a timetable for each independent group, or one for all robots."""
     params = ChoiceParams()
@@ -194,7 +194,7 @@ def _by_groups(
     *,
     rounds: int | None,
     seed: int,
-    report: Callable[[str], None] | None,
+    report: Callable[[Fact], None] | None,
 ) -> list[GroupResult]:
     """Choose a timetable for each group, small groups first, without vertices of other groups."""
     scenario = fleet.context.scenario
@@ -211,14 +211,7 @@ def _by_groups(
     for index in sorted(range(len(groups)), key=lambda index: len(groups[index])):
         group = groups[index]
         if report is not None:
-            report(
-                Phrase(
-                    "{number} of {groups} groups done, the next one has {robots} robots",
-                    number=str(len(results)),
-                    groups=str(len(groups)),
-                    robots=str(len(group)),
-                )
-            )
+            report(Fact("groups done", number=len(results), groups=len(groups), robots=len(group)))
         uses.subtract(excluded[index])
         taken.difference_update(row for row in excluded[index] if not uses[row])
         draw = random.Random(f"{seed} {index}")  # noqa: S311 (no secret depends on it)

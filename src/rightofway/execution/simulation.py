@@ -22,9 +22,9 @@ from rightofway.execution.statistics import (
     SimulationResult,
     join_batches,
 )
+from rightofway.facts import Fact
 from rightofway.model import NEVER, ExecutionTrace, Plan, require_time_limit
 from rightofway.model.given import require_number, require_seed, require_truths
-from rightofway.phrases import Phrase
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, RunBatch
 from rightofway.values import read_at, read_function
@@ -46,7 +46,7 @@ def simulate(
     replan: bool = False,
     time_limit: float | None = None,
     keep_runs: bool = False,
-    report: Callable[[str], None] = lambda _: None,
+    report: Callable[[Fact], None] = lambda _: None,
 ) -> SimulationResult:
     """Execute a plan many times with delays: by right of way, and by the clock for comparison.
 
@@ -112,7 +112,7 @@ def simulate(
         for some in _execute(adg, policy, runs=runs, seed=seed, deadline=deadline, traces=traces):
             parts.append(some)
             done = sum(len(part.batch.completion) for part in parts)
-            report(Phrase("{done} of {runs} runs", done=str(done), runs=str(runs)))
+            report(Fact("runs done", done=done, runs=runs))
     except KeyboardInterrupt:
         if not (keep_runs and parts):
             raise

@@ -72,8 +72,8 @@ def find_template(fact: Fact) -> str:
     return template.get(str(number), template["other"])
 
 
-ROBOTS = {"robot", "robots", "few_robots"}
-VERTICES = {"few_places", "lane", "name", "place", "spot", "vertex", "vertices"}
+ROBOTS = {"robot", "robots", "robots_in_turn", "few_robots"}
+VERTICES = {"few_places", "lane", "name", "place", "spot", "spots", "vertex", "vertices"}
 """Forms of values that are robots and vertices."""
 
 
@@ -171,6 +171,7 @@ class FactWriter:
             "few_robots": lambda robots: join_names(list(map(self.name_robot, robots))),
             "place": self.name_place,
             "spot": self._describe_place,
+            "robots_in_turn": lambda robots: chain_items(list(map(self.name_robot, robots))),
             "spots": lambda places: chain_items(list(map(self._describe_place, places))),
             "speed": self.quantities.format_speed,
             "time": self._write_time,

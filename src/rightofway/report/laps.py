@@ -30,6 +30,7 @@ from rightofway.report.laps_data import (
     compute_hour,
     is_long,
     list_names,
+    write_reason,
 )
 from rightofway.report.lines import Facts, Paragraph, Part, Table, choose_further_format, lay_out
 
@@ -112,7 +113,10 @@ def _group_lines(scenario: Scenario, quantities: Quantities, group: GroupResult)
                 moment=quantities.format_moment(measured.warm_up),
             )
         yield Phrase(
-            "{number} robots: {why}. {source}:", number=number, why=group.why, source=source
+            "{number} robots: {why}. {source}:",
+            number=number,
+            why=write_reason(group, quantities),
+            source=source,
         )
         yield _robot_table(scenario, quantities, group)
         yield from _further_robots(group)

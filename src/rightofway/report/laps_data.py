@@ -19,7 +19,9 @@ from rightofway.cyclic import (
 from rightofway.errors import GaveUp
 from rightofway.model import Scenario
 from rightofway.phrases import Phrase
+from rightofway.quantities import Quantities
 from rightofway.report.circuits import list_circuit_steps
+from rightofway.report.facts import FactWriter
 from rightofway.report.plan_data import describe_measures
 from rightofway.values import format_number
 
@@ -58,6 +60,13 @@ def compute_hour(scenario: Scenario) -> Fraction:
 def list_names(scenario: Scenario, group: GroupResult) -> list[str]:
     """Return the names of the robots of a group."""
     return [scenario.robots[robot].name for robot in group.robots]
+
+
+def write_reason(group: GroupResult, quantities: Quantities | None = None) -> str:
+    """Return the deadlock or the limit that ended a group; empty where its pattern repeats."""
+    if group.why is None:
+        return ""
+    return FactWriter(group.context.scenario, quantities).write(group.why)
 
 
 def is_long(group: GroupResult) -> bool:
@@ -101,7 +110,7 @@ def _group_data(scenario: Scenario, group: GroupResult, *, by_visit: bool) -> di
     data: dict[str, Any] = {
         "robots": names,
         "ends": group.ends,
-        "why": group.why,
+        "why": write_reason(group),
         "transient": format_number(time(pattern.transient)) if pattern else None,
         "begins": format_number(time(pattern.begins)) if pattern else None,
         "period": format_number(time(pattern.period)) if pattern else None,

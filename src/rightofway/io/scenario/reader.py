@@ -132,7 +132,7 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
         faults.note(("rules", "walls"), f"'strict' is for grids and floors ({remedy})")
     placed = place_robots(robots, loaded, faults, deals=deals)
     closures = faults.read_part(document, "closures", _closures, loaded) or []
-    scenario, notes = None, list[Phrase]()
+    scenario, notes = None, list[Phrase | Fact]()
     if loaded and placed and deals:
         placed = faults.attempt("", _deal_homes, placed, loaded.roadmap, rules, notes) or ()
     if loaded and placed:
@@ -226,7 +226,7 @@ def _closures(data: Any, on: LoadedMap | None) -> list[Closure]:
 
 
 def _deal_homes(
-    placed: Sequence[PlacedRobot], roadmap: Roadmap, rules: Rules, notes: list[Phrase]
+    placed: Sequence[PlacedRobot], roadmap: Roadmap, rules: Rules, notes: list[Phrase | Fact]
 ) -> Sequence[PlacedRobot]:
     """Return the robots, each with a home; add a note on the homes that were dealt out."""
     robots, more = deal_homes([robot.robot for robot in placed], roadmap, rules)

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+from rightofway.facts import Fact
 from rightofway.io import FOREIGN_FORMATS, format_plan, parse_plan
 from rightofway.io.json_text import parse_json
 from rightofway.model import Plan
@@ -37,9 +38,9 @@ class PlanningProgress:
         self._began = time.monotonic()
         self._next = 0.0
 
-    def report(self, message: str) -> None:
-        """Send a sentence."""
-        self._emit({"message": message, "seconds": self._seconds()})
+    def report(self, message: Fact | str) -> None:
+        """Send the English sentence of a fact."""
+        self._emit({"message": str(message), "seconds": self._seconds()})
 
     def take_plan(self, plan: Plan) -> None:
         """Send what a plan costs, and the plan too where that does not take too much time."""
