@@ -41,7 +41,6 @@ from rightofway.cli.terminal import (
 from rightofway.control.command_line.broker_options import add_broker_options
 from rightofway.control.command_line.watch import WatchPage, add_page_options
 from rightofway.errors import name_file
-from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
     from rightofway.control.broker import Broker
@@ -258,7 +257,7 @@ def _drive_demo(
 
     def narrate(tick: int, fact: Fact) -> None:
         time = f"{quantities.format_cell(tick):>8}"
-        say(Phrase("{time}  {text}", time=time, text=writer.write(fact)))
+        say(f"{time}  {writer.write(fact)}")
 
     with _kept_demo(shown if output.is_live else None, journal) as file:
         outcome = drive_demo(
@@ -317,7 +316,7 @@ def _show(letter: Letter) -> None:
 
 def _narrate(sentence: str) -> None:
     now = f"{datetime.now().astimezone():%H:%M:%S}"
-    say(Phrase("{time}  {text}", time=now, text=sentence))
+    say(f"{now}  {sentence}")
 
 
 def _drive_at(
@@ -364,8 +363,7 @@ def _drive_at(
                 stack.enter_context(shown.serve(journal, takes_orders=True))
             gc.freeze()  # what lives as long as the control: a look through it takes 100 ms
             code = _run(driver.run(broker, stays=stays))
-        ending = Phrase("interrupted") if code else Phrase("all robots are at the end of their way")
-        _narrate(ending)
+        _narrate("interrupted" if code else "all robots are at the end of their way")
         output.report(driver.result)
         if output.page:
             shown.write(journal, output.page)

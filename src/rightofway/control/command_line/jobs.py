@@ -9,7 +9,6 @@ import click
 from rightofway.cli.options import as_json_option
 from rightofway.cli.terminal import put_json, put_report, say
 from rightofway.errors import InputError
-from rightofway.phrases import Phrase
 
 ACTIONS = {
     "list": "list jobs that are not done",
@@ -108,12 +107,7 @@ def jobs(
     answer = commands.wait_for(number, wait)
     commands.close()
     if answer is None:
-        say(
-            Phrase(
-                "no answer within {time} s: it is carried out when the control runs",
-                time=f"{wait:g}",
-            )
-        )
+        say(f"no answer within {wait:g} s: it is carried out when the control runs")
         return 3
     if as_json:
         put_json(dict(answer))

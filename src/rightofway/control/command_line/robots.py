@@ -12,7 +12,6 @@ from rightofway.cli.inputs import add_foreign_options, read_plan
 from rightofway.cli.options import seed_option
 from rightofway.cli.terminal import say, say_written
 from rightofway.control.command_line.broker_options import add_broker_options
-from rightofway.phrases import Phrase
 
 EXAMPLES = """\b
 Examples:
@@ -86,22 +85,10 @@ def robots(
         say_written(write_identities)
 
     def is_up() -> None:
-        say(
-            Phrase(
-                "{number} robots are at {address}; end them with Ctrl-C",
-                number=str(len(fleet)),
-                address=address.address,
-            )
-        )
+        say(f"{len(fleet)} robots are at {address.address}; end them with Ctrl-C")
 
     def on_failure(error: BaseException) -> None:
-        say(
-            Phrase(
-                "no connection to {broker}: {reason}; trying again",
-                broker=address.address,
-                reason=str(error),
-            )
-        )
+        say(f"no connection to {address.address}: {error}; trying again")
 
     asyncio.run(
         run_robots(

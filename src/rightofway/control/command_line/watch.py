@@ -17,7 +17,6 @@ from rightofway.cli.parts import load_page_server
 from rightofway.cli.terminal import complain
 from rightofway.errors import InputError
 from rightofway.files import write_whole
-from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
     from rightofway.model import Plan
@@ -85,7 +84,7 @@ class WatchPage:
 
     def wait_for_interrupt(self) -> None:
         """Go on until Ctrl-C."""
-        complain(Phrase("the page stays until Ctrl-C"))
+        complain("the page stays until Ctrl-C")
         with suppress(KeyboardInterrupt):
             while True:
                 time.sleep(3600)
