@@ -129,6 +129,14 @@ HOMES = tuple(Fact("dealt home", robot=f"R{number}", place="P") for number in (1
             f"{PAIR_TEXT}: in a circle, R1, R1, R1 would each wait for the next",
         ),
         (
+            Fact("no timetable", robots=3),
+            "no timetable was found for 3 robots that have to do with each other (give more time)",
+        ),
+        (
+            Fact("lap not followed", ROW, robot=0),
+            "R1 was not followed for a whole lap (allow more time)",
+        ),
+        (
             Fact("many homes dealt out", number=7, places=9),
             "homes dealt out: 7 of 9 parking and charging places",
         ),

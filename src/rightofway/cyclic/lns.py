@@ -31,6 +31,7 @@ from heapq import heapify, heappop, heappush
 
 from rightofway.cyclic.problem import Candidate, CyclicProblem, RobotCycle
 from rightofway.errors import GaveUp
+from rightofway.facts import Fact
 from rightofway.model import Tick
 from rightofway.precedence import CyclicSchedule, unroll_schedule
 from rightofway.search import PeriodicBookings
@@ -63,7 +64,7 @@ def insert_all(
         if placed is not None:
             return fill(filling, *placed)
         period = period * params.growth.numerator // params.growth.denominator + 1
-    raise GaveUp("no timetable was found in which all robots have a place")
+    raise GaveUp(Fact("no timetable with all robots"))
 
 
 def _placed(

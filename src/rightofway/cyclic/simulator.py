@@ -16,6 +16,7 @@ from rightofway.cyclic.pattern import VisitTimes
 from rightofway.cyclic.route import GroupContext
 from rightofway.cyclic.rules import NATIVE_RULES
 from rightofway.errors import GaveUp
+from rightofway.facts import Fact
 from rightofway.model import Lap, Tick
 from rightofway.native import BookedRows, bind_rows, bind_rules
 from rightofway.planners import Deadline
@@ -122,7 +123,7 @@ class CyclicSimulator:
         """
         answer = self._kernel.advance(deadline.measure_seconds_left())
         if answer == OPEN:
-            raise GaveUp("time ran out before a state came again (give a longer time limit)")
+            raise GaveUp(Fact("time over without a state again"))
         if answer == REPEATS:
             return self._kernel.first_seen, self._kernel.cut
         i, j, vertex, tick, circle = self._kernel.deadlock()

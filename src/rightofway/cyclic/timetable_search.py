@@ -313,12 +313,8 @@ def _choose(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) ->
         problem = problem.add_ways(together.timetable.laps)
         starts = list(filter(problem.accepts, [together]))
     if not starts:
-        robots = f"{len(problem)} robots that have to do with each other"
-        if problem.least_fairness:
-            why = f"for {robots} that is fair enough (ask for less, or give time)"
-        else:
-            why = f"for {robots} (give more time)"
-        raise GaveUp(f"no timetable was found {why}")
+        kind = "no fair timetable" if problem.least_fairness else "no timetable"
+        raise GaveUp(Fact(kind, robots=len(problem)))
     whole = _whole(problem, _improved(problem, starts, rounds, params), params)
     if pattern is not None and worth > problem.compute_value(whole):
         return _compared(problem, baseline, pattern, ends, worth)

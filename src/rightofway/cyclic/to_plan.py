@@ -15,6 +15,7 @@ from rightofway.cyclic.bottleneck import begin_with_longest_run
 from rightofway.cyclic.pattern import Pattern
 from rightofway.cyclic.result import CyclicResult, GroupResult
 from rightofway.errors import GaveUp, InputError, quote
+from rightofway.facts import Fact
 from rightofway.model import Plan, PlannerRun, SteadyState, Track
 from rightofway.model.given import require_number
 from rightofway.phrases import Phrase
@@ -52,10 +53,7 @@ def plan_of_laps(result: CyclicResult, laps: int | None = None) -> Plan:
     plan = unroll_laps(result, None if laps is None else require_number("laps", laps, 1, MOST_LAPS))
     report = check(plan)
     if not report.ok:
-        raise GaveUp(
-            "whole laps make no plan here, as a robot that is home for the last time stays there:"
-            f" {report.faults[0]}"
-        )
+        raise GaveUp(Fact("laps without a plan", fault=report.faults[0]))
     return plan
 
 
@@ -74,12 +72,12 @@ def unroll_laps(result: CyclicResult, laps: int | None = None) -> Plan:
     until = min(ends)
 
     def laps_and_visits(group: GroupResult, index: int, n_laps: int) -> tuple[int, int]:
-        name, moves = group.context.names[index], _moves(group, index)
+        robot, moves = group.robots[index], _moves(group, index)
         own = laps or max(_laps_until(group, index, until, None if moves else n_laps), 1)
         if not group.pattern and own > n_laps:
-            raise GaveUp(f"{name} was not followed for {own} laps")
+            raise GaveUp(Fact("laps not followed", result.scenario, robot=robot, laps=own))
         if group.pattern and not moves:
-            raise GaveUp(f"{name} waits for ever (choose another rule)")
+            raise GaveUp(Fact("robot without laps", result.scenario, robot=robot))
         return own, own * len(group.context.routes[index]) + 1
 
     return _plan(result, Phrase("whole laps"), laps_and_visits)
@@ -127,8 +125,8 @@ def make_excerpt(
         if group.ends == "deadlock" or (group.pattern and not _moves(group, index)):
             return laps + 1, len(group.history[index])
         if not group.pattern and not laps:
-            name = group.context.names[index]
-            raise GaveUp(f"{name} was not followed for a whole lap (allow more time)")
+            robot = group.robots[index]
+            raise GaveUp(Fact("lap not followed", result.scenario, robot=robot))
         most = None if group.pattern else laps - 1
         own = _laps_until(group, index, until, most) + 1
         return own, own * len(group.context.routes[index]) + 1
