@@ -42,6 +42,9 @@ def test_a_run_and_what_is_asked_of_it_have_the_declared_types(client: Client) -
     for part in ("document", "command", "losses", "changes"):
         validate("GET", f"/runs/{{number}}/{part}", client.get(f"{path}/{part}").json())
     validate("GET", "/runs", client.get("/runs").json())
+    by_two_levels = planned(client, DOOR, planner="two-level")["number"]
+    groups = client.get(f"/runs/{by_two_levels}/decisions/1")
+    validate("GET", "/runs/{number}/decisions/{decision}", groups.json())
     compared = client.get("/compare", params={"run": [number, number]})
     validate("GET", "/compare", compared.json())
 

@@ -21,6 +21,7 @@ from rightofway.io.yaml_text import parse_yaml
 from tests.builders.browsers import Viewer, expect, needs_browser
 from tests.builders.drawing import Opener, StudioPage, begin, nameless
 from tests.builders.studios import BAY
+from tests.studio.conftest import EXAMPLES
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -102,6 +103,26 @@ def test_the_tab_has_the_number_of_the_plan_that_is_shown(opened: Opener) -> Non
         assert tab(studio) == f"Plan No. {number}"
     studio.row(1).get_by_role("button", name="Delete").click()
     assert tab(studio) == "Plan No. 2"  # two plans are left
+    assert studio.complaints == []
+
+
+def test_a_decision_shows_both_lists_with_their_sums(opened: Opener) -> None:
+    """Case 2 at the door: the paper compares 19 + 28 with 18 + 32 at its second decision."""
+    studio = opened((EXAMPLES / "paper" / "door-2.yaml").read_text())
+    planned_by(studio, "paper")
+    lists = studio.page.locator(".waits details.groups")
+    lists.last.locator("summary").click()
+    for text in ("List 1: W(R1) + W(R2) = 19 + 28 = 47", "List 2: W(R1) + W(R2) = 18 + 32 = 50"):
+        lists.get_by_text(text).wait_for()
+    rows = [row.split() for row in lists.last.locator("tr").all_inner_texts()]
+    assert rows[0] == ["time", *map(str, range(33))]
+    assert rows[3][:3] == ["R1", "list", "1"]
+    assert " ".join(rows[3][3:]) == "0 0 1 1 4 4 7 7 6 6 6= 6 6 7 7 4 4 1 1 0"
+    studio.page.get_by_label("Language").select_option("de")
+    lists.get_by_text("Liste 2: W(R1) + W(R2) = 18 + 32 = 50").wait_for()
+    begin(studio, planner="prioritized")
+    studio.shown(2)
+    assert lists.count() == 0  # its decisions have no movement groups
     assert studio.complaints == []
 
 

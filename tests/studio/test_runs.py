@@ -9,7 +9,9 @@ from typing import Any
 
 import httpx
 import pytest
+from click.testing import CliRunner
 
+from rightofway.cli.main import commands
 from tests.builders.crowds import CROWD
 from tests.builders.studios import DOOR, over, planned, until
 
@@ -265,6 +267,37 @@ def test_the_decisions_behind_a_wait_add_up_to_it(client: httpx.Client) -> None:
         "R1 waits 5 time units in N2 and lets R2 go first.",
         "R1 waits 2 time units in N2 and lets R3 go first.",
     ]
+
+
+@pytest.mark.parametrize("case", ["door-1", "door-2", "cross-3"])
+def test_movement_groups_are_those_of_the_table_of_a_decision(
+    client: httpx.Client, tmp_path: Path, case: str
+) -> None:
+    """Each place, mark and sum is that of ``rightofway table --decision``."""
+    document = client.get(f"/examples/paper/{case}").json()["document"]
+    number = planned(client, document, planner="paper")["number"]
+    plan = tmp_path / "plan.json"
+    plan.write_text(client.get(f"/runs/{number}/export/json").text)
+    decisions = len(json.loads(plan.read_text())["planner"]["decisions"])
+    assert decisions
+    for decision in range(1, decisions + 1):
+        groups = client.get(f"/runs/{number}/decisions/{decision}").json()
+        args = ["table", str(plan), "--decision", str(decision), "--json"]
+        table = json.loads(CliRunner().invoke(commands, args).stdout)
+        assert len(groups["times"]) == table["last_tick"] + 1
+        for row, wanted in zip(groups["rows"], table["rows"], strict=True):
+            assert (row["robot"], row["kind"]) == (wanted["robot"], wanted["kind"])
+            cells = [
+                (str(run["place"]), run["mark"])
+                for run in wanted["runs"]
+                for _ in range(run["start"], run["end"])
+            ]
+            assert list(zip(row["places"], row["marks"], strict=True)) == cells
+        for pair, text in zip(table["completions"], groups["sums"], strict=True):
+            assert f"{pair[0]} + {pair[1]}" in json.dumps(text)
+    beyond = client.get(f"/runs/{number}/decisions/{decisions + 1}")
+    assert beyond.status_code == 422
+    assert f"the last one is {decisions}" in beyond.json()["error"]["message"]
 
 
 def test_a_flip_of_an_unknown_robot_is_refused(client: httpx.Client) -> None:

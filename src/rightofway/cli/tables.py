@@ -28,7 +28,7 @@ from rightofway.phrases import Phrase, chain_items
 from rightofway.values import format_number
 
 if TYPE_CHECKING:
-    from rightofway.model import Decision, Plan
+    from rightofway.model import Plan
     from rightofway.quantities import Quantities
     from rightofway.viz.table import Listing, TimeSpaceTable
 
@@ -153,8 +153,8 @@ def table(
     if decision is None:
         _put_table(_time_space_table(opened, _shown(opened, **given)), output, as_json=as_json)
         return
-    groups, words, completions = _groups(opened, decision, given)
-    _put_table(groups, output, as_json=as_json, words=words, more={"completions": completions})
+    shown = _shown(opened, **given)
+    _print_groups(opened, decision, shown, output, as_json=as_json)
 
 
 def _write_all(plan: Plan, path: str, given: dict[str, Any]) -> None:
@@ -283,57 +283,31 @@ def put_lists(lists: Sequence[Listing], output: str) -> None:
     say_written(output)
 
 
-def _groups(
-    plan: Plan, number: int, given: dict[str, Any]
-) -> tuple[TimeSpaceTable, list[str], Sequence[tuple[int, int] | None]]:
-    """Return the table of both movement groups of a decision, words, and their W(i) and W(j)."""
-    from rightofway.planners.two_level import replay_movement_groups
-    from rightofway.viz.table import choose_robots, make_table_of_groups
+def _print_groups(
+    plan: Plan, number: int, shown: _Shown, output: str | None, *, as_json: bool
+) -> None:
+    """Put the table of both movement groups of a decision, with their sums below it."""
+    from rightofway.viz.table.groups import make_decision_table
 
-    decisions = plan.run.decisions
-    if number > len(decisions):
-        last = f"the last one is {len(decisions)}" if decisions else "the plan has no decisions"
-        remedy = "rightofway collisions PLAN lists them"
-        raise InputError.at("--decision", f"{number} is not there, {last} ({remedy})")
-    decision = decisions[number - 1]
-    groups = replay_movement_groups(plan, decision)
-    shown = _shown(plan, **given)
-    names = shown.robots
-    group_table = make_table_of_groups(
+    made = make_decision_table(
         plan,
-        decision.robots if names is None else choose_robots(plan.scenario, names),
-        [None if group is None else group.tracks for group in groups],
+        number,
+        robots=shown.robots,
         first_tick=shown.first_tick,
         last_tick=shown.last_tick,
         quantities=shown.quantities,
         step=shown.step,
     )
-    completions = [None if group is None else group.completions for group in groups]
-    words = _group_words(plan, decision, completions, shown.quantities)
-    first = Phrase("Decision {number}: {text}", number=str(number), text=words[0])
-    return group_table, [first, chain_items(words[1:], "{first}\n{second}")], completions
-
-
-def _group_words(
-    plan: Plan,
-    decision: Decision,
-    completions: Sequence[tuple[int, int] | None],
-    quantities: Quantities,
-) -> list[str]:
+    decision = plan.run.decisions[number - 1]
     i, j = (plan.scenario.robots[robot].name for robot in decision.robots)
     place = PlaceNames(plan.scenario, numbered=True)(decision.vertices[0])
-    moment = quantities.format_moment(decision.tick)
+    moment = shown.quantities.format_moment(decision.tick)
     meeting = {"robot": i, "other": j, "place": place, "moment": moment}
-    lines: list[str] = [Phrase("{robot} and {other} meet at {place} at {moment}.", **meeting)]
-    for number, pair in enumerate(completions, 1):
-        if pair is None:
-            lines.append(Phrase("List {number}: no way was found.", number=str(number)))
-            continue
-        first, other = map(quantities.format_cell, pair)
-        total = quantities.format_duration(sum(pair))
-        sums = f"W({i}) + W({j}) = {first} + {other}"
-        values = {"number": str(number), "sum": sums, "total": total}
-        lines.append(Phrase("List {number}: {sum} = {total}", **values))
+    text = Phrase("{robot} and {other} meet at {place} at {moment}.", **meeting)
+    first = Phrase("Decision {number}: {text}", number=str(number), text=text)
     waits = plan.scenario.robots[decision.waits].name
-    lines.append(Phrase("{robot} waits ({level} level).", robot=waits, level=decision.level))
-    return lines
+    last = Phrase("{robot} waits ({level} level).", robot=waits, level=decision.level)
+    words = [first, chain_items([*made.sums, last], "{first}\n{second}")]
+    _put_table(
+        made.table, output, as_json=as_json, words=words, more={"completions": made.completions}
+    )

@@ -294,6 +294,14 @@ export interface Glance {
   picture: string;
 }
 
+/** Where a robot is at each time of a table, and what happens to it there. */
+export interface GroupRow {
+  robot: string;
+  kind: "planned" | "list 1" | "list 2";
+  places: Array<string>;
+  marks: Array<"collision" | "swap" | "near" | "wait" | null>;
+}
+
 /** A document with its map and robots in it. */
 export interface Inlined {
   document: ScenarioDocument;
@@ -383,6 +391,14 @@ export interface LossData {
 /** Why robots lose time. */
 export interface LossList {
   losses: Array<LossData>;
+}
+
+/** Both movement groups of a decision: the paper's List 1 and List 2, and their sums. */
+export interface MovementGroups {
+  heading: string;
+  times: Array<string>;
+  rows: Array<GroupRow>;
+  sums: Array<PhraseData>;
 }
 
 /** How simulated robots are to drive a plan. */
@@ -718,6 +734,7 @@ export type DeleteAnswer<Path extends string> =
 
 /** What GET answers, by the path with what follows it. */
 export type GetAnswer<Path extends string> =
+  Path extends `/runs/${number}/decisions/${string}` | `/runs/${number}/decisions/${string}?${string}` ? MovementGroups :
   Path extends `/glances/${string}/${string}` | `/glances/${string}/${string}?${string}` ? Glance :
   Path extends `/runs/${number}/changes` | `/runs/${number}/changes?${string}` ? Changes :
   Path extends `/runs/${number}/command` | `/runs/${number}/command?${string}` ? CommandLine :

@@ -462,6 +462,24 @@ class LossList(TypedDict):
     losses: list[LossData]
 
 
+class GroupRow(TypedDict):
+    """Where a robot is at each time of a table, and what happens to it there."""
+
+    robot: str
+    kind: Literal["planned", "list 1", "list 2"]
+    places: list[str]
+    marks: list[Literal["collision", "swap", "near", "wait"] | None]
+
+
+class MovementGroups(TypedDict):
+    """Both movement groups of a decision: the paper's List 1 and List 2, and their sums."""
+
+    heading: str
+    times: list[str]
+    rows: list[GroupRow]
+    sums: list[Phrase]
+
+
 class CommandLine(TypedDict):
     """The command line that gives the same; empty where none does."""
 
@@ -699,6 +717,7 @@ ANSWERS: dict[tuple[str, str], Any] = {
     ("GET", "/runs/{number}/document"): PlacedDocument,
     ("GET", "/runs/{number}/command"): CommandLine,
     ("GET", "/runs/{number}/losses"): LossList,
+    ("GET", "/runs/{number}/decisions/{decision}"): MovementGroups,
     ("GET", "/runs/{number}/report"): Report,
     ("GET", "/runs/{number}/changes"): Changes,
     ("POST", "/runs/{number}/laps"): LapsAnswer,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Query, Request, Response
+from fastapi import APIRouter, Path, Query, Request, Response
 
 from rightofway.studio.errors import Refused
 from rightofway.studio.routes.models import (
@@ -30,6 +30,22 @@ async def get_run_losses(
     """Tell why robots lose time: each wait in a sentence, with the decision behind it."""
     plan = await studio.runs.read_blob(number, "plan")
     _, blobs = await studio.ask("losses", plan, robot=robot)
+    return answer_zipped(request, blobs[0])
+
+
+@router.get("/runs/{number}/decisions/{decision}", tags=["questions"], response_class=Response)
+async def get_run_decision(
+    studio: InStudio,
+    request: Request,
+    number: RunNumber,
+    decision: Annotated[int, Path(ge=1, description="number of the decision, from 1")],
+) -> Response:
+    """Show both movement groups of a decision of `paper`, `two-level` or `auto`, with their sums.
+
+    They are the paper's List 1 and List 2.
+    """
+    plan = await studio.runs.read_blob(number, "plan")
+    _, blobs = await studio.ask("groups", plan, decision=decision)
     return answer_zipped(request, blobs[0])
 
 

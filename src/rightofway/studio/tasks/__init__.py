@@ -48,6 +48,7 @@ TASKS: dict[str, Task] = {
     "compare": views.compare_plans,
     "changes": views.list_changes,
     "losses": asking.explain_losses,
+    "groups": asking.show_groups,
     "flip": asking.flip,
 }
 """Every task by name."""

@@ -17,6 +17,7 @@ from rightofway.studio.messages import Blobs, Emit, zip_text
 from rightofway.studio.tasks.documents import compute_figures
 from rightofway.studio.tasks.views import read
 from rightofway.viz.page.document import as_compact_json
+from rightofway.viz.table.groups import make_decision_table
 
 Result = tuple[Any, ...]
 
@@ -33,6 +34,36 @@ def explain_losses(_emit: Emit, blobs: Blobs, *, robot: str | None = None) -> Re
         for loss in lost.losses
     ]
     return (None, zip_text(as_compact_json({"losses": answers})))
+
+
+MOST_COLUMNS = 500
+"""Columns of a table of movement groups; a longer one has longer steps, or changes only."""
+
+
+def show_groups(_emit: Emit, blobs: Blobs, *, decision: int) -> Result:
+    """Return both movement groups of a decision as a table, with their sums in sentences."""
+    made = make_decision_table(read(blobs[0]), decision)
+    table = made.table
+    if len(table.ticks) > MOST_COLUMNS:
+        shorter = table.keep_changes(), table.limit_columns(MOST_COLUMNS)
+        table = min(shorter, key=lambda each: len(each.ticks))
+    rows = [
+        {
+            "robot": row.robot,
+            "kind": row.kind,
+            "places": [str(cell.place) for cell in cells],
+            "marks": [cell.mark for cell in cells],
+        }
+        for row in table.rows
+        for cells in [row.list_cells_at(table.ticks, table.step)]
+    ]
+    data = {
+        "heading": table.heading,
+        "times": list(map(table.describe_time, table.ticks)),
+        "rows": rows,
+        "sums": list(map(to_parts, made.sums)),
+    }
+    return (None, zip_text(as_compact_json(data)))
 
 
 def _loss_data(words: Words, loss: Loss) -> dict[str, Any]:

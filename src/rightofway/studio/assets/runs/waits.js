@@ -3,12 +3,14 @@
 import { html } from "../vendor/htm-preact.js";
 import { said } from "../../../viz/page/assets/library.js";
 import { words } from "../words.js";
+import { Groups } from "./groups.js";
 /** @import { Robot } from "../../../viz/page/assets/robot.js" */
 /** @import { LossData } from "../api_types.js" */
 /** @import { Stage } from "../stage.js" */
 /** @import { Props } from "../types.js" */
 
 const MOST = 30;
+const WITH_GROUPS = new Set(["paper", "two-level", "auto"]); // planners that decide by movement groups
 
 /** @param {Props} props */
 export function Waits({ studio }) {
@@ -17,6 +19,7 @@ export function Waits({ studio }) {
   const found = (runs.losses ?? [])
     .filter(({ robot }) => chosen === undefined || robot === chosen)
     .toSorted((one, other) => one.tick - other.tick);
+  const hasGroups = stage.isPlan && WITH_GROUPS.has(stage.plan.planner?.name ?? "");
   if (chosen !== undefined && !found.length) return null; // the card says that it loses no time
   return html`
     <section aria-labelledby="waits-title"><h2 id="waits-title">${chosen ? words.waitsOf(chosen) : words.waits}</h2>
@@ -25,7 +28,10 @@ export function Waits({ studio }) {
           ? html`<ol class="waits">${found.slice(0, MOST).map(
               (loss) => html`<li>
         <button type="button" class="watch" onClick=${() => studio.watchLoss(loss)}>${said(loss.phrase)}</button>
-        ${loss.because.map(({ phrase }) => html`<p><small>${said(phrase)}</small></p>`)}
+        ${loss.because.map(
+          ({ phrase, index }) => html`<p><small>${said(phrase)}</small></p>
+          ${hasGroups && html`<${Groups} key=${`${runs.shown} ${index}`} studio=${studio} index=${index} />`}`,
+        )}
         ${loss.for && !isOnlyChoice(stage, loss) && html`<button type="button" class="framed" onClick=${() => studio.flip(loss)}>${words.letGoFirst(loss.robot)}</button>`}
       </li>`,
             )}</ol>`

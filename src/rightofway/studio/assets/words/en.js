@@ -426,6 +426,17 @@ export const ENGLISH = {
   waits: "Who waits, and why",
   waitsOf: (/** @type {string} */ name) => `Why ${name} waits`,
   noWaits: "No robot waits for another one.",
+  groups: "List 1 and List 2 of this decision",
+  groupHeading: (/** @type {string} */ heading) => heading,
+  /** @type {Record<string, string>} */
+  groupRows: { planned: "planned", "list 1": "list 1", "list 2": "list 2" },
+  /** @type {Record<string, string>} */
+  groupMarks: {
+    collision: "two robots in one place",
+    swap: "two robots swap their places",
+    near: "two robots are too near",
+    wait: "waits",
+  },
   letGoFirst: (/** @type {string} */ name) => `Let ${name} go first`,
   moreWaits: (/** @type {number} */ count) => `and ${count} more; choose a robot on the map`,
   exportTitle: (/** @type {string} */ title) => `Export plan ${title}`,
