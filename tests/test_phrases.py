@@ -25,13 +25,13 @@ TERMINAL = {
     *("report/driving.py", "report/execution.py", "report/inspection.py"),
     *("report/laps.py", "report/plan.py"),
 }
-"""Reports of the command line, which speaks English; the modules in ``cli`` belong to it, too."""
+"""Reports of the command line, which speaks English, as ``cli`` and commands of rooms do."""
 
 
 def is_shown_by_pages(path: Path) -> bool:
     """Return whether sentences of a module can be on a page, in the studio or in the live view."""
     name = path.relative_to(SOURCES).as_posix()
-    return name not in TERMINAL and not name.startswith("cli/")
+    return name not in TERMINAL and not name.startswith("cli/") and "/command_line" not in name
 
 
 @cache

@@ -17,7 +17,6 @@ MAX_TEXT = 100_000
 __all__ = [
     "Phrase",
     "PhraseBook",
-    "PhraseOfPieces",
     "chain_items",
     "join_first",
     "join_items",
@@ -137,42 +136,6 @@ def join_first(pieces: Sequence[str]) -> str:
     if left > 0:
         shown.append(Phrase("{number} more", number=str(left)))
     return join_items(shown)
-
-
-class PhraseOfPieces(Phrase):
-    """A sentence on some pieces, with the names of the first of them.
-
-    Parameters
-    ----------
-    sentence
-        The sentence.
-    pieces
-        The names of all pieces, one at least.
-
-    Examples
-    --------
-    >>> PhraseOfPieces(Phrase("a zone is left out"), ["Aisle", "Dock"])
-    'a zone is left out: Aisle and Dock'
-    >>> print(PhraseOfPieces(Phrase("7 zones are left out"), "ABCDEFG"))
-    7 zones are left out: A, B, C, D, E and 2 more
-    """
-
-    __slots__ = ("pieces", "sentence")
-
-    sentence: Phrase
-    pieces: tuple[str, ...]
-
-    def __new__(cls, sentence: Phrase, pieces: Sequence[str]) -> Self:
-        """Return the text."""
-        names = join_first(pieces)
-        phrase = Phrase("{sentence}: {names}", sentence=sentence, names=names)
-        own = super().__new__(cls, phrase.template, **phrase.values)
-        own.sentence, own.pieces = sentence, tuple(pieces)
-        return own
-
-    def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, str]]:
-        """Return what a copy is made of."""
-        return (self.sentence, self.pieces), {}
 
 
 class PhraseBook:

@@ -53,6 +53,7 @@ from rightofway.io.workbook.writer import TEMPLATE
 from rightofway.io.yaml_text import parse_yaml
 from rightofway.site.layout import Layout
 from rightofway.solve import solve
+from tests.builders.sentences import tell_notes
 
 DATA = Path(__file__).parents[1] / "data"
 LAYOUTS = DATA / "layouts"
@@ -321,15 +322,15 @@ class Seed:
 
 
 def _scenario(path: Path) -> Iterable[str]:
-    return load_with_notes(path).notes
+    return tell_notes(load_with_notes(path))
 
 
 def _table(path: Path) -> Iterable[str]:
-    return load_with_notes(path.with_name("fleet.yaml")).notes
+    return tell_notes(load_with_notes(path.with_name("fleet.yaml")))
 
 
 def _scen(path: Path) -> Iterable[str]:
-    return load_with_notes(path.with_suffix(".scen")).notes
+    return tell_notes(load_with_notes(path.with_suffix(".scen")))
 
 
 def _map(path: Path) -> Iterable[str]:
@@ -361,7 +362,7 @@ def _layout(path: Path) -> Iterable[str]:
         raise
     if not isinstance(found, Layout):
         _on(path, {"x": 0, "y": 0}, {"cell_size": 1})
-        return found.notes if hasattr(found, "notes") else ()
+        return tell_notes(found) if hasattr(found, "notes") else ()
     level = max(found.levels, key=lambda each: len(each.edges))
     keys: dict[str, Any] = {"level": level.name} if len(found.levels) > 1 else {}
     if level.vehicle_types:
@@ -373,7 +374,7 @@ def _layout(path: Path) -> Iterable[str]:
         for text in (each.name, *each.vehicle_types, *(it.name for it in named))
     ]
     _on(path, level.vertices[0].name, {**keys, "spacing": 1})
-    return (*found.notes, *filter(None, names))
+    return (*tell_notes(found), *filter(None, names))
 
 
 def _image(path: Path) -> Iterable[str]:

@@ -12,8 +12,8 @@ from rightofway.control.commands import Commands
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.fleet_control import LedgerFailed
 from rightofway.control.operator import Operator
-from tests.builders.answers import tell_answer
 from tests.builders.plans import door
+from tests.builders.sentences import tell_answer
 from tests.builders.sites import Site
 
 

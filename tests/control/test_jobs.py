@@ -16,10 +16,10 @@ from rightofway.control.names import list_jobs
 from rightofway.control.operator import Operator
 from rightofway.errors import InputError
 from rightofway.io import parse_scenario
-from tests.builders.answers import tell_answer
 from tests.builders.chaos import MemoryJournal
 from tests.builders.floors import Floor
 from tests.builders.plans import door
+from tests.builders.sentences import tell_answer
 
 
 def driven(steps: int, journal: MemoryJournal | SqliteJournal | None = None) -> Floor:

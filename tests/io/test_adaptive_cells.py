@@ -16,6 +16,7 @@ from rightofway.io import dump_plan, dump_scenario, parse_plan, parse_scenario
 from rightofway.io.readers import load_with_notes
 from rightofway.metrics import Site, inspect
 from rightofway.quantities import Units
+from tests.builders.sentences import tell_notes
 
 FLOOR = {"size": [8, 4], "obstacles": [{"name": "rack", "rect": [2, 1, 3, 2]}]}
 ROBOT = {"name": "R1", "home": {"x": 0.5, "y": 0.5}, "target": {"x": 7, "y": 3}}
@@ -102,7 +103,7 @@ def test_a_map_in_pixels_lies_where_its_frame_says(tmp_path: Path) -> None:
     assert roadmap.labels == ("Q0-0x4", "Q4-0x4", "Q0-4x4")
     points = [tuple(map(int, roadmap.get_point(vertex))) for vertex in range(3)]
     assert points == [(0, 3), (2, 3), (0, 5)]
-    assert loaded.notes == ("map cut into 3 squares of 2 m, from 48 free cells",)
+    assert tell_notes(loaded) == ("map cut into 3 squares of 2 m, from 48 free cells",)
     assert roadmap.lengths == (Fraction(2),)
 
 
@@ -117,6 +118,6 @@ def test_inspect_speaks_of_the_smallest_cells_once() -> None:
         rules=scenario.rules,
     )
     result = inspect(site)
-    assert [each.fact for each in result.findings if each.kind == "too near"] == [
+    assert [str(each.fact) for each in result.findings if each.kind == "too near"] == [
         "The middles of the smallest cells are 1 m apart; robots of radius 0.6 m need 1.2 m"
     ]

@@ -13,6 +13,7 @@ from rightofway.errors import InputError
 from rightofway.io.movingai import write_scen
 from rightofway.io.scenario.reader import parse_scenario, read_scenario
 from rightofway.io.scenario.writer import dump_scenario, write_scenario
+from tests.builders.sentences import tell_notes
 
 DOCUMENT: dict[str, Any] = {
     "format": "rightofway-scenario/1",
@@ -140,8 +141,8 @@ def test_a_type_that_is_nearly_one_of_the_map_is_noted() -> None:
     robot = {**DOCUMENT["robots"][0], "type": "heavvy"}
     loaded = read_scenario({**DOCUMENT, "robots": [robot]}, None)
     note = "nothing is barred for robots of type 'heavvy' (did you mean 'heavy'?)"
-    assert note in loaded.notes
-    assert not any("barred" in note for note in read_scenario(DOCUMENT, None).notes)
+    assert note in tell_notes(loaded)
+    assert not any("barred" in note for note in tell_notes(read_scenario(DOCUMENT, None)))
 
 
 def test_conversion_to_scen_says_that_closures_are_left_out(tmp_path: Path) -> None:

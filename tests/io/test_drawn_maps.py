@@ -14,6 +14,7 @@ from rightofway import InputError, Scenario, load, solve, write_page, write_plan
 from rightofway.io import format_plan, load_plan, load_with_notes
 from rightofway.io.scenario.curves import ERROR, make_lane_curve
 from rightofway.io.scenario.reader import parse_scenario
+from tests.builders.sentences import tell_notes
 
 A, B = (Fraction(0), Fraction(0)), (Fraction(8), Fraction(0))
 
@@ -126,7 +127,7 @@ def test_a_picture_that_is_missing_is_a_note(tmp_path: Path) -> None:
     document["map"]["picture"] = {"file": "hall.png"}
     (tmp_path / "floor.yaml").write_text(json.dumps(document))
     loaded = load_with_notes(tmp_path / "floor.yaml")
-    assert "there is no picture 'hall.png'; the map is shown without it" in loaded.notes
+    assert "there is no picture 'hall.png'; the map is shown without it" in tell_notes(loaded)
 
 
 @pytest.mark.parametrize(

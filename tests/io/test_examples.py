@@ -5,6 +5,7 @@ from pathlib import Path
 
 from rightofway.io import load, load_with_notes
 from tests.builders.fleets import PAPER, paper_scenario
+from tests.builders.sentences import tell_notes
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -17,7 +18,7 @@ def test_door_and_crossroad_are_cases_of_the_paper() -> None:
 
 def test_the_floor_is_cut_for_its_fastest_robot() -> None:
     loaded = load_with_notes(EXAMPLES / "floor.yaml")
-    assert loaded.notes == ("floor cut into 24 x 16 = 384 cells of 0.5 m",)
+    assert tell_notes(loaded) == ("floor cut into 24 x 16 = 384 cells of 0.5 m",)
     assert [robot.name for robot in loaded.scenario.robots] == [
         "porter",
         "runner",

@@ -14,6 +14,7 @@ from rightofway.io.scenario.loaded_map import FleetTraits
 from rightofway.io.scenario.reader import Loaded, read_scenario
 from rightofway.model import Rules, Scenario, Stop
 from tests.builders.fleets import grid_fleet
+from tests.builders.sentences import tell_notes
 
 DOOR = ["...", "@.@", "..."]
 
@@ -206,11 +207,11 @@ def test_the_reader_says_what_a_floor_was_cut_into_and_what_is_rounded(tmp_path:
     floor = document(map={"floor": {"size": [12, 8]}, "cell_size": 0.5}, robots=robots)
     path.write_text(json.dumps(floor), encoding="utf-8")
     loaded = load_with_notes(path)
-    assert loaded.notes == ("floor cut into 24 x 16 = 384 cells of 0.5 length units",)
+    assert tell_notes(loaded) == ("floor cut into 24 x 16 = 384 cells of 0.5 length units",)
     # A cell takes R1 1000/1999 = 2000/3998 and R2 1999/3998: too many ticks to be exact.
     robots[0]["speed"] = "1999/2000"
     path.write_text(json.dumps(floor), encoding="utf-8")
-    assert load_with_notes(path).notes[1] == (
+    assert tell_notes(load_with_notes(path))[1] == (
         "each drive, turn and work time is rounded up to a multiple of 0.00050 time units"
         " (the shortest of them, divided by 1000); simpler speeds and lengths stay"
         " exact, for example 1/3 instead of 0.3333"
@@ -228,13 +229,13 @@ def crossroads(**robot: Any) -> dict[str, Any]:
 def test_lanes_that_cross_where_no_vertex_is_are_noted(tmp_path: Path) -> None:
     path = tmp_path / "x.json"
     path.write_text(json.dumps(crossroads()), encoding="utf-8")
-    [note] = [note for note in load_with_notes(path).notes if "cross" in note]
+    [note] = [note for note in tell_notes(load_with_notes(path)) if "cross" in note]
     assert note == (
         "the lanes A to B and C to D cross where no vertex is (1 more pair):"
         " robots without a radius may meet there (give robots a radius, or put a vertex there)"
     )
     path.write_text(json.dumps(crossroads(radius="1/10")), encoding="utf-8")
-    assert not any("without a radius" in note for note in load_with_notes(path).notes)
+    assert not any("without a radius" in note for note in tell_notes(load_with_notes(path)))
 
 
 @pytest.mark.parametrize(
@@ -249,7 +250,7 @@ def test_a_lane_that_ends_on_another_one_does_not_cross_it(
     robots = [{"name": "R1", "home": "A", "target": "B"}]
     path = tmp_path / "x.json"
     path.write_text(json.dumps(document(map={"roadmap": roadmap}, robots=robots)), "utf-8")
-    assert any("cross" in note for note in load_with_notes(path).notes) == crosses
+    assert any("cross" in note for note in tell_notes(load_with_notes(path))) == crosses
 
 
 def test_at_most_fifty_problems_are_told() -> None:
@@ -373,7 +374,7 @@ def test_a_station_with_the_name_of_another_vertex_is_named_and_the_vertex_count
     loaded = hidden_station(target)
     roadmap = loaded.scenario.roadmap
     assert roadmap.name(loaded.scenario.robots[0].stops[0].at) == target
-    assert loaded.notes == (
+    assert tell_notes(loaded) == (
         "a station has the name of another vertex, and the name means the vertex: B (station at C)",
     )
 

@@ -7,6 +7,7 @@ import pytest
 from rightofway.errors import InputError
 from rightofway.io import Loaded, dump_scenario, parse_scenario
 from rightofway.io.scenario.reader import read_scenario
+from tests.builders.sentences import tell_notes
 
 TABLE = {"name": "table", "rect": [1, 0, 1, 1]}
 
@@ -101,12 +102,12 @@ def test_lengths_that_are_no_fractions_are_rounded_up_with_a_note() -> None:
     vertices = {"a": [0, 0], "b": [1.1, 1.3], "c": [3, 4]}
     edges = [["a", "b"], ["a", "c"], ["b", "c", 7]]
     found = loaded({"roadmap": {"vertices": vertices, "edges": edges}}, home="a", target="c")
-    assert found.notes[0] == "1 of 3 lengths rounded up to 0.001 m"
+    assert tell_notes(found)[0] == "1 of 3 lengths rounded up to 0.001 m"
     assert [str(length) for length in found.scenario.roadmap.lengths] == ["1703/1000", "5", "7"]
 
 
 def test_spaces_that_count_as_blocked_are_noted() -> None:
     shape = {"grid": ["....", ".  ."]}
-    assert loaded(shape, home="N0", target="N3").notes == (
+    assert tell_notes(loaded(shape, home="N0", target="N3")) == (
         "2 spaces count as blocked in the grid (write . for a free cell)",
     )

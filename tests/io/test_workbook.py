@@ -22,6 +22,7 @@ from rightofway.io.workbook import format_workbook, write_template
 from rightofway.io.workbook.sheets import read_sheets
 from rightofway.io.workbook.writer import TEMPLATE
 from rightofway.model import Rules
+from tests.builders.sentences import tell_notes
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -139,9 +140,9 @@ def test_colours_draw_a_map_and_empty_cells_are_noted(tmp_path: Path) -> None:
     grid = loaded.scenario.roadmap.grid
     assert grid is not None
     assert list(grid.as_lines()) == ["...", "@..", "..."]
-    assert loaded.notes == ()
+    assert tell_notes(loaded) == ()
     empty = edited(tmp_path / "empty.xlsx", put("map", "B1", None))
-    assert load_with_notes(empty).notes == (
+    assert tell_notes(load_with_notes(empty)) == (
         "1 empty cell of the map counts as free, the first is map!B1",
     )
 

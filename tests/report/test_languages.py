@@ -5,11 +5,12 @@ from __future__ import annotations
 from fractions import Fraction
 
 from rightofway import load, solve
+from rightofway.facts import Fact
 from rightofway.io import load_with_notes
 from rightofway.io.layouts.draft import LayoutDraft
 from rightofway.io.layouts.formats import describe_layout
 from rightofway.phrases import Phrase, say_count
-from rightofway.report.facts import write_notes
+from rightofway.report.facts import write_note, write_notes
 from rightofway.report.lines import COLUMNS, Facts, Table, lay_out
 from rightofway.report.plan import report_decisions, summarize_plan
 from rightofway.site.layout import LayoutVertex
@@ -41,9 +42,11 @@ def test_notes_of_a_reader_are_said_in_german() -> None:
     level = draft.begin_level()
     for name, x in (("A", 0), ("B", 2)):
         level.vertices[name] = LayoutVertex(name=name, at=(Fraction(x), Fraction(0)))
-    draft.repair(Phrase("a number is written as text"), "A", "B")
+    draft.repair(Fact("number as text"), "A", "B")
     layout = draft.make_layout()
-    assert layout.notes == ("2 times: a number is written as text: A and B",)
-    assert translate(layout.notes[0]) == "2-mal: eine Zahl ist als Text geschrieben: A und B"
-    assert describe_layout(layout) == "a LIF layout with 2 vertices"
-    assert translate(describe_layout(layout)) == "LIF layout (2 Knoten)"
+    (note,) = write_notes(layout.notes)
+    assert note == "2 times: a number is written as text: A and B"
+    assert translate(note) == "2-mal: eine Zahl ist als Text geschrieben: A und B"
+    description = write_note(describe_layout(layout))
+    assert description == "a LIF layout with 2 vertices"
+    assert translate(description) == "LIF layout (2 Knoten)"

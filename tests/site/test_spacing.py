@@ -15,6 +15,7 @@ from rightofway.io import dump_plan, dump_scenario, load_with_notes, parse_plan,
 from rightofway.io.json_text import format_json
 from rightofway.site import Edge
 from rightofway.site.spacing import MOST_CUTS, choose_spacing, split_lanes
+from tests.builders.sentences import tell_notes
 
 
 def cross(**changes: Any) -> dict[str, Any]:
@@ -99,7 +100,7 @@ def test_lanes_stay_whole(changes: dict[str, Any], why: str) -> None:
 def test_the_reader_reports_what_is_split(tmp_path: Path) -> None:
     path = tmp_path / "cross.json"
     path.write_text(format_json(cross() | {"units": {"length": "m", "time": "s"}}))
-    (note,) = load_with_notes(path).notes
+    (note,) = tell_notes(load_with_notes(path))
     assert note == (
         "2 lanes are booked in pieces of at most 2.4 m, so that robots can follow and cross each"
         " other there (spacing: whole keeps lanes whole)"

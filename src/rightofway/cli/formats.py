@@ -170,6 +170,7 @@ def _refuse_layout_format(source: str, name: str | None) -> None:
 def _write_layout(source: str, path: str, name: str | None, radius: Fraction | None) -> None:
     """Write a layout in another format, or without one a scenario that has it as its map."""
     from rightofway.io import LAYOUT_WRITERS, format_layout, read_layout
+    from rightofway.report.facts import write_notes
     from rightofway.site.layout import Layout
 
     if name is None:
@@ -187,7 +188,7 @@ def _write_layout(source: str, path: str, name: str | None, radius: Fraction | N
     except InputError as error:
         raise InputError(fault.name_file(source) for fault in error.faults) from None
     put_text(text, path)
-    for note in (*layout.notes, *losses):
+    for note in write_notes((*layout.notes, *losses)):
         say_of(path, note)
 
 

@@ -18,7 +18,6 @@ from rightofway.cli.terminal import (
     put_report,
     say_written,
 )
-from rightofway.phrases import PhraseOfPieces
 from rightofway.report.lines import lay_out
 
 if TYPE_CHECKING:
@@ -133,15 +132,17 @@ def _size(given: str | None) -> Fraction | None:
 
 def _data(source: str, sites: Sites, results: list[tuple[str, Site, Inspection]]) -> dict[str, Any]:
     """Return the report for programs."""
-    from rightofway.report.facts import write_notes
+    from rightofway.report.facts import write_note, write_notes
     from rightofway.report.inspection import export_finding
 
     return {
         "file": source,
-        "what": sites.description,
+        "what": write_note(sites.description),
         "notes": write_notes(sites.notes),
         "pieces": {
-            note: list(note.pieces) for note in sites.notes if isinstance(note, PhraseOfPieces)
+            write_note(note): write_notes(note.values["names"])
+            for note in sites.notes
+            if note.kind == "note on pieces"
         },
         "levels": [
             {

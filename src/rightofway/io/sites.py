@@ -21,9 +21,8 @@ from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.reader import read_scenario
 from rightofway.metrics import Site
 from rightofway.model import Scenario
-from rightofway.phrases import Phrase, PhraseOfPieces, say_count
 from rightofway.quantities import Units
-from rightofway.site.layout import Layout, Level, build_roadmap_of_level
+from rightofway.site.layout import Layout, Level, build_roadmap_of_level, note_pieces
 
 METRES = Units(length="m", time="s")
 
@@ -35,15 +34,15 @@ class Sites:
     Attributes
     ----------
     description
-        What the file is and how large, in words.
+        Kind and size of the file; empty for a map whose robots have faults.
     notes
-        What its reader mended or left out, a sentence each.
+        Pieces that its reader mended or left out, and warnings.
     sites
         The name of each level, empty where there is only one, and the site.
     """
 
-    description: str
-    notes: tuple[Phrase | Fact, ...]
+    description: Fact | str
+    notes: tuple[Fact, ...]
     sites: tuple[tuple[str, Site], ...]
 
 
@@ -111,18 +110,15 @@ def _of_layout(path: Path, layout: Layout, choice: Choice) -> Sites:
     sites, notes = list[tuple[str, Site]](), list(layout.notes)
     for level in levels:
         if not level.vertices:
-            notes.append(Phrase("level {level} is empty", level=level.name))
+            notes.append(Fact("level empty", level=level.name))
             continue
         name = choice.vehicle_type or _usual_type(level)
         level_map = build_roadmap_of_level(level, vehicle_type=name)
         roadmap = level_map.roadmap
         lacks = (*level_map.notes, *note_on_hidden_stations(roadmap))
         if name and choice.vehicle_type is None:
-            usual = Phrase(
-                "lanes of vehicle type {type} inspected, which has most ({others})",
-                type=name,
-                others=say_count(len(level.vehicle_types) - 1, "other type", "other types"),
-            )
+            others = len(level.vehicle_types) - 1
+            usual = Fact("usual vehicle type", type=name, others=others)
             lacks = (usual, *lacks)
         if len(levels) > 1:
             lacks = tuple(_name_level(level.name, lack) for lack in lacks)
@@ -141,11 +137,11 @@ def _of_layout(path: Path, layout: Layout, choice: Choice) -> Sites:
     return Sites(description=describe_layout(layout), notes=tuple(notes), sites=tuple(sites))
 
 
-def _name_level(level: str, note: Phrase) -> Phrase:
+def _name_level(level: str, note: Fact) -> Fact:
     """Return a note with the level that it is about."""
-    if isinstance(note, PhraseOfPieces):
-        return PhraseOfPieces(_name_level(level, note.sentence), note.pieces)
-    return Phrase("level {level}: {lack}", level=level, lack=note)
+    if note.kind == "note on pieces":
+        return note_pieces(_name_level(level, note.values["sentence"]), note.values["names"])
+    return Fact("note on level", note.about, level=level, lack=note)
 
 
 def _usual_type(level: Level) -> str | None:
@@ -198,7 +194,7 @@ def _with_fleet(drawn: Any, base: Path, robots: Path) -> Sites:
     return make_sites(loaded.scenario, loaded.notes)
 
 
-def make_sites(scenario: Scenario, notes: tuple[Phrase | Fact, ...]) -> Sites:
+def make_sites(scenario: Scenario, notes: tuple[Fact, ...]) -> Sites:
     """Return a scenario as the one site that it is about."""
     site = Site(
         roadmap=scenario.roadmap,
@@ -208,13 +204,9 @@ def make_sites(scenario: Scenario, notes: tuple[Phrase | Fact, ...]) -> Sites:
     )
     grid = scenario.roadmap.grid
     ground = (
-        Phrase("{columns} x {rows} cells", columns=str(grid.columns), rows=str(grid.rows))
+        Fact("ground of cells", columns=grid.columns, rows=grid.rows)
         if grid
-        else Phrase("a roadmap of {vertices} vertices", vertices=str(scenario.roadmap.n_vertices))
+        else Fact("ground of vertices", vertices=scenario.roadmap.n_vertices)
     )
-    description = Phrase(
-        "a scenario of {robots} on {ground}",
-        robots=say_count(len(scenario.robots), "robot", "robots"),
-        ground=ground,
-    )
+    description = Fact("scenario", robots=len(scenario.robots), ground=ground)
     return Sites(description=description, notes=notes, sites=(("", site),))

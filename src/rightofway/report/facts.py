@@ -20,7 +20,7 @@ from rightofway.errors import join_names
 from rightofway.facts import Fact
 from rightofway.model import Scenario
 from rightofway.model.place_names import PlaceNames, describe_middle
-from rightofway.phrases import Phrase, chain_items, join_items
+from rightofway.phrases import Phrase, chain_items, join_first, join_items
 from rightofway.quantities import Quantities, Units, format_decimal
 
 if TYPE_CHECKING:
@@ -83,13 +83,15 @@ class FactWriter:
     Parameters
     ----------
     about
-        The scenario of robots, vertices and ticks, or an inspected site; None for facts that have
-        none.
+        The scenario of robots, vertices and ticks, an inspected site, or units of lengths; None for
+        facts that have none.
     quantities
         How times and lengths are written; those of the scenario unless given.
     """
 
-    def __init__(self, about: Scenario | Site | None, quantities: Quantities | None = None) -> None:
+    def __init__(
+        self, about: Scenario | Site | Units | None, quantities: Quantities | None = None
+    ) -> None:
         self._about = about
         self._quantities = quantities
 
@@ -135,8 +137,10 @@ class FactWriter:
     @property
     def about(self) -> Scenario | Site:
         """The scenario or site of the values."""
-        assert self._about is not None, "a fact with robots or places has a scenario or a site"
-        return self._about
+        about = self._about
+        assert about is not None, "a fact with robots or places has a scenario or a site"
+        assert not isinstance(about, Units), "units have no robots and no places"
+        return about
 
     @property
     def scenario(self) -> Scenario:
@@ -151,7 +155,9 @@ class FactWriter:
             return self._quantities
         if isinstance(self._about, Scenario):
             return self._about.quantities
-        units = Units() if self._about is None else self._about.units
+        units = self._about or Units()
+        if not isinstance(units, Units):
+            units = units.units
         return Quantities(units=units, tick=Fraction(1))
 
     @cached_property
@@ -180,6 +186,8 @@ class FactWriter:
             "and": lambda facts: join_items([self.write(fact) for fact in facts]),
             "angle": lambda degrees: format_decimal(degrees, 6),
             "decimal": "{:g}".format,
+            "fine_length": self._write_fine_length,
+            "first": lambda names: join_first(list(map(self._write_text, names))),
             "duration": cache(self.quantities.format_duration),
             "lane": self._name_lane,
             "length": self.quantities.format_length,
@@ -198,6 +206,10 @@ class FactWriter:
 
     def _write_text(self, value: Fact | Fraction | str | int) -> str:
         return self.write(value) if isinstance(value, Fact | str) else str(value)
+
+    def _write_fine_length(self, value: Fraction) -> str:
+        """Return a length with up to six decimals, and its unit if it has one."""
+        return f"{format_decimal(value, 6)} {self.quantities.units.length or ''}".rstrip()
 
     def name_robot(self, robot: int) -> str:
         """Return a robot's name."""
@@ -249,9 +261,14 @@ class FactWriter:
         return quantities.format_moment(tick) if has_unit else quantities.format_cell(tick)
 
 
+def write_note(note: str | Fact) -> str:
+    """Return a fact as a sentence; text stays as it is."""
+    return FactWriter(getattr(note, "about", None)).write(note)
+
+
 def write_notes(notes: Iterable[str | Fact]) -> list[str]:
     """Return notes of a reader as text, the facts among them as sentences."""
-    return [FactWriter(getattr(note, "about", None)).write(note) for note in notes]
+    return list(map(write_note, notes))
 
 
 def list_texts() -> Sequence[str]:

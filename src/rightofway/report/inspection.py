@@ -10,7 +10,7 @@ from rightofway.facts import Fact
 from rightofway.metrics import Inspection, Site
 from rightofway.metrics.site import Finding, Severity
 from rightofway.phrases import Phrase
-from rightofway.report.facts import FactWriter, write_notes
+from rightofway.report.facts import FactWriter, write_note, write_notes
 from rightofway.report.lines import Paragraph, Part
 from rightofway.site.scale import compute_extent
 
@@ -90,7 +90,7 @@ def export_finding(site: Site, finding: Finding) -> dict[str, Any]:
 
 def report_inspection(
     source: str,
-    description: str,
+    description: str | Fact,
     notes: Iterable[str | Fact],
     results: Sequence[tuple[str, Site, Inspection]],
     limit: int,
@@ -99,7 +99,7 @@ def report_inspection(
 
     ``limit`` findings of each kind are listed; the name of a level is empty where there is but one.
     """
-    yield Phrase("{file}: {text}", file=source, text=description)
+    yield Phrase("{file}: {text}", file=source, text=write_note(description))
     for note in write_notes(notes):
         yield Paragraph(note, "  ")
     for name, site, inspection in results:

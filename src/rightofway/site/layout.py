@@ -15,7 +15,7 @@ import numpy as np
 from rightofway.arguments import checks_arguments
 from rightofway.deadline import READING, check_work
 from rightofway.errors import InputError, find_nearest, join_names, quote
-from rightofway.phrases import Phrase, PhraseOfPieces, say_count
+from rightofway.facts import Fact
 from rightofway.site.drawing import Drawing, Picture
 from rightofway.site.edges import EdgeTable, make_roadmap_of_table
 from rightofway.site.geometry import Point
@@ -142,7 +142,7 @@ class Layout:
 
     kind: str
     levels: tuple[Level, ...]
-    notes: tuple[Phrase, ...] = ()
+    notes: tuple[Fact, ...] = ()
 
     @checks_arguments
     def get_level(self, name: str | None = None) -> Level:
@@ -186,7 +186,7 @@ class LevelRoadmap(NamedTuple):
     roadmap: Roadmap
     curves: int
     chord_error: Fraction
-    notes: tuple[Phrase, ...]
+    notes: tuple[Fact, ...]
     split: SplitLanes
 
 
@@ -403,28 +403,29 @@ def _slower(first: EdgeClass, other: EdgeClass, known_types: Collection[str]) ->
 
 def _lacks(
     level: Level, lost: Sequence[tuple[str, str]], closed: Collection[str]
-) -> Iterator[Phrase]:
+) -> Iterator[Fact]:
     if closed:
-        sentence = Phrase(
-            "{vertices} left out: only lanes of other vehicle types lead there",
-            vertices=say_count(len(closed), "vertex", "vertices"),
-        )
-        yield PhraseOfPieces(sentence, sorted(closed))
+        yield note_pieces(Fact("only other vehicle types", vertices=len(closed)), sorted(closed))
     if lost:
-        lanes = say_count(len(lost), "parallel lane", "parallel lanes")
-        sentence = Phrase("{lanes} left out: the slowest of each counts", lanes=lanes)
-        yield PhraseOfPieces(sentence, name_lanes(lost))
+        yield note_pieces(Fact("parallel lanes", lanes=len(lost)), describe_lanes(lost))
     if level.links:
-        sentence = Phrase(
-            "{lanes} to other levels left out: plans stay on one level",
-            lanes=say_count(len(level.links), "lane", "lanes"),
-        )
-        yield PhraseOfPieces(sentence, name_lanes(level.links))
+        lanes = describe_lanes(level.links)
+        yield note_pieces(Fact("lanes to other levels", lanes=len(lanes)), lanes)
+
+
+def note_pieces(sentence: Fact, names: Iterable[str | Fact]) -> Fact:
+    """Return a note on some pieces: the fact, and the name of each piece."""
+    return Fact("note on pieces", sentence.about, sentence=sentence, names=tuple(names))
+
+
+def describe_lanes(ends: Iterable[tuple[str, str]]) -> list[Fact]:
+    """Return facts that name lanes by their tails and heads."""
+    return [Fact("ends of lane", tail=tail, head=head) for tail, head in ends]
 
 
 def name_lanes(ends: Iterable[tuple[str, str]]) -> list[str]:
-    """Return names of lanes for people, of the names of their tails and heads."""
-    return [Phrase("{tail} to {head}", tail=tail, head=head) for tail, head in ends]
+    """Return names of lanes for messages, of the names of their tails and heads."""
+    return [f"{tail} to {head}" for tail, head in ends]
 
 
 def _list_ends(lanes: LaneTable) -> set[int]:

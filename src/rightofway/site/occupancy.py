@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError
-from rightofway.phrases import Phrase
+from rightofway.facts import Fact
 from rightofway.site.clustering import MAX_CELLS
 from rightofway.site.drawing import Picture
 from rightofway.site.geometry import Point
@@ -56,7 +56,7 @@ class Occupancy:
     origin: Point = (Fraction(0), Fraction(0))
     yaw: Fraction = Fraction(0)
     picture: Picture | None = None
-    notes: tuple[Phrase, ...] = ()
+    notes: tuple[Fact, ...] = ()
 
     def cut_cells(
         self, size: Fraction, *, radius: Fraction = Fraction(0), unknown_is_free: bool = False

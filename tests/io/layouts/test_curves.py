@@ -19,6 +19,7 @@ from rightofway.io.layouts.nurbs import CHORD_ERROR, Nurbs
 from rightofway.io.scenario.reader import Loaded, read_scenario
 from rightofway.metrics import Site, inspect
 from rightofway.site.layout import Layout
+from tests.builders.sentences import tell_notes
 
 
 def arc() -> Nurbs:
@@ -133,7 +134,7 @@ def test_a_bow_towards_a_lane_excludes_it_and_a_bow_away_does_not(tmp_path: Path
     assert plan.flowtime > plan.lower_bound
     away = solve(loaded(hall(tmp_path, -4), radius=0.3).scenario)
     assert away.flowtime == away.lower_bound
-    assert any("1 curve" not in note and "curves are cut" in note for note in towards.notes)
+    assert any("1 curve" not in note and "curves are cut" in note for note in tell_notes(towards))
 
 
 def test_both_directions_share_the_pieces_and_the_clearance_grows(tmp_path: Path) -> None:
@@ -143,7 +144,7 @@ def test_both_directions_share_the_pieces_and_the_clearance_grows(tmp_path: Path
     assert {name.partition("/")[0] for name in inside} == {"A-B"}
     assert roadmap.n_edges == 2 * (len(inside) + 1) + 2
     assert rules.clearance == 2 * Fraction(repr(CHORD_ERROR))
-    assert found.notes[-1] == (
+    assert tell_notes(found)[-1] == (
         "2 curves are cut into straight pieces for robots with a size, which leave the curve by at"
         " most 0.005 m: the clearance grows by 0.01 m"
     )
@@ -188,14 +189,14 @@ def test_a_trajectory_that_cannot_be_is_mended(
 ) -> None:
     found = read_layout(hall(tmp_path, 4, **changes))
     assert isinstance(found, Layout)
-    assert any(note.startswith(f"{repair}: ") for note in found.notes)
+    assert any(note.startswith(f"{repair}: ") for note in tell_notes(found))
     assert all(edge.length in (10, 4) for edge in found.levels[0].edges)
 
 
 def test_an_inspection_names_what_the_bow_comes_near_and_not_its_own_pieces(tmp_path: Path) -> None:
     scenario = loaded(hall(tmp_path, 4), radius=0.3).scenario
     site = Site(roadmap=scenario.roadmap, robots=scenario.robots, rules=scenario.rules)
-    near = [each.fact for each in inspect(site).findings if each.kind == "too near"]
+    near = [str(each.fact) for each in inspect(site).findings if each.kind == "too near"]
     assert any("is too near to the lane C to D" in fact for fact in near)
     assert not any("A-B/" in fact for fact in near)
 

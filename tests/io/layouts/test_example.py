@@ -13,6 +13,7 @@ from rightofway.io.yaml_text import parse_yaml
 from rightofway.metrics.connectivity import find_strong_parts, list_ways
 from rightofway.site import Edge, Roadmap, make_roadmap
 from rightofway.solve import solve
+from tests.builders.sentences import tell_notes
 
 HERE = Path(__file__).parents[2] / "data" / "layouts"
 
@@ -46,7 +47,7 @@ def test_a_target_at_a_station_with_the_name_of_another_vertex_is_named_by_its_v
     (tmp_path / "scenario.yaml").write_text(made.text, "utf-8")
     scenario = load(tmp_path / "scenario.yaml")
     assert scenario.roadmap.name(scenario.robots[0].stops[0].at) == "B"
-    assert made.notes[-1].endswith("the name means the vertex: C (station at B)")
+    assert tell_notes(made)[-1].endswith("the name means the vertex: C (station at B)")
 
 
 def test_cells_of_a_map_in_pixels_are_small_enough_to_get_through(tmp_path: Path) -> None:

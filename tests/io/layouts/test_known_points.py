@@ -15,6 +15,7 @@ from rightofway.model import Scenario
 from rightofway.site import Point, Roadmap
 from rightofway.site.layout import Layout, Level
 from rightofway.solve import solve
+from tests.builders.sentences import tell_notes
 
 HERE = Path(__file__).parents[2] / "data" / "layouts"
 
@@ -86,7 +87,9 @@ def test_a_robot_on_lanes_of_another_type_than_its_own_is_noted(
     shape = {"layout": "hall.lif.json", "vehicle_type": "tugger"}
     document = {"format": "rightofway-scenario/1", "map": shape, "robots": [robot]}
     note = "robots of forklift drive on the lanes of vehicle type tugger, at its speed limits"
-    assert any(each.startswith(note) for each in read_scenario(document, HERE).notes) == is_noted
+    assert (
+        any(each.startswith(note) for each in tell_notes(read_scenario(document, HERE))) == is_noted
+    )
 
 
 def test_nav2_edges_are_directed_and_limits_in_metres_per_second() -> None:
@@ -103,7 +106,7 @@ def test_nav2_edges_are_directed_and_limits_in_metres_per_second() -> None:
         "1 > 2": (5, None), "2 > 0": (6, None),
     }  # fmt: skip
     assert level.edges[0].shape == (at(1, 1),)
-    assert any("percentage of a robot's speed" in note for note in found.notes)
+    assert any("percentage of a robot's speed" in note for note in tell_notes(found))
 
 
 def test_graphml_weights_that_contradict_the_positions_are_no_lengths() -> None:
@@ -117,7 +120,7 @@ def test_graphml_weights_that_contradict_the_positions_are_no_lengths() -> None:
         "a > b": (5, None), "b > a": (5, None),
         "b > c": (8, None), "c > b": (8, None), "c > a": (5, None),
     }  # fmt: skip
-    (note,) = found.notes
+    (note,) = tell_notes(found)
     assert note == (
         "the attribute 'weight' is no length: by it, 2 lanes are shorter than the straight line;"
         " all lanes get the straight length"
@@ -131,7 +134,7 @@ def test_graphml_weights_that_agree_with_the_positions_are_lengths(tmp_path: Pat
     found = read_layout(tmp_path / "hall.graphml")
     assert isinstance(found, Layout)
     assert lanes(found.get_level())["b > c"] == (12.5, None)
-    assert found.notes == ()
+    assert tell_notes(found) == ()
 
 
 def test_lif_numbers_that_are_text_are_named_in_a_note(tmp_path: Path) -> None:
@@ -149,14 +152,14 @@ def test_lif_numbers_that_are_text_are_named_in_a_note(tmp_path: Path) -> None:
     assert isinstance(found, Layout)
     assert found.levels == before.levels
     places = "layouts[0].nodes[0].nodePosition.y"  # one in the file
-    assert f"a number is written as text: {places}" in before.notes
+    assert f"a number is written as text: {places}" in tell_notes(before)
     places = ", ".join(
         f"layouts[0].{place}" for place in ("nodes[0].nodePosition.y", "nodes[1].nodePosition.x")
     )
     places += (
         ", layouts[0].stations[0].stationHeight and layouts[0].stations[0].stationPosition.theta"
     )
-    assert f"4 times: a number is written as text: {places}" in found.notes
+    assert f"4 times: a number is written as text: {places}" in tell_notes(found)
 
 
 def test_opentcs_millimetres_become_metres_and_a_speed_of_zero_is_no_lane() -> None:
@@ -399,7 +402,7 @@ def test_a_building_names_its_picture_or_says_that_it_is_missing(tmp_path: Path)
     missing = read_layout(path)
     assert isinstance(missing, Layout)
     assert missing.get_level("L1").picture is None
-    assert "the picture 'hall.png' is not beside the file" in " ".join(missing.notes)
+    assert "the picture 'hall.png' is not beside the file" in " ".join(tell_notes(missing))
     (tmp_path.parent / "hall.png").write_bytes(b"")
     path.write_text(text.replace("hall.png", "../hall.png"), encoding="utf-8")
     outside = read_layout(path)

@@ -12,6 +12,7 @@ import pytest
 
 from rightofway.io.layouts import read_layout
 from rightofway.site.layout import Layout, build_roadmap_of_level
+from tests.builders.sentences import tell_notes
 
 
 def properties(*series: str, **more: Any) -> dict[str, Any]:
@@ -96,7 +97,7 @@ def test_a_lane_is_left_out_only_where_a_type_has_two(
     layout = read_layout(path)
     assert isinstance(layout, Layout)
     types = {name for each in own for name, _ in each}
-    assert build_roadmap_of_level(layout.get_level(), robot_types=types).notes == notes
+    assert tell_notes(build_roadmap_of_level(layout.get_level(), robot_types=types)) == notes
 
 
 def test_version_2_is_read(tmp_path: Path) -> None:
@@ -122,4 +123,4 @@ def test_version_2_is_read(tmp_path: Path) -> None:
     assert [sorted(lane.types or ()) for lane in level.edges] == [["S1", "S2"], ["S2"]]
     assert [lane.max_speed for lane in level.edges] == [Fraction(3, 2), None]
     assert [station.name for station in level.stations] == ["Dock"]
-    assert found.notes == ()
+    assert tell_notes(found) == ()

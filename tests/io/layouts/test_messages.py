@@ -14,6 +14,7 @@ from rightofway.io.content import LIMIT
 from rightofway.io.layouts.xml_tree import parse_xml
 from rightofway.io.yaml_text import parse_yaml
 from rightofway.site.layout import Layout
+from tests.builders.sentences import tell_notes
 
 HERE = Path(__file__).parents[2] / "data" / "layouts"
 
@@ -234,7 +235,7 @@ def test_lifts_of_a_building_are_said_to_be_unused(
     )
     found = read_layout(path)
     assert isinstance(found, Layout)
-    assert found.notes == (note,)
+    assert tell_notes(found) == (note,)
 
 
 @pytest.mark.parametrize(

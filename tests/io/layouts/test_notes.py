@@ -13,10 +13,13 @@ import networkx as nx  # type: ignore[import-untyped]
 import pytest
 
 from rightofway.errors import InputError
+from rightofway.facts import Fact
 from rightofway.io import read_layout
 from rightofway.io.layouts import make_layout_of_graph
-from rightofway.phrases import Phrase, PhraseOfPieces, join_parts, to_parts
-from rightofway.site.layout import Layout, build_roadmap_of_level
+from rightofway.phrases import join_parts, to_parts
+from rightofway.report.facts import write_note
+from rightofway.site.layout import Layout, build_roadmap_of_level, note_pieces
+from tests.builders.sentences import tell_notes
 
 HERE = Path(__file__).parents[2] / "data" / "layouts"
 
@@ -27,7 +30,7 @@ def list_notes(text: str, path: Path) -> tuple[str, ...]:
     path.write_text(text, encoding="utf-8")
     found = read_layout(path)
     assert isinstance(found, Layout)
-    return found.notes
+    return tell_notes(found)
 
 
 def in_lif(change: Callable[[Document], None]) -> str:
@@ -197,7 +200,7 @@ def test_columns_and_attributes_without_effect_are_named(tmp_path: Path) -> None
     )
     graph = nx.DiGraph()
     graph.add_node("A", x=0, y=0, owner="me")
-    assert make_layout_of_graph(graph).notes == ("owner has no effect on plans: A",)
+    assert tell_notes(make_layout_of_graph(graph)) == ("owner has no effect on plans: A",)
 
 
 @pytest.mark.parametrize(
@@ -289,7 +292,7 @@ def test_lanes_to_other_levels_are_named(tmp_path: Path) -> None:
     path.write_text(json.dumps({"layouts": layouts}))
     found = read_layout(path)
     assert isinstance(found, Layout)
-    (note,) = build_roadmap_of_level(found.get_level("low")).notes
+    (note,) = tell_notes(build_roadmap_of_level(found.get_level("low")))
     assert note == "1 lane to other levels left out: plans stay on one level: A to B"
 
 
@@ -302,9 +305,9 @@ def test_a_note_shows_five_pieces_and_keeps_all(tmp_path: Path) -> None:
     found = read_layout(path)
     assert isinstance(found, Layout)
     (note,) = found.notes
-    assert note == "40 times: region has no effect on plans: N0, N1, N2, N3, N4 and 35 more"
-    assert isinstance(note, PhraseOfPieces)
-    assert note.pieces == tuple(f"N{k}" for k in range(40))
+    assert str(note) == "40 times: region has no effect on plans: N0, N1, N2, N3, N4 and 35 more"
+    assert note.kind == "note on pieces"
+    assert note.values["names"] == tuple(f"N{k}" for k in range(40))
 
 
 def test_a_file_of_very_many_unknown_keys_has_a_note_for_each_of_the_first(tmp_path: Path) -> None:
@@ -314,8 +317,10 @@ def test_a_file_of_very_many_unknown_keys_has_a_note_for_each_of_the_first(tmp_p
     assert notes[-1].startswith("150 times: a further key has no effect on plans: A: 'k50', A:")
 
 
-def test_a_note_on_pieces_is_copied_and_translated_as_other_phrases_are() -> None:
-    note = PhraseOfPieces(Phrase("a zone is left out"), ["Aisle", "Dock"])
+def test_a_note_on_pieces_is_copied_and_translated() -> None:
+    note = note_pieces(Fact("zone left out"), ["Aisle", "Dock"])
     for again in (copy.deepcopy(note), pickle.loads(pickle.dumps(note))):  # noqa: S301 (our own)
-        assert (again, again.pieces, to_parts(again)) == (note, note.pieces, to_parts(note))
-    assert join_parts(to_parts(note)) == note == "a zone is left out: Aisle and Dock"
+        assert again == note
+    sentence = write_note(note)
+    left_out = "a zone without vertices and lanes, or with a name twice, is left out"
+    assert join_parts(to_parts(sentence)) == sentence == f"{left_out}: Aisle and Dock"

@@ -51,4 +51,4 @@ SIZES = {  # by glob
 def test_a_real_layout_opens(name: str) -> None:
     (path,) = SAMPLES.glob(name)
     assert is_layout(path)
-    assert describe_layout(read_layout(path)) == SIZES[name]
+    assert str(describe_layout(read_layout(path))) == SIZES[name]

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from rightofway.deadline import READING, STEPS_BETWEEN_LOOKS, check_work, limit_loop
 from rightofway.errors import InputError, find_nearest, is_printable, quote
+from rightofway.facts import Fact
 from rightofway.io.faults import Faults
 from rightofway.io.source import LONGEST_NAME, Source
-from rightofway.phrases import Phrase, PhraseOfPieces, say_count
 from rightofway.site.drawing import Picture
 from rightofway.site.geometry import (
     Point,
@@ -26,7 +26,14 @@ from rightofway.site.geometry import (
     measure_straight_length,
 )
 from rightofway.site.lane_table import BILLION, LaneKind, LaneShape, LaneTable
-from rightofway.site.layout import Layout, LayoutVertex, Level, Station, name_lanes
+from rightofway.site.layout import (
+    Layout,
+    LayoutVertex,
+    Level,
+    Station,
+    describe_lanes,
+    note_pieces,
+)
 from rightofway.site.zones import NamedZone
 
 T = TypeVar("T")
@@ -181,7 +188,7 @@ class LayoutDraft:
         self.kind = kind
         self.faults = Faults()
         self.levels: list[LevelDraft] = []
-        self.repairs: dict[Phrase, list[str]] = {}
+        self.repairs: dict[Fact, list[str | Fact]] = {}
         self.failed: set[str | None] = set()
         self.unused: dict[str, list[str]] = {}  # by key the pieces that have it
 
@@ -192,7 +199,7 @@ class LayoutDraft:
         self.levels.append(LevelDraft(name))
         return self.levels[-1]
 
-    def repair(self, mending: Phrase, *pieces: str) -> None:
+    def repair(self, mending: Fact, *pieces: str | Fact) -> None:
         """Note that pieces were mended or left out, by their names; equal notes become one."""
         self.repairs.setdefault(mending, []).extend(pieces)
 
@@ -220,7 +227,7 @@ class LayoutDraft:
         """Note a key of a piece that has no effect on plans."""
         pieces = self.unused.get(key)
         if pieces is None and len(self.unused) >= MOST_NOTES:
-            self.repair(Phrase("a further key has no effect on plans"), f"{name}: {quote(key)}")
+            self.repair(Fact("further unused key"), f"{name}: {quote(key)}")
         elif pieces is None:
             self.unused[key] = [name]
         elif pieces[-1] != name:  # a key may be there for several types
@@ -245,9 +252,9 @@ class LayoutDraft:
             raise self._make_fault_of_none()
         for level in self.levels:
             if not level.vertices:
-                self.repair(Phrase("a level without a vertex on a lane is left out"), level.name)
+                self.repair(Fact("level without lane"), level.name)
         unused = {
-            Phrase("{key} has no effect on plans", key=quote(key).strip("'")): pieces
+            Fact("unused key", key=quote(key).strip("'")): pieces
             for key, pieces in self.unused.items()
         }
         notes = (
@@ -284,10 +291,10 @@ class LayoutDraft:
         for station in level.stations:
             vertices = self._keep_vertices(level, station)
             if not vertices:
-                mending = Phrase("a station without a vertex on its level is left out")
+                mending = Fact("station without vertex")
                 self.repair(mending, station.name)
             elif station.name in stations:
-                self.repair(Phrase("a second station of one name is left out"), station.name)
+                self.repair(Fact("second station of one name"), station.name)
             else:
                 stations[station.name] = replace(station, vertices=vertices)
         return list(stations.values())
@@ -296,10 +303,10 @@ class LayoutDraft:
         """Return the vertices of a station or a zone that are on its level."""
         vertices = tuple(name for name in owner.vertices if name in level.vertices)
         if vertices:
-            mending = Phrase("a vertex of a station or a zone is not on its level and is left out")
+            mending = Fact("vertex not on its level")
             for name in owner.vertices:
                 if name not in level.vertices:
-                    self.repair(mending, Phrase("{name} ({what})", name=name, what=owner.name))
+                    self.repair(mending, Fact("name with detail", name=name, what=owner.name))
         return vertices
 
     def _usable_zones(self, level: LevelDraft) -> list[NamedZone]:
@@ -308,10 +315,7 @@ class LayoutDraft:
         for zone in level.zones:
             vertices = self._keep_vertices(level, zone)
             if zone.name in zones or not (vertices or zone.edges):
-                mending = Phrase(
-                    "a zone without vertices and lanes, or with a name twice, is left out"
-                )
-                self.repair(mending, zone.name)
+                self.repair(Fact("zone left out"), zone.name)
             else:
                 zones[zone.name] = replace(zone, vertices=vertices)
         return list(zones.values())
@@ -331,11 +335,10 @@ def name_piece(source: Source, *keys: str) -> str:
     return find_name(source, *keys) or str(source.location)
 
 
-def _name_pieces(mending: Phrase, pieces: Sequence[str]) -> Phrase:
+def _name_pieces(mending: Fact, pieces: Sequence[str | Fact]) -> Fact:
     if len(pieces) > 1:
-        count = str(len(pieces))
-        mending = Phrase("{count} times: {repair}", count=count, repair=mending)
-    return PhraseOfPieces(mending, pieces) if pieces else mending
+        mending = Fact("several times", count=len(pieces), repair=mending)
+    return note_pieces(mending, pieces) if pieces else mending
 
 
 class _LaneFinisher:
@@ -351,7 +354,7 @@ class _LaneFinisher:
         self.is_here = (self.tails >= 0) & (self.heads >= 0)
         self.squares = self._measure_squares()
         self.roots = _find_roots(self.squares)
-        self.repairs: list[tuple[int, Phrase, list[str]]] = []
+        self.repairs: list[tuple[int, Fact, list[Fact]]] = []
 
     def _measure_squares(self) -> Integers:
         """Return the squared distance of the ends of each lane [square micrometres]."""
@@ -416,16 +419,16 @@ class _LaneFinisher:
             elif not is_loop[lane]:
                 message = f"speed limit {limits[kinds[lane]]} is not positive (give m/s)"
                 self.draft.faults.note(lanes.sources[lane].location, message)
-        mending = Phrase("a lane from a vertex to itself is left out")
+        mending = Fact("lane to itself")
         self._repair(is_loop, mending)
         return is_kept, tuple(links)
 
-    def _repair(self, lanes: Bools, mending: Phrase) -> None:
+    def _repair(self, lanes: Bools, mending: Fact) -> None:
         """Note which lanes were mended, in the order of the file."""
         if lanes.any():
             numbers = np.flatnonzero(lanes).tolist()
             ends = ((self.lanes.tails[lane], self.lanes.heads[lane]) for lane in numbers)
-            self.repairs.append((numbers[0], mending, name_lanes(limit_loop(ends, READING))))
+            self.repairs.append((numbers[0], mending, describe_lanes(limit_loop(ends, READING))))
 
     def _choose_lengths(self, is_kept: Bools) -> Integers:
         """Return the length of each lane [billionths of a metre], not below the straight one."""
@@ -439,10 +442,10 @@ class _LaneFinisher:
         is_short = has_length & _is_short(given, self.squares, self.roots)
         has_length &= ~self._find_no_lengths(is_short)
         at_one_place = is_kept & (self.squares == 0)
-        phrase = Phrase("a lane between two vertices at one position counts as 1 mm long")
+        phrase = Fact("lane without length")
         self._repair(at_one_place, phrase)
         is_short &= is_kept & has_length & ~at_one_place
-        phrase = Phrase("a lane shorter than the straight line gets the straight length")
+        phrase = Fact("lane too short")
         self._repair(is_short, phrase)
         lengths = np.where(has_length, np.maximum(given, straight), straight)
         return np.where(at_one_place, np.maximum(lengths, SHORTEST), lengths)
@@ -466,14 +469,7 @@ class _LaneFinisher:
             name for name in (self.lanes.attributes[k] for k in np.flatnonzero(is_short)) if name
         )
         for name, count in wrong.items():
-            self.draft.repair(
-                Phrase(
-                    "the attribute {attribute} is no length: by it, {lanes} shorter than the"
-                    " straight line; all lanes get the straight length",
-                    attribute=quote(name),
-                    lanes=say_count(count, "lane is", "lanes are"),
-                )
-            )
+            self.draft.repair(Fact("attribute no length", attribute=quote(name), lanes=count))
         if not wrong:
             return np.zeros(len(is_short), bool)
         return np.array([name in wrong for name in self.lanes.attributes], bool)
@@ -499,7 +495,7 @@ class _LaneFinisher:
                 step = choose_rounding_step(squares)
                 along = sum(measure_straight_length(square, step) for square in squares)
                 lengths[lane] = max(lengths[lane], int(along * BILLION))
-        phrase = Phrase("a trajectory that does not lead from start to end counts as straight")
+        phrase = Fact("trajectory of other ends")
         self._repair(lost, phrase)
         return shapes, lengths
 

@@ -11,8 +11,9 @@ from pathlib import Path
 from typing import Any, Literal
 
 from rightofway.arguments import checks_arguments
-from rightofway.errors import InputError, Location, join_names, name_file
+from rightofway.errors import InputError, Location, name_file
 from rightofway.extras import load_plugins
+from rightofway.facts import Fact
 from rightofway.io.collector import pause_garbage_collection
 from rightofway.io.content import is_regular, read_text, refuse_long
 from rightofway.io.json_text import parse_json
@@ -21,7 +22,6 @@ from rightofway.io.layouts.xml_tree import Element, parse_xml
 from rightofway.io.locations import add_lines
 from rightofway.io.movingai import load_map
 from rightofway.io.yaml_text import parse_yaml
-from rightofway.phrases import Phrase, say_count
 from rightofway.site.layout import Layout
 from rightofway.site.occupancy import CellMap, Occupancy
 
@@ -187,7 +187,7 @@ def refuse_layout(path: Path, text: str | None = None) -> None:
             return
         raise
     try:
-        description = describe_layout(read_layout(path))
+        description = str(describe_layout(read_layout(path)))
     except InputError as error:
         first = error.faults[0].name_file("")
         description = f"a layout with a fault: {first}; mend it first"
@@ -197,7 +197,7 @@ def refuse_layout(path: Path, text: str | None = None) -> None:
     raise InputError.at("", f"this is {description} ({remedy}; {example})")
 
 
-def describe_layout(layout: Layout | Occupancy | CellMap) -> str:
+def describe_layout(layout: Layout | Occupancy | CellMap) -> Fact:
     """Return what a layout is and how large: ``a LIF layout with 5 vertices, 6 lanes``.
 
     Parameters
@@ -207,27 +207,20 @@ def describe_layout(layout: Layout | Occupancy | CellMap) -> str:
     """
     if isinstance(layout, Occupancy):
         rows, columns = layout.pixels.shape
-        return Phrase(
-            "a ROS map of {columns} x {rows} pixels", columns=str(columns), rows=str(rows)
-        )
+        return Fact("ROS map", columns=columns, rows=rows)
     if isinstance(layout, CellMap):
         columns, rows = len(layout.lines[0]), len(layout.lines)
-        return Phrase(
-            "a MovingAI map of {columns} x {rows} cells", columns=str(columns), rows=str(rows)
-        )
+        return Fact("MovingAI map", columns=columns, rows=rows)
     levels = layout.levels
-    counts = [
-        say_count(sum(len(level.vertices) for level in levels), "vertex", "vertices"),
-        say_count(sum(len(level.edges) for level in levels), "lane", "lanes"),
-        say_count(sum(len(level.stations) for level in levels), "station", "stations"),
-    ]
-    parts = [count for count in counts if count.values["number"] != "0"]
-    if len(levels) > 1:
-        parts.insert(0, say_count(len(levels), "level", "levels"))
-    with_parts = join_names(parts)
-    if layout.kind[0].lower() in "aeio":
-        return Phrase("an {kind} with {parts}", kind=layout.kind, parts=with_parts)
-    return Phrase("a {kind} with {parts}", kind=layout.kind, parts=with_parts)
+    counts = {
+        "n_levels": len(levels) if len(levels) > 1 else 0,
+        "n_vertices": sum(len(level.vertices) for level in levels),
+        "n_lanes": sum(len(level.edges) for level in levels),
+        "n_stations": sum(len(level.stations) for level in levels),
+    }
+    parts = tuple(Fact(kind, number=count) for kind, count in counts.items() if count)
+    article = "layout with vowel" if layout.kind[0].lower() in "aeio" else "layout"
+    return Fact(article, kind=layout.kind, parts=parts)
 
 
 def _open(text: str) -> tuple[LayoutFormat, Any] | None:

@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 
 from rightofway.errors import quote
+from rightofway.facts import Fact
 from rightofway.io.faults import read_both
 from rightofway.io.layouts.attributes import PAIRS, Reading, add_lanes, add_vertex
 from rightofway.io.layouts.draft import LayoutDraft, find_name
 from rightofway.io.layouts.xml_tree import Element
 from rightofway.io.source import Source
-from rightofway.phrases import Phrase
 from rightofway.site.geometry import Point
 from rightofway.site.layout import Layout
 
@@ -58,7 +58,7 @@ def _add_node(reading: Reading, node: Element, keys: dict[str, str]) -> None:
     elif pair is not None:
         at = _pair(pair)
     elif drawn is not None:
-        reading.draft.repair(Phrase("a node lies where it is drawn, y negated"), name)
+        reading.draft.repair(Fact("node where it is drawn"), name)
         half = [(drawn.get(key) or Source(0)).number() / 2 for key in ("width", "height")]
         at = drawn.need("x").number() + half[0], -drawn.need("y").number() - half[1]
     else:

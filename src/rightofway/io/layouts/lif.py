@@ -19,12 +19,11 @@ from typing import Any
 import numpy as np
 
 from rightofway.errors import InputError, Steps, format_path, join_names
+from rightofway.facts import Fact
 from rightofway.io.faults import read_both
 from rightofway.io.layouts.draft import MICRO, Curve, LayoutDraft, LevelDraft, find_name, name_piece
 from rightofway.io.layouts.nurbs import CHORD_ERROR, Nurbs
 from rightofway.io.source import Source
-from rightofway.phrases import Phrase
-from rightofway.quantities import format_decimal
 from rightofway.site.layout import Layout, LayoutVertex, Station
 
 NODE_PROPERTIES = ("vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties")
@@ -78,7 +77,7 @@ def read(document: Any) -> Layout:
     """
     draft, root = LayoutDraft("LIF layout"), Source(document)
     for path in _list_numbers_as_text(document):
-        draft.repair(Phrase("a number is written as text"), format_path(path))
+        draft.repair(Fact("number as text"), format_path(path))
     origins = [root] if root.get("origins") is None else root.need("origins").read_items()
     layouts = [layout for origin in origins for layout in origin.need("layouts").read_items()]
     for part, name in zip(layouts, _level_names(layouts), strict=True):
@@ -111,7 +110,7 @@ def _level_names(layouts: list[Source]) -> list[str]:
 def _items(part: Source, key: str, draft: LayoutDraft) -> list[Source]:
     value = part.get(key)
     if value is None:
-        mending = Phrase("the list of {key} is missing and counts as empty", key=key)
+        mending = Fact("missing list", key=key)
         draft.repair(mending, name_piece(part, "layoutLevelId", "layoutId"))
         return []
     return value.read_items()
@@ -160,7 +159,7 @@ def _add_edge(level: LevelDraft, edge: Source, draft: LayoutDraft) -> None:
     for properties in own:
         _note_unused_properties(properties, name, draft)
     if not own:
-        mending = Phrase("an edge without a vehicle type is free for all")
+        mending = Fact("edge without vehicle type")
         draft.repair(mending, name)
         level.connect(edge, tail, head)
     ways: dict[tuple[Fraction | None, Curve | None], set[str]] = {}
@@ -190,7 +189,7 @@ def _curve(own: Source, draft: LayoutDraft, name: str) -> Curve | None:
         nurbs = _nurbs(trajectory)
         pieces = nurbs.cut_pieces()
     except (InputError, ValueError):
-        mending = Phrase("a trajectory that cannot be read: its edge counts as straight")
+        mending = Fact("unreadable trajectory")
         draft.repair(mending, name)
         return None
     points = tuple(
@@ -243,8 +242,8 @@ def _check_theta(own: Source, name: str, draft: LayoutDraft) -> None:
     except InputError:
         return  # no plan depends on it
     if abs(theta) > HALF_TURN:
-        mending = Phrase("theta is not from -pi to pi (it is in radians)")
-        draft.repair(mending, Phrase("{name} ({what})", name=name, what=format_decimal(theta)))
+        mending = Fact("theta too large")
+        draft.repair(mending, Fact("name with number", name=name, what=theta))
 
 
 def _add_station(level: LevelDraft, station: Source, draft: LayoutDraft) -> None:
@@ -273,5 +272,5 @@ def _note_headings(stations: list[Source], draft: LayoutDraft) -> None:
                 at_node[node.read_text()][name_piece(station, "stationId")] = str(theta)
     for thetas in at_node.values():
         if len(set(thetas.values())) > 1:
-            mending = Phrase("stations at one node differ in theta, and are one place for plans")
+            mending = Fact("stations that differ in theta")
             draft.repair(mending, join_names(list(thetas)))

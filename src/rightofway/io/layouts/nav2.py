@@ -9,10 +9,10 @@ from collections.abc import Collection
 from typing import Any
 
 from rightofway.errors import InputError, quote
+from rightofway.facts import Fact
 from rightofway.io.faults import read_both
 from rightofway.io.layouts.draft import LayoutDraft, LevelDraft, find_name, name_piece
 from rightofway.io.source import Source
-from rightofway.phrases import Phrase
 from rightofway.site.geometry import Point
 from rightofway.site.layout import Layout, LayoutVertex
 
@@ -50,12 +50,7 @@ def read(document: Any) -> Layout:
     level = draft.begin_level()
     crs = str(document.get("crs", ""))
     if name := next((name for name in GEOGRAPHIC if name in crs), None):
-        draft.repair(
-            Phrase(
-                "the coordinates are metres, though {crs} has degrees (export them in metres)",
-                crs=name,
-            )
-        )
+        draft.repair(Fact("coordinates in metres", crs=name))
     for feature in Source(document).need("features").read_items():
         properties = feature.value.get("properties") if isinstance(feature.value, dict) else None
         if isinstance(properties, dict) and {"startid", "endid"} & set(properties):
@@ -96,14 +91,10 @@ def _add_edge(level: LevelDraft, feature: Source, draft: LayoutDraft) -> None:
     limit = None if metadata is None else metadata.get("speed_limit")
     max_speed = None if limit is None else limit.number()
     if max_speed is not None and max_speed > FASTEST:
-        draft.repair(
-            Phrase("a speed_limit is a percentage of a robot's speed, which cannot be kept"), name
-        )
+        draft.repair(Fact("speed limit in percent"), name)
         max_speed = None
     elif max_speed is not None:
-        draft.repair(
-            Phrase("a speed_limit counts as m/s; Nav2 may be set to read it as a percentage"), name
-        )
+        draft.repair(Fact("speed limit in m/s"), name)
     tail, head = read_both(
         lambda: own.need("startid").read_text(), lambda: own.need("endid").read_text()
     )
@@ -127,7 +118,7 @@ def _shape(geometry: Source, draft: LayoutDraft, name: str) -> tuple[Point, ...]
             points = [point for line in points for point in line.read_items()]
         return tuple(_point(point) for point in points)[1:-1]
     except InputError:
-        draft.repair(Phrase("the drawing of an edge cannot be read: it is drawn straight"), name)
+        draft.repair(Fact("unreadable drawing of edge"), name)
         return ()
 
 

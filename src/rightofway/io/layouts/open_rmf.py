@@ -14,11 +14,11 @@ from math import atan2, hypot
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from rightofway.errors import InputError, join_names, quote
+from rightofway.errors import InputError, quote
+from rightofway.facts import Fact
 from rightofway.io.faults import read_both
 from rightofway.io.layouts.draft import LayoutDraft, LevelDraft
 from rightofway.io.source import Source
-from rightofway.phrases import Phrase
 from rightofway.site.drawing import Picture
 from rightofway.site.geometry import Point
 from rightofway.site.layout import Layout, LayoutVertex, name_lanes
@@ -98,21 +98,17 @@ def _note_doors(root: Source, draft: LayoutDraft) -> None:
 
 def _note_lifts(root: Source, draft: LayoutDraft) -> None:
     """Note that plans use no lift, and which levels there are to choose from."""
-    lifts = root.get("lifts")
-    if lifts is None or not lifts.read_mapping():
+    given = root.get("lifts")
+    if given is None or not given.read_mapping():
         return
-    names = [quote(name).strip("'") for name, _ in lifts.read_entries()]
-    lifts_are = Phrase("the lift {lift} is", lift=names[0])
+    names = [quote(name).strip("'") for name, _ in given.read_entries()]
+    lifts = Fact("lift", lift=names[0])
     if len(names) > 1:
-        lifts_are = Phrase("the lifts {lifts} are", lifts=join_names(names))
+        lifts = Fact("lifts", lifts=tuple(names))
     levels = [level.name for level in draft.levels if level.vertices]
-    note = Phrase("{lifts} not used, a plan stays on one level", lifts=lifts_are)
+    note = Fact("lifts unused", lifts=lifts)
     if len(levels) > 1:
-        note = Phrase(
-            "{note}: plan each of {levels} by itself, with level",
-            note=note,
-            levels=join_names(levels),
-        )
+        note = Fact("lifts unused, levels", note=note, levels=tuple(levels))
     draft.repair(note)
 
 
@@ -130,9 +126,7 @@ def _picture(
     except (OSError, ValueError):
         is_there = False
     if not is_there:
-        draft.repair(
-            Phrase("the picture {file} is not beside the file, and is not drawn", file=quote(name))
-        )
+        draft.repair(Fact("picture missing", file=quote(name)))
         return None
     far = Fraction(1000)  # pixels, so that rounding to a nanometre does not matter
     (x, y), (to_x, to_y) = transform((Fraction(0), Fraction(0))), transform((far, Fraction(0)))
@@ -143,7 +137,7 @@ def _picture(
     except (OverflowError, ValueError):
         pixel, yaw = Fraction(0), Fraction(0)
     if pixel <= 0:
-        draft.repair(Phrase("the picture {file} has no size, and is not drawn", file=quote(name)))
+        draft.repair(Fact("picture without size", file=quote(name)))
         return None
     return Picture(file=folder / name, pixel=pixel, corner=(x, y), yaw=yaw)
 
@@ -211,7 +205,7 @@ def _add_vertex(reading: _Reading, vertex: Source, index: int, transform: Transf
     name = Source(given, vertex.path).read_text() if given else f"v{index}"
     if name in level.vertices:
         name = f"{name} (v{index})"
-        draft.repair(Phrase("a vertex has the name of an earlier one, and gets its number"), name)
+        draft.repair(Fact("vertex with a name twice"), name)
     level.add(
         LayoutVertex(
             name=name,
@@ -283,9 +277,7 @@ def _transforms(root: Source, draft: LayoutDraft) -> dict[str, Transform]:
             draft.faults.note(level.location, message)
             continue
         if name != reference:
-            draft.repair(
-                Phrase("a level without two fiducials of the reference level keeps its frame"), name
-            )
+            draft.repair(Fact("level without fiducials"), name)
         transforms[name] = _transform_by((1 + 0j, 0j), scale)
     draft.faults.stop()
     return transforms

@@ -10,11 +10,11 @@ from dataclasses import replace
 from fractions import Fraction
 
 from rightofway.errors import quote
+from rightofway.facts import Fact
 from rightofway.io.faults import read_both
 from rightofway.io.layouts.draft import LayoutDraft, LevelDraft, find_name, name_piece
 from rightofway.io.layouts.xml_tree import Element
 from rightofway.io.source import Source
-from rightofway.phrases import Phrase
 from rightofway.site.layout import Layout, LayoutVertex, Station
 from rightofway.site.zones import NamedZone
 
@@ -131,7 +131,7 @@ def _add_path(
     lanes = paths.setdefault(path.need("name").read_text(), [])
     _note_unused(path, draft)
     if _is_locked(path):
-        draft.repair(Phrase("a locked path is left out"), name_piece(path, "name"))
+        draft.repair(Fact("locked path"), name_piece(path, "name"))
         return
     length = path.need("length").number() * MILLIMETRE if path.value.get("length") else None
     speeds = (path.need(key).number() for key in ("maxVelocity", "maxReverseVelocity"))
@@ -145,7 +145,7 @@ def _add_location(level: LevelDraft, location: Element, draft: LayoutDraft) -> l
     """Add a location as a station, and return its points."""
     points = [link.need("point").read_text() for link in location.list_all("link")]
     if _is_locked(location):
-        draft.repair(Phrase("a locked location is left out"), name_piece(location, "name"))
+        draft.repair(Fact("locked location"), name_piece(location, "name"))
         return []
     _note_unused(location, draft)
     level.stations.append(Station(name=location.need("name").read_text(), vertices=tuple(points)))
@@ -156,14 +156,14 @@ def _add_block(
     level: LevelDraft, block: Element, paths: dict[str, list[tuple[str, str]]], draft: LayoutDraft
 ) -> None:
     members = [member.need("name").read_text() for member in block.list_all("member")]
-    mending = Phrase("a member of a block is no point and no path, and is left out")
+    mending = Fact("unknown member of block")
     for name in members:
         if name not in level.vertices and name not in paths:
             draft.repair(
-                mending, Phrase("{name} ({what})", name=name, what=name_piece(block, "name"))
+                mending, Fact("name with detail", name=name, what=name_piece(block, "name"))
             )
     if block.value.get("type") == "SAME_DIRECTION_ONLY":
-        mending = Phrase("a block of SAME_DIRECTION_ONLY counts as one for a single robot")
+        mending = Fact("block of one direction")
         draft.repair(mending, name_piece(block, "name"))
     level.zones.append(
         NamedZone(

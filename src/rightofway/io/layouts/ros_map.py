@@ -19,9 +19,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError, locate_faults, quote
+from rightofway.facts import Fact
 from rightofway.io.content import refuse_special
 from rightofway.io.source import Source
-from rightofway.phrases import Phrase
 from rightofway.site.drawing import Picture
 from rightofway.site.geometry import Frame
 from rightofway.site.occupancy import FREE, OCCUPIED, UNKNOWN, Occupancy
@@ -70,7 +70,7 @@ def read(document: Any, path: Path) -> Occupancy:
     InputError
         With every key that does not fit, and for a picture that cannot be read.
     """
-    root, notes = Source(document), list[Phrase]()
+    root, notes = Source(document), list[Fact]()
     resolution, mode = root.need("resolution"), root.get("mode")
     if resolution.number() <= 0:
         raise resolution.make_fault(f"{quote(resolution.value)} is not positive (give metres)")
@@ -82,7 +82,7 @@ def read(document: Any, path: Path) -> Occupancy:
         raise origin.make_fault(f"{quote(origin.value)} does not fit (give [x, y, yaw])")
     negate = root.get("negate")
     if negate is None:
-        notes.append(Phrase("negate is missing and counts as 0"))
+        notes.append(Fact("negate missing"))
     is_raw = mode is not None and mode.value == "raw"
     thresholds = Fraction(0), Fraction(1)
     if not is_raw:

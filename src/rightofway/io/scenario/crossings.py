@@ -9,15 +9,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
+from rightofway.facts import Fact
 from rightofway.model import Scenario
 from rightofway.model.resources import close_pairs
-from rightofway.phrases import Phrase, say_count
 
 MAX_EDGES = 10_000
 """Larger roadmaps are not searched."""
 
 
-def note_crossings(scenario: Scenario) -> Iterator[Phrase]:
+def note_crossings(scenario: Scenario) -> Iterator[Fact]:
     """Yield a note on lanes that cross without a vertex or a zone, if no robot has a size."""
     roadmap = scenario.roadmap
     if roadmap.grid is not None or any(robot.radius for robot in scenario.robots):
@@ -27,18 +27,11 @@ def note_crossings(scenario: Scenario) -> Iterator[Phrase]:
     crossings = sorted(close_pairs(roadmap, Fraction(0)).crossings)
     if crossings:
         lane, other = (
-            Phrase("{tail} to {head}", tail=roadmap.name(tail), head=roadmap.name(head))
+            Fact("ends of lane", tail=roadmap.name(tail), head=roadmap.name(head))
             for tail, head in crossings[0]
         )
         pairs = len(crossings) - 1
-        fact = Phrase(
-            "the lanes {lane} and {other} cross where no vertex is", lane=lane, other=other
-        )
+        fact = Fact("drawn lanes cross", lane=lane, other=other)
         if pairs:
-            more = say_count(pairs, "more pair", "more pairs")
-            fact = Phrase("{fact} ({more})", fact=fact, more=more)
-        yield Phrase(
-            "{fact}: robots without a radius may meet there (give robots a radius, or put a vertex"
-            " there)",
-            fact=fact,
-        )
+            fact = Fact("more pairs cross", fact=fact, more=pairs)
+        yield Fact("crossing unguarded", fact=fact)

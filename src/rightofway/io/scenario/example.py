@@ -19,7 +19,6 @@ from rightofway.io.scenario.layouts import make_map_of_layout
 from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap, note_on_hidden_stations
 from rightofway.io.scenario.writer import format_yaml
 from rightofway.metrics.connectivity import find_strong_parts, list_ways
-from rightofway.phrases import Phrase, say_count
 from rightofway.quantities import Units
 from rightofway.site import make_grid_roadmap
 from rightofway.site.layout import Layout, Level
@@ -54,7 +53,7 @@ class Example(NamedTuple):
     """
 
     text: str
-    notes: tuple[Phrase | Fact, ...]
+    notes: tuple[Fact, ...]
 
 
 @checks_arguments
@@ -87,27 +86,19 @@ def make_example(path: Path | str, target: Path | str, radius: Fraction = Fracti
     layout = read_layout(path)
     beside = Path() if str(target) == "-" else target.parent
     shape: dict[str, Any] = {"layout": Path(os.path.relpath(path, beside)).as_posix()}
-    level, choices = None, list[Phrase]()
+    level, choices = None, list[Fact]()
     if isinstance(layout, Layout):
         level = max(layout.levels, key=lambda candidate: len(candidate.edges))
         if len(layout.levels) > 1:
             shape["level"] = level.name
             choices.append(
-                Phrase(
-                    "the map is level {level}, which has the most lanes ({others})",
-                    level=level.name,
-                    others=say_count(len(layout.levels) - 1, "other level", "other levels"),
-                )
+                Fact("level with most lanes", level=level.name, others=len(layout.levels) - 1)
             )
         types = level.vehicle_types
         if len(types) > 1:
             shape["vehicle_type"] = max(types, key=lambda name: len(level.list_lanes(name)))
             choices.append(
-                Phrase(
-                    "the map has the lanes of vehicle type {type}, which has the most ({others})",
-                    type=shape["vehicle_type"],
-                    others=say_count(len(types) - 1, "other type", "other types"),
-                )
+                Fact("type with most lanes", type=shape["vehicle_type"], others=len(types) - 1)
             )
     elif isinstance(layout, Occupancy):
         shape["cell_size"] = _cell_size(layout, radius)

@@ -8,7 +8,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rightofway.errors import InputError, join_names, locate_faults
+from rightofway.errors import InputError, locate_faults
+from rightofway.facts import Fact
 from rightofway.io.layouts import read_layout
 from rightofway.io.scenario.loaded_map import (
     FleetTraits,
@@ -17,7 +18,6 @@ from rightofway.io.scenario.loaded_map import (
     note_on_curves,
     note_on_squares,
 )
-from rightofway.phrases import Phrase
 from rightofway.quantities import Units
 from rightofway.site import make_grid_roadmap
 from rightofway.site.drawing import Drawing
@@ -92,16 +92,11 @@ def make_map_of_layout(
     return _map_of_pixels(document, layout, units, metres, fleet.radius)
 
 
-def _note_on_types(vehicle_type: str | None, types: Collection[str | None]) -> Iterator[Phrase]:
+def _note_on_types(vehicle_type: str | None, types: Collection[str | None]) -> Iterator[Fact]:
     """Yield a note where robots drive on the lanes of another type than their own."""
     others = sorted(name for name in types if name not in {None, vehicle_type} and name)
     if vehicle_type is not None and others:
-        yield Phrase(
-            "robots of {types} drive on the lanes of vehicle type {type}, at its speed limits"
-            " (leave vehicle_type out to keep each type to its own)",
-            types=join_names(others),
-            type=vehicle_type,
-        )
+        yield Fact("other vehicle type", types=tuple(others), type=vehicle_type)
 
 
 def _map_of_pixels(
@@ -128,11 +123,8 @@ def _map_of_pixels(
         )
     if occupancy.picture is not None:
         roadmap = replace(roadmap, drawing=Drawing(picture=occupancy.picture.scale(1 / metres)))
-    cells = Phrase(
-        "map cut into {columns} x {rows} cells of {size}",
-        columns=str(len(lines[0])),
-        rows=str(len(lines)),
-        size=units.format_length(size),
+    cells = Fact(
+        "map cut into cells", about=units, columns=len(lines[0]), rows=len(lines), size=size
     )
     blocked = "what the picture shows there"
     if 2 * radius > size:
@@ -180,7 +172,7 @@ def _map_of_squares(
     )
     if occupancy.picture is not None:
         roadmap = replace(roadmap, drawing=Drawing(picture=occupancy.picture.scale(1 / metres)))
-    note = note_on_squares(Phrase("map"), roadmap, int(free.sum()), units)
+    note = note_on_squares(Fact("map"), roadmap, int(free.sum()), units)
     return LoadedMap(roadmap=roadmap, units=units, notes=(*occupancy.notes, note))
 
 

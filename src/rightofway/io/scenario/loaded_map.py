@@ -7,9 +7,10 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
 
-from rightofway.phrases import Phrase, PhraseOfPieces, say_count
-from rightofway.quantities import Units, format_decimal
+from rightofway.facts import Fact
+from rightofway.quantities import Units
 from rightofway.site import Floor, Grid, Roadmap, VertexId
+from rightofway.site.layout import note_pieces
 from rightofway.site.places import as_place, find_vertex_at
 from rightofway.site.spacing import SplitLanes
 
@@ -56,7 +57,7 @@ class LoadedMap:
     chord_error: Fraction = Fraction(0)  # of curves that are cut into straight pieces
     blocked: str = ""  # what all blocked cells are; else what the grid's characters say
     keeps_clear: bool = False  # blocked cells have grown by what the largest radius is wider
-    notes: tuple[Phrase, ...] = ()  # of a layout's reader
+    notes: tuple[Fact, ...] = ()  # of a layout's reader
 
     def find(self, written: object) -> VertexId:
         """Return the vertex at a place as written; an InputError says what is there instead."""
@@ -90,72 +91,48 @@ def _obstacle(row: int, column: int, floor: Floor, grid: Grid) -> str:
     raise AssertionError("an obstacle blocked the cell")
 
 
-def note_on_squares(noun: str, roadmap: Roadmap, cells: int, units: Units) -> Phrase:
-    """Return a sentence on the squares that the smallest cells of a map have been joined to."""
+def note_on_squares(noun: Fact, roadmap: Roadmap, cells: int, units: Units) -> Fact:
+    """Return a note on the squares that the smallest cells of a map have been joined to."""
     assert roadmap.sides is not None, "the cells are squares"
     least, most = min(roadmap.sides), max(roadmap.sides)
-    span = units.format_length(most)
-    if most > least:
-        span = Phrase("{first} to {last}", first=format_decimal(least), last=span)
-    return Phrase(
-        "{noun} cut into {squares} squares of {span}, from {cells} free cells",
+    several = most > least
+    return Fact(
+        "squares of sizes" if several else "squares",
+        about=units,
         noun=noun,
-        squares=str(len(roadmap.sides)),
-        span=span,
-        cells=str(cells),
+        squares=len(roadmap.sides),
+        span=Fact("span of lengths", first=least, last=most) if several else most,
+        cells=cells,
     )
 
 
-def note_on_hidden_stations(roadmap: Roadmap) -> Iterator[Phrase]:
-    """Yield a sentence on stations that have the name of another vertex, if there are any."""
+def note_on_hidden_stations(roadmap: Roadmap) -> Iterator[Fact]:
+    """Yield a note on stations that have the name of another vertex, if there are any."""
     hidden = [
-        Phrase("{name} (station at {vertex})", name=name, vertex=vertex)
+        Fact("station at vertex", name=name, vertex=vertex)
         for name, vertex in roadmap.list_hidden_stations()
     ]
     if hidden:
-        sentence = Phrase("a station has the name of another vertex, and the name means the vertex")
-        yield PhraseOfPieces(sentence, hidden)
+        yield note_pieces(Fact("stations hidden"), hidden)
 
 
-def note_on_rounding(rounded: int, lengths: int, step: Fraction, units: Units) -> Phrase:
-    """Return a sentence on lengths that are rounded up."""
-    return Phrase(
-        "{rounded} of {lengths} lengths rounded up to {step}",
-        rounded=str(rounded),
-        lengths=str(lengths),
-        step=" ".join(filter(None, (format_decimal(step, 6), units.length))),
-    )
+def note_on_rounding(rounded: int, lengths: int, step: Fraction, units: Units) -> Fact:
+    """Return a note on lengths that are rounded up."""
+    return Fact("lengths rounded up", about=units, rounded=rounded, lengths=lengths, step=step)
 
 
-def note_on_chosen_pieces(split: SplitLanes, units: Units) -> Iterator[Phrase]:
-    """Yield a sentence on the lanes that are split though the map does not say it, if any are."""
+def note_on_chosen_pieces(split: SplitLanes, units: Units) -> Iterator[Fact]:
+    """Yield a note on the lanes that are split though the map does not say it, if any are."""
     if split.chosen:
         assert split.spacing is not None, "they are split into pieces"
-        yield Phrase(
-            "{lanes} booked in pieces of at most {length}, so that robots can follow and cross"
-            " each other there (spacing: whole keeps lanes whole)",
-            lanes=say_count(split.chosen, "lane is", "lanes are"),
-            length=units.format_length(split.spacing),
-        )
+        yield Fact("lanes in pieces", about=units, lanes=split.chosen, length=split.spacing)
 
 
-def note_on_curves(curves: int, chord_error: Fraction, units: Units) -> Iterator[Phrase]:
-    """Yield a sentence on the curves that are cut into straight pieces, if there are any."""
+def note_on_curves(curves: int, chord_error: Fraction, units: Units) -> Iterator[Fact]:
+    """Yield a note on the curves that are cut into straight pieces, if there are any."""
     if curves:
-        note = Phrase(
-            "{curves} cut into straight pieces for robots with a size",
-            curves=say_count(curves, "curve is", "curves are"),
-        )
-        if not chord_error:
-            yield note
-            return
-        error, twice = (
-            f"{format_decimal(factor * chord_error, 6)} {units.length or ''}".rstrip()
-            for factor in (1, 2)
-        )
-        yield Phrase(
-            "{note}, which leave the curve by at most {error}: the clearance grows by {twice}",
-            note=note,
-            error=error,
-            twice=twice,
-        )
+        note = Fact("curves cut", curves=curves)
+        if chord_error:
+            error, twice = chord_error, 2 * chord_error
+            note = Fact("curves cut with error", units, note=note, error=error, twice=twice)
+        yield note

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from rightofway.deadline import READING, limit_loop
 from rightofway.errors import InputError, find_nearest, locate_faults, name_file, quote
+from rightofway.facts import Fact
 from rightofway.io.content import refuse_special
 from rightofway.io.faults import Faults
 from rightofway.io.movingai import load_map
@@ -21,7 +22,6 @@ from rightofway.io.scenario.loaded_map import (
     note_on_curves,
     note_on_squares,
 )
-from rightofway.phrases import Phrase
 from rightofway.quantities import Units
 from rightofway.site import (
     Edge,
@@ -197,7 +197,7 @@ def _map_of_squares(
         max_squares=document.floor.max_cells or MAX_CELLS,
     )
     return LoadedMap(
-        roadmap=roadmap, notes=(note_on_squares(Phrase("floor"), roadmap, int(free.sum()), units),)
+        roadmap=roadmap, notes=(note_on_squares(Fact("floor"), roadmap, int(free.sum()), units),)
     )
 
 

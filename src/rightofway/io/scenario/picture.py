@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rightofway.errors import InputError, locate_faults, quote
+from rightofway.facts import Fact
 from rightofway.io.content import refuse_special
 from rightofway.io.scenario.loaded_map import LoadedMap
-from rightofway.phrases import Phrase
 from rightofway.site.drawing import Picture
 
 if TYPE_CHECKING:
@@ -31,9 +31,7 @@ def add_picture(
         return loaded
     with locate_faults("picture"):
         picture, is_there = read_picture(document, base)
-    note = Phrase(
-        "there is no picture {file}; the map is shown without it", file=quote(document.file)
-    )
+    note = Fact("picture of map missing", file=quote(document.file))
     return replace(
         loaded,
         roadmap=replace(loaded.roadmap, drawing=replace(loaded.roadmap.drawing, picture=picture)),

@@ -37,7 +37,6 @@ from rightofway.io.scenario.picture import add_picture
 from rightofway.model import Rules, Scenario
 from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
-from rightofway.phrases import Phrase, say_count
 from rightofway.quantities import Units
 from rightofway.site import Roadmap
 from rightofway.site.scale import find_odd_sizes
@@ -59,7 +58,7 @@ class Loaded:
     """
 
     scenario: Scenario
-    notes: tuple[Phrase | Fact, ...] = ()
+    notes: tuple[Fact, ...] = ()
 
 
 @checks_arguments
@@ -132,7 +131,7 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
         faults.note(("rules", "walls"), f"'strict' is for grids and floors ({remedy})")
     placed = place_robots(robots, loaded, faults, deals=deals)
     closures = faults.read_part(document, "closures", _closures, loaded) or []
-    scenario, notes = None, list[Phrase | Fact]()
+    scenario, notes = None, list[Fact]()
     if loaded and placed and deals:
         placed = faults.attempt("", _deal_homes, placed, loaded.roadmap, rules, notes) or ()
     if loaded and placed:
@@ -226,7 +225,7 @@ def _closures(data: Any, on: LoadedMap | None) -> list[Closure]:
 
 
 def _deal_homes(
-    placed: Sequence[PlacedRobot], roadmap: Roadmap, rules: Rules, notes: list[Phrase | Fact]
+    placed: Sequence[PlacedRobot], roadmap: Roadmap, rules: Rules, notes: list[Fact]
 ) -> Sequence[PlacedRobot]:
     """Return the robots, each with a home; add a note on the homes that were dealt out."""
     robots, more = deal_homes([robot.robot for robot in placed], roadmap, rules)
@@ -258,20 +257,20 @@ def _assemble(
     return scenario
 
 
-def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[Phrase | Fact]:
+def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[Fact]:
     grid = loaded.roadmap.grid
     if loaded.floor and grid:
-        yield Phrase(
-            "floor cut into {columns} x {rows} = {cells} cells of {size}",
-            columns=str(grid.columns),
-            rows=str(grid.rows),
-            cells=str(grid.columns * grid.rows),
-            size=scenario.quantities.format_length(grid.cell_size),
+        yield Fact(
+            "floor cut into cells",
+            about=scenario,
+            columns=grid.columns,
+            rows=grid.rows,
+            cells=grid.columns * grid.rows,
+            size=grid.cell_size,
         )
     spaces = 0 if loaded.floor else sum(line.count(" ") for line in loaded.lines)
     if spaces:
-        count = say_count(spaces, "space counts", "spaces count")
-        yield Phrase("{spaces} as blocked in the grid (write . for a free cell)", spaces=count)
+        yield Fact("spaces blocked", spaces=spaces)
     yield from loaded.notes
     if loaded.rounding:
         yield note_on_rounding(*loaded.rounding, scenario.units)
@@ -282,16 +281,10 @@ def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[Phrase | Fact]:
     for fact, remedy in find_odd_sizes(scenario, largest):
         yield Fact("fact and remedy", scenario, fact=fact, remedy=remedy)
     if not scenario.problem.clock.exact:
-        yield Phrase(
-            "each drive, turn and work time is rounded up to a multiple of {tick} (the shortest of"
-            " them, divided by {parts}); simpler speeds and lengths stay exact, for example 1/3"
-            " instead of 0.3333",
-            tick=scenario.quantities.format_duration(1),
-            parts=str(MAX_TICKS_OF_SHORTEST),
-        )
+        yield Fact("times rounded up", about=scenario, tick=1, parts=MAX_TICKS_OF_SHORTEST)
 
 
-def _type_notes(scenario: Scenario) -> Iterator[Phrase]:
+def _type_notes(scenario: Scenario) -> Iterator[Fact]:
     """Yield a note on each type of robots that nothing is barred for, where one was nearly meant.
 
     Types that edges and vertices are barred for are known; any other type is allowed.
@@ -300,8 +293,4 @@ def _type_notes(scenario: Scenario) -> Iterator[Phrase]:
     for name in dict.fromkeys(robot.type for robot in scenario.robots):
         near = None if name is None or name in known else find_nearest(name, sorted(known))
         if near:
-            yield Phrase(
-                "nothing is barred for robots of type {type} (did you mean {other}?)",
-                type=quote(name),
-                other=repr(near),
-            )
+            yield Fact("type not barred", type=quote(name), other=repr(near))

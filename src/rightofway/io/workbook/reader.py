@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError, Steps, Where, find_nearest, name_file, quote
+from rightofway.facts import Fact
 from rightofway.io.faults import Faults, list_keys
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.scenario.reader import Loaded, read_scenario
@@ -21,7 +22,6 @@ from rightofway.io.tables import (
     read_robots_of_rows,
 )
 from rightofway.io.workbook.sheets import Sheet, find_reference, read_sheets
-from rightofway.phrases import Phrase, say_count
 
 SHEETS = ("map", "robots", "rules", "vertices", "edges", "closures")
 """Sheets that are read, by lower-case name."""
@@ -56,14 +56,14 @@ def load_workbook_scenario(path: Path | str) -> Loaded:
     """
     path = Path(path)
     with name_file(str(path)):
-        faults, notes = Faults(), list[Phrase]()
+        faults, notes = Faults(), list[Fact]()
         document = _document(read_sheets(path, SHEETS, faults), faults, notes)
         with document.locate():
             loaded = read_scenario(document.part, path.parent)
         return Loaded(scenario=loaded.scenario, notes=(*notes, *loaded.notes))
 
 
-def _document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[Phrase]) -> CellDocument:
+def _document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[Fact]) -> CellDocument:
     """Return the scenario document of the sheets, and where each place of it stands."""
     from rightofway.io.scenario.shape import ClosureDocument, RobotDocument
 
@@ -113,7 +113,7 @@ def _document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[Phrase]) 
 
 
 def _grid(
-    sheet: Sheet, notes: list[Phrase]
+    sheet: Sheet, notes: list[Fact]
 ) -> tuple[list[str], tuple[int, int], dict[Steps, Where]] | None:
     """Return the rows of a map, its first row and column, and the cells of its rows."""
     used = sheet.values.keys() | sheet.dark.keys()
@@ -148,11 +148,8 @@ def _grid(
         lines.append(line)
     faults.stop()
     if empty:
-        cells_count = say_count(
-            len(empty), "empty cell of the map counts", "empty cells of the map count"
-        )
         first = str(sheet.locate_cell(*empty[0]).cell)
-        notes.append(Phrase("{cells} as free, the first is {cell}", cells=cells_count, cell=first))
+        notes.append(Fact("empty cells free", cells=len(empty), cell=first))
     cells: dict[Steps, Where] = {("map",): sheet.location, ("map", "grid"): sheet.location}
     cells |= {("map", "grid", k): sheet.locate_cell(top + k, left) for k in range(len(lines))}
     return lines, (top, left), cells

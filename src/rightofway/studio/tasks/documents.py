@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError, InputFault
+from rightofway.facts import Fact
 from rightofway.io import (
     Loaded,
     dump_scenario,
@@ -31,8 +32,8 @@ from rightofway.io.sites import make_sites
 from rightofway.io.yaml_text import parse_yaml
 from rightofway.metrics import inspect, measure
 from rightofway.model import Plan, Scenario
-from rightofway.phrases import Phrase, to_parts
-from rightofway.report.facts import write_notes
+from rightofway.phrases import to_parts
+from rightofway.report.facts import write_note, write_notes
 from rightofway.studio.messages import Blobs, Emit, as_fault_data
 from rightofway.viz.verdict import give_verdict
 
@@ -48,7 +49,7 @@ def open_file(_emit: Emit, _blobs: Blobs, *, path: str, count: int | None = None
     if is_layout(file):
         example = make_example(file, file.with_suffix(".yaml"))
         document = parse_yaml(example.text)
-        new = Phrase("a new scenario on {layout}", layout=describe_layout(read_layout(file)))
+        new = Fact("new scenario", layout=describe_layout(read_layout(file)))
         notes = to_parts(write_notes([*example.notes, new]))
         return (
             {"kind": "layout", "document": {**as_plain(document), "robots": []}, "notes": notes},
@@ -130,7 +131,7 @@ def inspect_document(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) 
     (result,) = (inspected for _, inspected in results)
     return (
         {
-            "what": sites.description,
+            "what": write_note(sites.description),
             "notes": to_parts(write_notes(sites.notes)),
             **{key: value for key, value in asdict(result).items() if key != "findings"},
             "findings": [

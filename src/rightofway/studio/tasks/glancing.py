@@ -12,6 +12,7 @@ from rightofway.io.sites import Choice, Sites, make_sites, read_sites
 from rightofway.model import Plan
 from rightofway.quantities import format_decimal
 from rightofway.report.examples import find_examples_folder
+from rightofway.report.facts import write_note
 from rightofway.site.scale import compute_extent
 from rightofway.studio.messages import Blobs, Emit
 from rightofway.studio.tasks.documents import Result, as_plain, read_document
@@ -31,7 +32,7 @@ def glance_at(
     site = max((site for _, site in glance.sites), key=lambda candidate: candidate.roadmap.n_edges)
     about = {
         "kind": kind,
-        "description": glance.description,
+        "description": write_note(glance.description),
         "robots": len(site.robots) if kind != "layout" else None,
         "extent": [format_decimal(length) for length in compute_extent(site.roadmap)],
         "unit": site.units.length,

@@ -10,7 +10,7 @@ from rightofway.facts import Fact
 from rightofway.files import write_whole
 from rightofway.metrics import Inspection, Site
 from rightofway.phrases import to_parts
-from rightofway.report.facts import write_notes
+from rightofway.report.facts import write_note, write_notes
 from rightofway.report.inspection import (
     SEVERITIES,
     describe_finding,
@@ -34,7 +34,7 @@ def make_inspection_page(
     levels: Sequence[Inspected],
     *,
     title: str,
-    description: str = "",
+    description: str | Fact = "",
     notes: Sequence[str | Fact] = (),
     background: Background | None = None,
 ) -> str:
@@ -47,9 +47,9 @@ def make_inspection_page(
     title
         What the page is about, usually the name of the file.
     description
-        What the file is and how large, in words.
+        Kind and size of the file.
     notes
-        What its reader mended or left out, a sentence each.
+        Pieces that its reader mended or left out, and warnings.
     background
         A picture under the map; by default that of the layout.
 
@@ -63,10 +63,11 @@ def make_inspection_page(
     InputError
         If a picture cannot be read.
     """
+    text = write_note(description)
     payload: InspectionPayload = {
         "title": title,
         "translations": {},
-        "description": to_parts(description),
+        "description": to_parts(text),
         "notes": to_parts(write_notes(notes)),
         "names": {severity: to_parts(name_severity(severity)) for severity in SEVERITIES},
         "headings": {severity: to_parts(write_heading(severity)) for severity in SEVERITIES},
@@ -75,7 +76,7 @@ def make_inspection_page(
     said = [(level["sentences"], level["findings"]) for level in payload["levels"]]
     others = payload["description"], payload["notes"], payload["names"], payload["headings"]
     payload["translations"] = find_translations(said, others)
-    about = f"{title}: {description}" if description else title
+    about = f"{title}: {text}" if text else title
     return make_document(about, payload, "inspect_main")
 
 
@@ -85,7 +86,7 @@ def write_inspection(
     path: str | os.PathLike[str],
     *,
     title: str,
-    description: str = "",
+    description: str | Fact = "",
     notes: Sequence[str | Fact] = (),
     background: Background | None = None,
 ) -> None:
