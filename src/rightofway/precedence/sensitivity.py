@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp
+from rightofway.facts import Fact
 from rightofway.precedence.period_curve import Growth, PeriodPiece, find_line_at
 from rightofway.precedence.timed_event_graph import Circuit, TimedEventGraph, trace_circuit
 
@@ -115,7 +116,7 @@ def find_tight_arcs(
         len(graph), arcs.tail, arcs.head, arcs.length, arcs.height, period, parts, time_limit
     )
     if times is None:
-        raise GaveUp("time ran out in the search for critical circuits (give more time)")
+        raise GaveUp(Fact("time over for critical circuits"))
     due = times[arcs.tail] + arcs.length * parts
     return np.asarray(times[arcs.head] + arcs.height.astype(np.int64) * period == due)
 

@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from rightofway import _core
 from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp
+from rightofway.facts import Fact
 from rightofway.model import BookingRules, Lap, Tick, make_visits_of_laps
 from rightofway.native import BookedRows
 
@@ -416,7 +417,7 @@ class TimedEventGraph:
             len(self), arcs.tail, arcs.head, arcs.length, arcs.height, ticks, 1, time_limit
         )
         if times is None:
-            raise GaveUp("time ran out in the search for the earliest timetable")
+            raise GaveUp(Fact("time over for the earliest timetable"))
         # By whole periods to where the first visit of each robot is in the first period.
         parts = np.split(times, self.first[1:-1])
         enter = tuple(part - part[0] // ticks * ticks for part in parts)
@@ -450,6 +451,6 @@ def trace_circuit(n_visits: int, arcs: Arcs, time_limit: float | None) -> Circui
         n_visits, arcs.tail, arcs.head, arcs.length, arcs.height, time_limit
     )
     if circuit is None:
-        raise GaveUp("time ran out in the search for the bottleneck (give a longer time limit)")
+        raise GaveUp(Fact("time over for the bottleneck"))
     length, height, numbers = circuit
     return Circuit(cycle_time=Fraction(length, height), arcs=numbers) if height else None

@@ -16,6 +16,7 @@ import numpy as np
 from rightofway import _core
 from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp, InputError
+from rightofway.facts import Fact
 from rightofway.model import NEVER, Problem, Tick, Track, compute_drives_along
 from rightofway.model.given import require_index
 from rightofway.native import bind_native, list_excluded
@@ -164,5 +165,5 @@ def find_earliest_track(
         bind_native(problem), robot, bookings.table, tables, time_limit
     )
     if end == STOPPED:
-        raise GaveUp("time ran out in the search for one robot (give a longer time limit)")
+        raise GaveUp(Fact("time over for one robot"))
     return Track(vertices=vertices, enter=enter) if len(vertices) else None
