@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass
+from itertools import combinations
 from typing import TYPE_CHECKING
 
 import pytest
 
 from tests.builders.plans import crowd
+from tests.builders.players import overlap
 from tests.viewer.conftest import Opener, pages
 
 if TYPE_CHECKING:
@@ -26,6 +28,7 @@ class Played:
     map: Counter[str]
     all: Counter[str]
     elements: int
+    names: int  # on the map once time stands still
 
 
 @pytest.fixture(scope="module", params=["#tick=20", "#tick=20&robot=Robot 7"])
@@ -53,6 +56,7 @@ def played(
             map=viewer.calls("map") - on_map,
             all=viewer.calls() - everywhere,
             elements=viewer.page.locator("*").count() - elements,
+            names=len(viewer.names()),
         )
         assert viewer.complaints == []
     return found
@@ -70,7 +74,19 @@ def test_a_frame_draws_each_robot_once(played: Played) -> None:
     assert 500 * played.frames < played.all["arc"] <= 3 * 1000 * played.frames
     assert played.all["fill"] <= 1000 * played.frames
     # a chosen robot has its name, and its home and stop have theirs
-    assert played.all["fillText"] <= 3 * played.frames * played.is_chosen
+    names = 3 * played.frames * played.is_chosen
+    assert played.all["fillText"] <= names + played.names  # the last frame stands still
+
+
+@pytest.mark.parametrize("tick", [0, 20])
+def test_four_hundred_robots_have_the_names_that_there_is_room_for(show: Opener, tick: int) -> None:
+    """While time stands still; none of them is over another one."""
+    viewer = show(crowd(400), f"#tick={tick}")
+    names = [name for name in viewer.names() if name.text.startswith("Robot ")]
+    assert len(names) >= 8
+    assert len({name.text for name in names}) == len(names)
+    for one, other in combinations(names, 2):
+        assert not overlap(one.box, other.box), (one, other)
 
 
 def test_the_page_does_not_grow_while_it_plays(played: Played) -> None:

@@ -14,7 +14,7 @@ import { inkOn } from "./theme.js";
 /** @import { Use } from "./use.js" */
 /** @import { Viewport } from "./viewport.js" */
 
-const MOST_NAMED = 100; // robots in sight; the names of more cannot be read
+const MOST_NAMED = 100; // robots in sight; of more, only names with room while time stands still
 const ROBOT_TYPE = 13; // pixels
 
 /**
@@ -69,15 +69,16 @@ export class MapNames {
     const places = this.places.find(context, width, height);
     this.#robots.clear(width, height);
     const inSight = this.#inSight(width, height);
+    const isCrowd = inSight.length > MOST_NAMED;
     const named =
-      inSight.length <= MOST_NAMED ? inSight : inSight.filter((index) => this.#isChosen(index));
+      isCrowd && this.clock.playing ? inSight.filter((index) => this.#isChosen(index)) : inSight;
     if (!named.length && !places) return;
     for (const index of inSight) {
       const [x, y] = this.#at(index);
       this.#robots.takeDisc(x, y, this.#radius(index));
     }
     const outside = named.filter((index) => !this.#fitsInside(context, index, this.#radius(index)));
-    for (const index of outside) this.#beside(context, index, this.#radius(index));
+    for (const index of outside) this.#beside(context, index, this.#radius(index), isCrowd);
     const outsiders = new Set(outside);
     for (const index of named)
       if (!outsiders.has(index)) this.#inside(context, index, this.#radius(index));
@@ -115,7 +116,7 @@ export class MapNames {
     /** @param {number} index */
     const rank = (index) =>
       this.#isChosen(index) ? 0 : this.motion.activity[index] === DONE ? 2 : 1;
-    return found.length > MOST_NAMED
+    return found.length > MOST_NAMED && this.clock.playing
       ? found
       : found.sort((one, other) => rank(one) - rank(other) || one - other);
   }
@@ -165,13 +166,14 @@ export class MapNames {
 
   /**
    * Beside its disc: where it was if that is free, rather not over the name of a place, a mark or a route.
-   * While time runs on, a name changes its side only for another robot.
+   * While time runs on, a name changes its side only for another robot. In a crowd it covers none of these.
    *
    * @param {CanvasRenderingContext2D} context
    * @param {number} index
    * @param {number} radius
+   * @param {boolean} isCrowd
    */
-  #beside(context, index, radius) {
+  #beside(context, index, radius, isCrowd) {
     const name = cut(this.plan.robots[index].name);
     const font = this.theme.font(ROBOT_TYPE, 600);
     const width = this.#widths.of(context, name, font);
@@ -188,11 +190,12 @@ export class MapNames {
       const side = (this.#sides[index] + step) % SIDES.length;
       const there = boxBeside(x, y, away, width, ROBOT_TYPE + 2, SIDES[side]);
       if (!this.#robots.isFree(...there)) continue;
-      const cost =
+      const covered =
         (this.places.names.isFree(...there) ? 0 : 3) +
         (this.places.marks.isFree(...there) ? 0 : 2) +
-        (this.places.routes.isFree(...there) ? 0 : 2) +
-        (step ? change : 0);
+        (this.places.routes.isFree(...there) ? 0 : 2);
+      if (isCrowd && covered && !this.#isChosen(index)) continue;
+      const cost = covered + (step ? change : 0);
       if (cost < least) [best, least, box] = [side, cost, there];
       if (least <= (step ? change : change - 1)) break;
     }

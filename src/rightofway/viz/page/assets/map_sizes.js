@@ -5,6 +5,8 @@
 const READABLE_RADIUS = 10; // pixels; a robot need not be larger to be seen from afar
 const SMALLEST_CAP = { many: 4.5, few: 7 }; // pixels; robots may be as large where cells are smaller
 const SMALLEST_RADIUS = 2; // pixels, of a robot that is drawn at its true size
+const MANY = 100; // robots; homes of more are not larger than their cells
+const SMALLEST_HOME = 3; // pixels, half of its side
 const IN_CELL = 0.35; // of a cell's side: robots that follow each other round a corner do not touch
 const LARGEST_RADIUS = { grid: 44, network: 20 }; // pixels
 
@@ -59,7 +61,10 @@ export class MapSizes {
    */
   homeOf(robot) {
     const inCell = this.plan.roadmap.rows ? this.viewport.scale * 0.345 : 0;
-    return this.plan.roadmap.rows && robot.radius ? inCell : Math.max(inCell, this.of(robot) + 1.5);
+    if (this.plan.roadmap.rows && robot.radius) return inCell;
+    const round = Math.max(inCell, this.of(robot) + 1.5); // a robot at home
+    const isSmall = this.plan.roadmap.rows && this.plan.robots.length > MANY;
+    return isSmall ? Math.min(round, Math.max(inCell, SMALLEST_HOME)) : round;
   }
 
   /** Half the side of the sign of a station, a parking place or a charger. */
