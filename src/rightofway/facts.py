@@ -67,7 +67,7 @@ class Fact:
 
     def __repr__(self) -> str:
         values = "".join(f", {name}={value!r}" for name, value in self.values.items())
-        return f"Fact({self.kind!r}{values})"
+        return f"{type(self).__name__}({self.kind!r}{values})"
 
     def __str__(self) -> str:
         return get_teller().tell_fact(self)

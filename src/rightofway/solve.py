@@ -21,6 +21,7 @@ from rightofway.model import (
     PlannerRun,
     Proof,
     Scenario,
+    Status,
     Tick,
     Track,
     require_time_limit,
@@ -266,7 +267,7 @@ def _run(
         name=spec.name,
         options=_written_options(task),
         seed=task.seed,
-        status=draft.status,
+        status=None if draft.status is None else Status.of(draft.status),
         seconds=with_plan[-1],
         first_plan_seconds=with_plan[0],
         decisions=draft.decisions,
@@ -329,7 +330,7 @@ def _going_on(spec: PlannerSpec, task: Task, old: Plan) -> Draft:
     try:
         return spec.load()(replace(task, start=tracks))
     except GaveUp:
-        return Draft(tracks=tracks, status=Phrase("the old plan, changed where it had to be"))
+        return Draft(tracks=tracks, status=Status("adapted"))
 
 
 def _handing_over(
@@ -345,7 +346,7 @@ def _handing_over(
         name=spec.name,
         options=_written_options(task),
         seed=task.seed,
-        status=Phrase("so far"),
+        status=Status("so far"),
         alone=alone,
     )
     least: list[tuple[Tick, Tick]] = []

@@ -35,7 +35,7 @@ def test_a_row_has_what_solving_the_case_here_gives(case: Case) -> None:
     [row] = run_here([case])
     assert (row["flowtime"], row["makespan"]) == (metrics.flowtime, metrics.makespan)
     assert row["lower_bound"] == metrics.lower_bound
-    assert row["message"] == plan.run.status
+    assert row["message"] == str(plan.run.status)
     assert {name: row[name] for name in case.labels} == case.labels
     assert {name: row[name] for name in describe_machine()} == describe_machine()
 

@@ -17,7 +17,7 @@ import numpy as np
 
 import rightofway
 from rightofway.io import parse_scenario
-from rightofway.model import ExecutionTrace, Plan, PlannerRun, Tick, Track
+from rightofway.model import ExecutionTrace, Plan, PlannerRun, Status, Tick, Track
 from rightofway.quantities import Quantities, Units
 from rightofway.solve import solve
 from rightofway.viz.motion import make_trips
@@ -84,7 +84,7 @@ def cross(**more: Any) -> Plan:
             Track.of([tail, head], [int(at / tick) for at in enter])
             for tail, head, enter in zip((0, 2), (1, 3), times, strict=True)
         ),
-        run=PlannerRun(name="by hand", status="valid"),
+        run=PlannerRun(name="by hand", status=Status("other", text="valid")),
     )
 
 

@@ -16,6 +16,7 @@ from rightofway.model import (
     Robot,
     Rules,
     Scenario,
+    Status,
     SteadyState,
     Stop,
     Tick,
@@ -70,7 +71,7 @@ def door() -> Plan:
             Track.of([0, 1, 3, 5, 4, 5, 3, 1, 0], [0, 2, 3, 4, 5, 7, 8, 9, 10]),
             Track.of([2, 1, 3, 5, 6, 5, 3, 1, 2], [0, 1, 2, 3, 4, 6, 7, 8, 9]),
         ),
-        run=PlannerRun(name="two-level", status="waits only", decisions=(decision,)),
+        run=PlannerRun(name="two-level", status=Status("waits only"), decisions=(decision,)),
     )
 
 
@@ -117,7 +118,11 @@ def hostile(name: str) -> Plan:
         ],
     )
     robot = Robot(name=name, home=VertexId(0), stops=(Stop(at=VertexId(1)),))
-    run = PlannerRun(name=name, status=name, reroutes=(Reroute(robot=0, because=name),))
+    run = PlannerRun(
+        name=name,
+        status=Status("other", text=name),
+        reroutes=(Reroute(robot=0, because=name),),
+    )
     tracks = (Track.of([0, 1, 0], [0, 1, 2]),)
     return Plan(scenario=Scenario(roadmap=roadmap, robots=(robot,)), tracks=tracks, run=run)
 

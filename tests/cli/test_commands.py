@@ -115,7 +115,19 @@ def test_the_summary_for_programs_has_the_numbers_of_the_one_for_people(
     assert planner == {
         "name": "auto", "seed": 0,
         "options": {"objective": "flowtime", "swaps": "resolve", "iterations": 0, "nodes": 1000},
-        "status": "optimal: proven by 0 nodes of conflict-based search (two-level, waits only)",
+        "status": {
+            "kind": "proven by search",
+            "counts": {
+                "nodes": 0,
+                "status": {
+                    "kind": "by planner",
+                    "counts": {
+                        "planner": "two-level",
+                        "status": {"kind": "waits only", "counts": {}},
+                    },
+                },
+            },
+        },
         "outcome": {"kind": "optimal", "objective": "flowtime", "bound": 19},
         "forced_losses": [{"robots": ["R1", "R2"], "ticks": 1, "vertex": "N1"}],
     }  # fmt: skip

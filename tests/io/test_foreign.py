@@ -147,7 +147,7 @@ def test_one_plan_is_read_from_every_format(hall: Path, text: str) -> None:
     plan = read(hall, text)
     assert names(plan) == AWAY
     assert check(plan).ok
-    assert (plan.flowtime, plan.run.name, plan.run.status) == (9, "unknown", "")
+    assert (plan.flowtime, plan.run.name, plan.run.status) == (9, "unknown", None)
     assert plan.scenario.rules.ends == "none"
     assert plan.scenario.problem.clock.tick == 1
 

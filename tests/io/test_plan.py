@@ -12,7 +12,17 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.io import dump_plan, load_plan, parse_plan, write_plan
-from rightofway.model import Decision, Plan, PlannerRun, Reroute, Rules, SteadyState, Tick, Track
+from rightofway.model import (
+    Decision,
+    Plan,
+    PlannerRun,
+    Reroute,
+    Rules,
+    Status,
+    SteadyState,
+    Tick,
+    Track,
+)
 from rightofway.site import VertexId
 from tests.builders.fleets import grid_fleet
 
@@ -43,7 +53,7 @@ def door_plan() -> Plan:
             name="two-level",
             options={"swaps": "resolve", "depth": 3, "ratio": 0.5, "list": [1, "a", None]},
             seed=7,
-            status="waits only",
+            status=Status("waits only"),
             seconds=0.25,
             decisions=(decision,),
             reroutes=(Reroute(robot=1, because="a deadlock at N4"),),
@@ -75,7 +85,7 @@ TEXT = """\
     "name": "two-level",
     "options": {"depth": 3, "list": [1, "a", null], "ratio": 0.5, "swaps": "resolve"},
     "seed": 7,
-    "status": "waits only",
+    "status": {"kind": "waits only", "counts": {}},
     "seconds": null,
     "decisions": [
       {"tick": 1, "kind": "vertex", "vertices": ["N1"], "robots": ["R1", "R2"], "waits": "R1", \
@@ -252,29 +262,41 @@ def _set(*path: str | int) -> Callable[[dict[str, Any], Any], None]:
         (_set("planner"), None, ["planner: is empty (give keys name, options"]),
         (_set("planner", "seed"), "x", ["planner.seed: 'x' is not a whole number"]),
         (_set("planner", "seconds"), -1, ["planner.seconds: -1 is negative"]),
-        (_set("planner", "status"), "a\nb", ["planner.status: 'a\\nb' cannot be shown"]),
-        (_set("planner", "status"), 3, ["planner.status: 3 is no text (give text, or a template"]),
         (
             _set("planner", "status"),
-            ["{robot} waits", {}],
-            ["planner.status: '{robot} waits' has no value for 'robot' (give each a text)"],
+            "waits only",
+            ["planner.status: 'waits only' is not a mapping"],
+        ),
+        (
+            _set("planner", "status", "kind"),
+            "wait only",
+            ["planner.status.kind: 'wait only' is unknown (did you mean 'waits only'?)"],
+        ),
+        (
+            _set("planner", "status", "counts"),
+            {"robots": ["R1"]},
+            ["planner.status.counts.robots: is no value of 'waits only' (take it out)"],
         ),
         (
             _set("planner", "status"),
-            ["{robot.__class__}", {"robot": "R1"}],
-            ["planner.status: '{robot.__class__}' has no value for 'robot.__class__'"],
+            {"kind": "re-routed", "counts": {}},
+            ["planner.status.counts.robots: is missing"],
         ),
         (
             _set("planner", "status"),
-            ["{robot:>9999999}", {"robot": "R1"}],
-            ["planner.status: '{robot:>9999999}' has no value for 'robot'"],
+            {"kind": "other", "counts": {"text": "a\nb"}},
+            ["planner.status.counts.text: 'a\\nb' cannot be shown"],
         ),
         (
             _set("planner", "status"),
-            ["{a" + "}{a" * 999 + "}", {"a": "x" * 999}],
-            ["planner.status: the text has 999000 characters (give 100000 at most)"],
+            {"kind": "interrupted", "counts": {"status": {"kind": 3, "counts": {}}}},
+            ["planner.status.counts.status.kind: 3 is unknown"],
         ),
-        (_set("planner", "status"), ["{", {}], ["planner.status: '{' is no template"]),
+        (
+            _set("planner", "status"),
+            {"kind": "interrupted", "counts": {"status": 3}},
+            ["planner.status.counts.status: 3 is no status (give {kind, counts})"],
+        ),
         (
             _set("planner", "decisions", 0, "waits"),
             "R9",

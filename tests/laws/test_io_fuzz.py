@@ -21,7 +21,7 @@ from rightofway.io import (
 from rightofway.io.json_text import parse_json
 from rightofway.io.locations import locate
 from rightofway.io.yaml_text import parse_yaml
-from rightofway.model import Plan, PlannerRun, Track
+from rightofway.model import Plan, PlannerRun, Status, Track
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / "examples"
@@ -120,7 +120,7 @@ def mutated_plans(draw: st.DrawFn) -> Any:
     plan = Plan(
         scenario=scenario,
         tracks=tuple(Track.of([robot.home, 0], [0, 5]) for robot in scenario.robots),
-        run=PlannerRun(name="x", options={"a": 1}, status="s"),
+        run=PlannerRun(name="x", options={"a": 1}, status=Status("other", text="s")),
     )
     return _mutated(draw, dump_plan(plan))
 

@@ -34,6 +34,7 @@ from rightofway.model import (
     Robot,
     Rules,
     Scenario,
+    Status,
     SteadyState,
     Stop,
     Tick,
@@ -41,7 +42,7 @@ from rightofway.model import (
 )
 from rightofway.model.attributes import Attribute
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
-from rightofway.phrases import Phrase, to_parts
+from rightofway.phrases import Phrase
 from rightofway.site import Edge, Roadmap, VertexId, make_grid_roadmap, make_roadmap
 from rightofway.values import format_number, read_exact
 from tests.builders.any_fleet import any_fleet
@@ -155,7 +156,7 @@ def plans(draw: st.DrawFn) -> Plan:
         name=draw(names),
         options=draw(st.dictionaries(st.text(), options, max_size=2)),
         seed=draw(st.integers(0, 2**64)),
-        status=draw(sentences),
+        status=draw(st.none() | STATUSES),
         seconds=draw(st.one_of(st.none(), st.integers(0, 99), st.sampled_from([0.25, 1e-6]))),
         decisions=tuple(draw(st.lists(decision, max_size=2))),
         outcome=draw(st.one_of(st.none(), OUTCOMES)),
@@ -167,6 +168,29 @@ def plans(draw: st.DrawFn) -> Plan:
     tracks = tuple(Track.of(*zip(*draw(track), strict=True)) for _ in scenario.robots)
     return Plan(scenario=scenario, tracks=tracks, run=run, steady=draw(repeating(tracks)))
 
+
+def _statuses(inner: st.SearchStrategy[Status]) -> st.SearchStrategy[Status]:
+    """Return statuses of all kinds, with these in them."""
+    samples = {
+        "read_label": st.text(max_size=8).filter(str.isprintable),
+        "_read_status": inner,
+        "read_whole_number": st.integers(0, 2**40),
+        "read_number": st.fractions(1, 9, max_denominator=9),
+        "read_each": st.lists(names, max_size=3).map(tuple),
+        "read": st.sampled_from([objective.value for objective in Objective]),
+    }
+    kinds = [
+        st.builds(
+            Status,
+            st.just(kind),
+            **{name: samples[reader.__name__] for name, reader in readers.items()},
+        )
+        for kind, readers in Status.KINDS.items()
+    ]
+    return st.one_of(kinds)
+
+
+STATUSES = st.recursive(st.just(Status("waits only")), _statuses, max_leaves=4)
 
 OUTCOMES = st.builds(
     Outcome,
@@ -308,6 +332,5 @@ def test_plans(plan: Plan) -> None:
         write_plan(plan, one, seconds=True)
         loaded = load_plan(one)
         assert loaded == plan
-        assert to_parts(loaded.run.status) == to_parts(plan.run.status)
         write_plan(loaded, other, seconds=True)
         assert one.read_bytes() == other.read_bytes()

@@ -10,7 +10,7 @@ import rightofway
 from rightofway.bench.fleets import make_scenario_document
 from rightofway.io import load_plan, parse_scenario, write_plan
 from rightofway.metrics import measure
-from rightofway.model import Plan, Rules
+from rightofway.model import Plan, Rules, Status
 from tests.builders.fleets import grid_fleet, random_fleet
 
 CROWDED = random_fleet(3, size=9, robots=12, rules=Rules(occupancy="both"))
@@ -30,8 +30,8 @@ def test_where_nothing_better_is_found_the_decisions_of_two_level_are_kept() -> 
     door = rightofway.load("examples/door.yaml")
     plan, two_level = rightofway.solve(door), rightofway.solve(door, "two-level")
     assert plan.run.decisions == two_level.run.decisions
-    proof = "optimal: proven by 0 nodes of conflict-based search"
-    assert plan.run.status == f"{proof} (two-level, waits only)"
+    first = Status("by planner", planner="two-level", status=Status("waits only"))
+    assert plan.run.status == Status("proven by search", nodes=0, status=first)
 
 
 def test_it_tells_when_its_first_plan_was_there(tmp_path: Path) -> None:
@@ -65,24 +65,24 @@ def test_where_lacam_finds_no_plan_the_cheap_plan_is_first(planner: str) -> None
     assert found.run.first_plan_seconds is not None
     assert found.run.first_plan_seconds < 2
     assert found.flowtime < plans[0].flowtime
-    assert found.run.status.endswith("(first plan: one after another)")
+    assert str(found.run.status).endswith("(first plan: one after another)")
 
 
 def test_a_proven_optimum_ends_it() -> None:
     plan = rightofway.solve(rightofway.load("examples/floor.yaml"), time_limit=None)
-    assert plan.run.status == "optimal: found by 1 node of conflict-based search"
+    assert plan.run.status == Status("optimum found by search", nodes=1)
 
 
 def test_a_large_fleet_is_not_held_up_by_two_level() -> None:
     plan = rightofway.solve(random_fleet(1, size=32, robots=90), options={"iterations": 10})
-    assert "two-level" not in plan.run.status
+    assert "two-level" not in str(plan.run.status)
     assert rightofway.check(plan).ok
 
 
 def test_the_published_method_is_at_hand() -> None:
     door_5 = grid_fleet(["...", "@.@", "..."], [("N0", "N6"), ("N2", "N8")])
     plan = rightofway.solve(door_5, options={"swaps": "leave"})
-    assert plan.run.status == "waits only"
+    assert plan.run.status == Status("waits only")
 
 
 def test_without_rotations_its_plans_have_none() -> None:

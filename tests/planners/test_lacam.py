@@ -11,7 +11,7 @@ import pytest
 
 import rightofway
 from rightofway.metrics import measure
-from rightofway.model import Occupancy, Rules, Scenario
+from rightofway.model import Occupancy, Rules, Scenario, Status
 from tests.builders.fleets import grid_fleet, random_fleet
 from tests.builders.sizes import dense, with_radii
 
@@ -61,7 +61,7 @@ def test_there_are_hard_maps() -> None:
 
 def test_with_room_the_clocks_are_enough() -> None:
     plan = rightofway.solve(random_fleet(1, robots=20), "lacam")
-    assert plan.run.status == "instant by instant"
+    assert plan.run.status == Status("instants")
 
 
 def test_without_rotations_a_full_hall_takes_the_order_of_moves_first() -> None:
@@ -69,7 +69,7 @@ def test_without_rotations_a_full_hall_takes_the_order_of_moves_first() -> None:
     scenario = all_but_two(["....."] * 5, 0, rules, [Fraction(1), Fraction(1, 2)])
     said: list[str] = []
     plan = rightofway.solve(scenario, "lacam", time_limit=60, report=said.append)
-    assert plan.run.status == "order of moves first"
+    assert plan.run.status == Status("moves")
     assert said == ["no end by instants: planning the order of moves without clocks"]
 
 
@@ -78,7 +78,7 @@ def test_a_large_robot_pushes_every_robot_in_its_way() -> None:
     trips = [("N17", "N22"), ("N12", "N12"), ("N28", "N28")]
     fleet = grid_fleet(["." * 8] * 5, trips, rules=Rules(ends="none"))
     plan = rightofway.solve(with_radii(fleet, list(map(Fraction, ["1.2", "0.3", "0.3"]))), "lacam")
-    assert plan.run.status == "instant by instant"
+    assert plan.run.status == Status("instants")
     visits = [len(track) for track in plan.tracks]
     assert visits[0] == 6
     assert min(visits[1:]) >= 3
@@ -92,7 +92,7 @@ def test_dense_fleets_of_robots_with_sizes_are_planned_by_instants(
 ) -> None:
     """Robots one after another find no way for the second fleet, and take seconds for the first."""
     plan = rightofway.solve(dense(0, size=16, robots=robots, radii=radii), "lacam")
-    assert plan.run.status == "instant by instant"
+    assert plan.run.status == Status("instants")
     assert rightofway.check(plan).ok
 
 

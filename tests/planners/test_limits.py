@@ -155,7 +155,7 @@ def test_an_interrupt_of_solve_reaches_the_loop_of_a_script(crowd: Scenario) -> 
 @pytest.mark.usefixtures("interrupted")
 def test_an_interrupt_hands_out_the_best_plan_where_that_is_asked_for(crowd: Scenario) -> None:
     plan = rightofway.solve(crowd, time_limit=60, keep_best=True)
-    assert plan.run.status.startswith("interrupted: ")
+    assert str(plan.run.status).startswith("interrupted: ")
     assert rightofway.check(plan).ok
 
 

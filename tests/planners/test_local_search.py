@@ -6,7 +6,7 @@ import pytest
 
 import rightofway
 from rightofway.metrics import measure
-from rightofway.model import Plan, Rules, Scenario, Track
+from rightofway.model import Plan, Rules, Scenario, Status, Track
 from rightofway.planners import Task
 from rightofway.planners.local_search import local_search
 from tests.builders.fleets import grid_fleet, random_fleet
@@ -52,7 +52,7 @@ def test_one_flip_lets_the_fast_robot_through_before_the_slow_one() -> None:
     )
     draft = local_search(Task(scenario=scenario, options={"rounds": 0}, start=behind))
     assert [int(track.enter[-1]) for track in draft.tracks] == [9, 45]
-    assert draft.status == "flips took the flowtime from 91 to 54 ticks"
+    assert draft.status == Status("reversals", objective="flowtime", before=91, after=54)
 
 
 def test_rounds_find_what_no_single_flip_does() -> None:
@@ -69,7 +69,11 @@ def test_flips_do_not_make_rotations_where_these_are_forbidden(seed: int) -> Non
 
 def test_where_nobody_waits_there_is_nothing_to_flip() -> None:
     plan = improved(grid_fleet(["...", "..."], [("N0", "N2"), ("N3", "N5")]), 5)
-    assert plan.run.status == "waits only; flips took the flowtime from 10 to 10 ticks"
+    assert plan.run.status == Status(
+        "then",
+        first=Status("waits only"),
+        second=Status("reversals", objective="flowtime", before=10, after=10),
+    )
 
 
 def test_time_that_runs_out_leaves_the_best_plan_so_far() -> None:

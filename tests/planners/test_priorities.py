@@ -10,7 +10,7 @@ import pytest
 
 import rightofway
 from rightofway.errors import GaveUp
-from rightofway.model import Plan, Rules, Scenario, Track
+from rightofway.model import Plan, Rules, Scenario, Status, Track
 from rightofway.planners import Draft
 from rightofway.planners.routing import clear_routes, find_shortest_routes
 from rightofway.search import Distances
@@ -73,7 +73,7 @@ def test_where_the_higher_one_cannot_go_first_the_other_one_does() -> None:
 def test_where_no_waiting_helps_one_is_sent_another_way() -> None:
     """R1 works where R2 lives, in a corridor with a bay."""
     plan = planned(grid_fleet([".....", "@@@.@"], [("N0", "N4"), ("N4", "N2")]), "fixed-priority")
-    assert plan.run.status == "re-routed R2"
+    assert plan.run.status == Status("re-routed", robots=["R2"])
 
 
 def test_routes_keep_clear_of_others_or_are_the_shortest() -> None:
@@ -83,7 +83,7 @@ def test_routes_keep_clear_of_others_or_are_the_shortest() -> None:
     driven = {}
     for name, choose in routes.items():
         plan = planned(scenario, "fixed-priority", routes=name)
-        assert plan.run.status == "waits only"
+        assert plan.run.status == Status("waits only")
         driven[name] = [tuple(track.vertices.tolist()) for track in plan.tracks]
         assert driven[name] == [route.vertices for route in choose(scenario, distances)]
     assert driven["clear"] != driven["shortest"]
@@ -112,15 +112,16 @@ def test_another_seed_draws_other_orders() -> None:
 @pytest.mark.parametrize(
     ("planner", "options", "tried"),
     [
-        ("random-priority", {"restarts": 3}, "3 orders"),
-        ("random-priority", {"restarts": 1}, "1 order"),
-        ("priority-search", {"restarts": 3, "rounds": 4}, "12 orders"),
+        ("random-priority", {"restarts": 3}, 3),
+        ("random-priority", {"restarts": 1}, 1),
+        ("priority-search", {"restarts": 3, "rounds": 4}, 12),
     ],
 )
 def test_the_status_says_how_many_orders_were_tried(
-    planner: str, options: dict[str, int], tried: str
+    planner: str, options: dict[str, int], tried: int
 ) -> None:
-    assert planned(DOOR, planner, **options).run.status == f"waits only; best of {tried}"
+    status = planned(DOOR, planner, **options).run.status
+    assert status == Status("best of orders", number=tried, status=Status("waits only"))
 
 
 class Costs:
@@ -185,7 +186,9 @@ def test_the_climb_goes_on_from_what_is_not_worse(
 
 def test_a_climb_ends_and_another_one_starts_anywhere(pretend: Pretend) -> None:
     orders = pretend([5, 4, 7, 6])
-    assert drafted("priority-search", restarts=2, rounds=2).status == "cost 4; best of 4 orders"
+    assert drafted("priority-search", restarts=2, rounds=2).status == Status(
+        "best of orders", number=4, status="cost 4"
+    )
     assert moved(orders.orders[1], orders.orders[2]) > 2
     assert moved(orders.orders[2], orders.orders[3]) == 2
 
@@ -193,7 +196,7 @@ def test_a_climb_ends_and_another_one_starts_anywhere(pretend: Pretend) -> None:
 @pytest.mark.parametrize("planner", SEARCHES)
 def test_when_time_is_over_the_best_so_far_is_handed_out(pretend: Pretend, planner: str) -> None:
     pretend([7, 5, 6])
-    assert drafted(planner).status == "cost 5; best of 3 orders"
+    assert drafted(planner).status == Status("best of orders", number=3, status="cost 5")
 
 
 @pytest.mark.parametrize("planner", SEARCHES)

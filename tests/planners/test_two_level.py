@@ -8,7 +8,7 @@ import pytest
 
 import rightofway
 from rightofway.errors import GaveUp, InputError, NoPlanExists
-from rightofway.model import Plan, Rules, Scenario
+from rightofway.model import Plan, Rules, Scenario, Status
 from rightofway.planners.routing import choose_routes
 from rightofway.planners.task import Task
 from rightofway.planners.two_level import replay_movement_groups
@@ -118,7 +118,7 @@ def test_robots_with_one_target_go_through_the_dead_end_one_after_the_other() ->
     plan = solve(grid_fleet(["...", "@.@", "@.@"], [("N0", "N7"), ("N2", "N7")]))
     # Alone: 0 1 4 7 7 4 1 0, seven ticks. R2 leaves N1 at tick 7, then R1 may enter it.
     assert sorted(int(track.enter[-1]) for track in plan.tracks) == [7, 13]
-    assert plan.run.status == "waits only"
+    assert plan.run.status == Status("waits only")
 
 
 def test_a_deadlock_that_waiting_cannot_open_is_opened_by_another_way() -> None:
@@ -126,7 +126,7 @@ def test_a_deadlock_that_waiting_cannot_open_is_opened_by_another_way() -> None:
     corridor = [".....", "@@@.@"]
     plan = solve(grid_fleet(corridor, [("N0", "N4"), ("N4", "N2")]))
     assert rightofway.check(plan).ok
-    assert plan.run.status == "re-routed R2"
+    assert plan.run.status == Status("re-routed", robots=["R2"])
     assert plan.scenario.roadmap.get_vertex("N8") in plan.tracks[1].vertices
     assert "waiting cannot keep R1 and R2 apart" in plan.run.reroutes[0].because
 
@@ -135,7 +135,7 @@ def test_a_robot_planned_again_on_its_own_route_is_not_called_rerouted() -> None
     """R3 and R5 make way for R7, are planned again, and find that their own routes serve."""
     scenario = random_fleet(29, size=6, robots=8)
     plan = solve(scenario)
-    assert plan.run.status == "re-routed R7"
+    assert plan.run.status == Status("re-routed", robots=["R7"])
     _, routes = choose_routes(Task(scenario=scenario, options={"routes": "clear"}))
     driven = [tuple(track.vertices.tolist()) for track in plan.tracks]
     other = [robot for robot, route in enumerate(routes) if driven[robot] != route.vertices]
@@ -155,7 +155,7 @@ def test_where_one_robot_at_a_time_finds_no_way_all_are_planned_together() -> No
     """Each works where the other lives, in a corridor with one bay: both have to use the bay."""
     plan = solve(grid_fleet([".....", "@@.@@"], [("N0", "N4"), ("N4", "N0")]))
     assert rightofway.check(plan).ok
-    assert plan.run.status == "re-routed all robots together"
+    assert plan.run.status == Status("re-routed together")
 
 
 def test_where_time_is_short_all_are_planned_together(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -164,7 +164,7 @@ def test_where_time_is_short_all_are_planned_together(monkeypatch: pytest.Monkey
 
     monkeypatch.setattr("rightofway.planners.conflict_resolution.reroute", too_slow)
     plan = solve(paper_scenario(CASES["door-5"]))
-    assert plan.run.status == "re-routed all robots together"
+    assert plan.run.status == Status("re-routed together")
     assert plan.run.reroutes[0].because == "time was short, so all were planned together"
 
 

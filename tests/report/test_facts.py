@@ -8,6 +8,7 @@ import pytest
 
 from rightofway.check import check
 from rightofway.facts import Fact
+from rightofway.model import Status
 from rightofway.report.facts import VALUE, FactWriter, list_texts, read_templates
 from rightofway.report.judgement import describe_fault, write_fault
 from tests.builders.fleets import grid_fleet
@@ -59,6 +60,23 @@ def test_a_number_with_a_noun_is_a_fact_of_its_own() -> None:
     writer = FactWriter(None)
     assert writer.fill("{n:n_vertices}", {"n": 1}) == "1 vertex"
     assert writer.fill("{n:n_other_places}", {"n": 2}) == "2 other places"
+
+
+@pytest.mark.parametrize("kind", Status.KINDS)
+def test_a_status_has_a_template_with_its_counts(kind: str) -> None:
+    texts = read_templates()["facts"][kind]
+    for text in [texts] if isinstance(texts, str) else texts.values():
+        assert {name for name, _ in VALUE.findall(text)} <= {*Status.KINDS[kind]}
+
+
+def test_a_status_in_a_status_is_a_sentence_in_a_sentence() -> None:
+    status = Status("then", first=Status("re-routed", robots=["R3", "R7"]), second="by hand")
+    assert str(status) == "re-routed R3, R7; by hand"
+    assert str(Status("within factor", factor=Fraction(3, 2))) == "within 1.5 of the optimum"
+    assert [str(Status("best of orders", number=n, status=status)) for n in (1, 2)] == [
+        f"{status}; best of 1 order",
+        f"{status}; best of 2 orders",
+    ]
 
 
 @pytest.mark.parametrize("text", [text for text in list_texts() if VALUE.search(text)])

@@ -10,7 +10,7 @@ import pytest
 
 from rightofway.cyclic import make_excerpt, run_laps
 from rightofway.errors import InputError
-from rightofway.model import SteadyState, Tick
+from rightofway.model import Status, SteadyState, Tick
 from rightofway.phrases import list_names
 from rightofway.viz import make_page, make_payload
 from tests.builders.fleets import grid_fleet
@@ -134,7 +134,7 @@ def test_an_excerpt_of_laps_has_no_faults_and_a_plan_of_whole_laps_has() -> None
     scenario = grid_fleet(["...", "@.@", "..."], trips, speeds=[Fraction(1, 2), Fraction(1, 3)])
     plan, steady = make_excerpt(run_laps(scenario, "fixed-order", routes="shortest"))
     assert make_payload(plan, steady=steady)["faults"]["count"] == 0
-    whole = replace(plan, run=replace(plan.run, status="whole laps"))
+    whole = replace(plan, run=replace(plan.run, status=Status("whole laps")))
     payload = make_payload(whole, steady=steady)
     [(kind, count)] = payload["faults"]["kinds"]
     assert (template_in(payload, kind), count) == ("stop missed", 1)

@@ -72,7 +72,7 @@ def _judged(plan: Plan) -> dict[str, Any]:
     levels = Counter(decision.level for decision in plan.run.decisions)
     figures = {"decisions": dict(levels), "rerouted": len(plan.run.reroutes)}
     return {
-        **_ended("solved", plan.run.status, valid=True),
+        **_ended("solved", str(plan.run.status), valid=True),
         "flowtime": int(metrics.flowtime),
         "makespan": int(metrics.makespan),
         "lower_bound": int(metrics.flowtime_alone),

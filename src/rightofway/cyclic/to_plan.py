@@ -16,9 +16,8 @@ from rightofway.cyclic.pattern import Pattern
 from rightofway.cyclic.result import CyclicResult, GroupResult
 from rightofway.errors import GaveUp, InputError, quote
 from rightofway.facts import Fact
-from rightofway.model import Plan, PlannerRun, SteadyState, Track
+from rightofway.model import Plan, PlannerRun, Status, SteadyState, Track
 from rightofway.model.given import require_number
-from rightofway.phrases import Phrase
 from rightofway.precedence import TimedEventGraph
 
 MOST_LAPS = 10**6
@@ -80,7 +79,7 @@ def unroll_laps(result: CyclicResult, laps: int | None = None) -> Plan:
             raise GaveUp(Fact("robot without laps", result.scenario, robot=robot))
         return own, own * len(group.context.routes[index]) + 1
 
-    return _plan(result, Phrase("whole laps"), laps_and_visits)
+    return _plan(result, Status("whole laps"), laps_and_visits)
 
 
 @checks_arguments
@@ -131,7 +130,7 @@ def make_excerpt(
         own = _laps_until(group, index, until, most) + 1
         return own, own * len(group.context.routes[index]) + 1
 
-    plan = _plan(result, result.rule, laps_and_visits)
+    plan = _plan(result, Status("excerpt of laps", rule=result.rule), laps_and_visits)
     return plan, tuple(
         _steady_state(group, group.pattern, plan) for group in result.groups if group.pattern
     )
@@ -156,7 +155,7 @@ def _laps_until(group: GroupResult, index: int, until: int, most: int | None) ->
 
 def _plan(
     result: CyclicResult,
-    status: str,
+    status: Status,
     laps_and_visits: Callable[[GroupResult, int, int], tuple[int, int]],
 ) -> Plan:
     """Return a plan with some laps and visits of each robot, by group, index and laps made."""

@@ -2,6 +2,7 @@
 
 from rightofway.model.booking_rules import BookingRules
 from rightofway.model.closures import Closure, Closures
+from rightofway.model.kept_facts import Status
 from rightofway.model.lap import Lap, make_lap, make_visits_of_laps
 from rightofway.model.lost_time import Loss, LostTime
 from rightofway.model.outcome import ForcedLoss, Objective, Outcome, OutcomeKind, Proof
@@ -71,6 +72,7 @@ __all__ = [
     "Scenario",
     "Stage",
     "StartPlan",
+    "Status",
     "Stays",
     "SteadyState",
     "Stop",

@@ -10,6 +10,7 @@ from typing import Any, Literal, TypeVar
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, find_nearest, quote
 from rightofway.model.figures import get_figures
+from rightofway.model.kept_facts import Status
 from rightofway.model.lost_time import LostTime
 from rightofway.model.outcome import ForcedLoss, Objective, Outcome
 from rightofway.model.passing import unfold_tracks
@@ -140,7 +141,7 @@ class PlannerRun:
     name, options, seed
         The planner, the options it was given and the seed; ``unknown`` for a plan from elsewhere.
     status
-        What it did, in words: ``waits only``, ``re-routed R3, R7``, ``optimal``, …
+        The method that found the plan, or None where it is unknown.
     seconds
         How long it took [s], or None where that was not kept.
     first_plan_seconds
@@ -167,7 +168,7 @@ class PlannerRun:
     name: str = "unknown"
     options: Mapping[str, Any] = field(default_factory=dict)
     seed: int = 0
-    status: str = ""
+    status: Status | None = None
     seconds: float | None = None
     first_plan_seconds: float | None = None
     decisions: tuple[Decision, ...] = ()

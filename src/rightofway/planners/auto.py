@@ -14,8 +14,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from rightofway.errors import GaveUp, InputError, NoPlanExists
-from rightofway.model import Objective, Proof, Tick
-from rightofway.phrases import Phrase, say_count
+from rightofway.model import Objective, Proof, Status, Tick
 from rightofway.planners.bounds import SHARE as SHARE_OF_NODES
 from rightofway.planners.bounds import compute_price_bound, finish_optimum
 from rightofway.planners.features import refuse_with_swaps_left
@@ -99,9 +98,8 @@ def _explained(task: Task) -> Draft | None:
     is_given = task.start is not None and explained.tracks != task.start
     if is_given and measure_worth(task, task.start or ()) <= measure_worth(task, explained.tracks):
         return None
-    return replace(
-        explained, status=Phrase("{first}, {second}", first="two-level", second=explained.status)
-    )
+    status = Status("by planner", planner="two-level", status=explained.status)
+    return replace(explained, status=status)
 
 
 def _improved(task: Task, first: Draft | None) -> Draft:
@@ -137,15 +135,13 @@ class _Prover:
         if search is None or search.bound is None:
             return draft
         proof = Proof(bound=search.bound, objective=objective)
-        tracks, done = search.tracks, _nodes_of(search)
+        tracks, nodes = search.tracks, search.n_nodes
         if tracks is not None:
             task.better(lambda: tracks)
-            status = Phrase("optimal: found by {nodes}", nodes=done)
+            status = Status("optimum found by search", nodes=nodes)
             return Draft(tracks=tracks, status=status, proof=proof)
         if search.is_proven:
-            status = Phrase(
-                "optimal: proven by {nodes} ({status})", nodes=done, status=draft.status
-            )
+            status = Status("proven by search", nodes=nodes, status=draft.status)
             draft = replace(draft, status=status)
         return replace(draft, proof=proof)
 
@@ -161,13 +157,10 @@ class _Prover:
         )
         search.run()
         proof = Proof(bound=Tick(search.bound), objective=find_objective(task))
-        done = _nodes_of(search)
         if search.value == search.bound:
-            status = Phrase(
-                "optimal: proven by {nodes} ({status})", nodes=done, status=draft.status
-            )
+            status = Status("proven by search", nodes=search.n_nodes, status=draft.status)
             if search.tracks is not draft.tracks:
-                status = Phrase("optimal: found by {nodes}", nodes=done)
+                status = Status("optimum found by search", nodes=search.n_nodes)
             draft = replace(draft, status=status)
         if search.tracks is not draft.tracks:
             return Draft(tracks=search.tracks, status=draft.status, proof=proof)
@@ -203,10 +196,10 @@ class _Prover:
             return None
         if search.tracks is not None:
             task.has_plan()
-            status = Phrase("optimal: found by {nodes}", nodes=_nodes_of(search))
+            status = Status("optimum found by search", nodes=search.n_nodes)
             objective = find_objective(task)
             if objective.has_makespan:
-                status = Phrase("found by {nodes}", nodes=_nodes_of(search))
+                status = Status("found by search", nodes=search.n_nodes)
                 draft = Draft(tracks=search.tracks, status=status)
                 return self.prove(draft, task.options["nodes"])
             proof = Proof(bound=search.bound or Tick(0), objective=objective)
@@ -240,11 +233,6 @@ class _Prover:
     def _has_time(self) -> bool:
         left = self._task.deadline.measure_seconds_left()
         return left is None or left > LEAST_IDLE * (self._whole or 0)
-
-
-def _nodes_of(search: ConflictBasedSearch | MakespanSearch) -> str:
-    nodes = say_count(search.n_nodes, "node", "nodes")
-    return Phrase("{nodes} of conflict-based search", nodes=nodes)
 
 
 def _is_optimal(task: Task, draft: Draft) -> bool:

@@ -36,9 +36,9 @@ from typing import Any
 
 from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.model import Proof, Tick, compute_cost
+from rightofway.model import Proof, Status, Tick, compute_cost
 from rightofway.model.outcome import Objective, choose_objective
-from rightofway.phrases import Phrase, say_count
+from rightofway.phrases import say_count
 from rightofway.planners.bounds import finish_optimum
 from rightofway.planners.impossible import find_blocking_set
 from rightofway.planners.lns import improve_best
@@ -132,24 +132,20 @@ class _Tree:
         except KeyboardInterrupt:
             if not task.keep_best or first is None:
                 raise
-            return replace(first, status=Phrase("interrupted: {status}", status=first.status))
-        done = say_count(search.n_nodes, "node", "nodes")
-        kind = Phrase("optimal")
+            return replace(first, status=Status("interrupted", status=first.status))
+        nodes, claim = search.n_nodes, Status("optimal")
         if self._factor > 1:
-            kind = Phrase("within {factor} of the optimum", factor=f"{float(self._factor):g}")
+            claim = Status("within factor", factor=self._factor)
         other = search.tracks
         if other is not None and (upper is None or compute_cost(scenario, other) < upper):
             task.has_plan()
-            tracks, status = other, Phrase("{kind}: found in {nodes}", kind=kind, nodes=done)
+            tracks, status = other, Status("found", claim=claim, nodes=nodes)
             task.better(lambda: tracks)
         elif first is not None:
             tracks = first.tracks
-            said = {"nodes": done, "status": first.status}
-            status = Phrase("{nodes} found nothing better (first plan: {status})", **said)
+            status = Status("nothing better", nodes=nodes, status=first.status)
             if self._is_over(upper):
-                status = Phrase(
-                    "{kind}: {nodes} prove it (first plan: {status})", kind=kind, **said
-                )
+                status = Status("proven", claim=claim, nodes=nodes, status=first.status)
         elif search.is_proven:
             robots = range(len(scenario.robots))
             raise NoPlanExists(
@@ -157,6 +153,7 @@ class _Tree:
             )
         else:
             remedy = "give a longer time limit, or take another planner"
+            done = say_count(nodes, "node", "nodes")
             message = f"time ran out in the search for an optimal plan, after {done} ({remedy})"
             error = GaveUp(message)
             if choose_objective(scenario) is Objective.FLOWTIME:  # the message has a bound of that
@@ -181,11 +178,11 @@ def _with_makespan(task: Task, first: Draft) -> Draft:
         factor=factor,
     )
     search.run()
-    status = Phrase(
-        "{kind}: {nodes} for the {objective} (first plan: {status})",
-        kind=Phrase("optimal") if search.value == search.bound else Phrase("best found"),
-        nodes=say_count(search.n_nodes, "node", "nodes"),
-        objective=Phrase(objective.value),
+    status = Status(
+        "searched",
+        claim=Status("optimal" if search.value == search.bound else "best found"),
+        nodes=search.n_nodes,
+        objective=objective.value,
         status=first.status,
     )
     proof = Proof(
@@ -204,7 +201,7 @@ def _is_within(task: Task, value: Tick, _: Deadline) -> bool:
 def _first_plan(task: Task, is_proven: Callable[[Tick, Deadline], bool]) -> Draft | None:
     """Return the plan given or one by large neighbourhood search, None where it finds none."""
     if task.start is not None:
-        return Draft(tracks=task.start, status=Phrase("the plan given"))
+        return Draft(tracks=task.start, status=Status("given"))
     iterations = ITERATIONS_PER_ROBOT * len(task.scenario.robots)
     hurried = replace(
         task,

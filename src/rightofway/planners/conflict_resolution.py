@@ -19,7 +19,7 @@ from itertools import accumulate
 import numpy as np
 
 from rightofway.errors import GaveUp
-from rightofway.model import Decision, Reroute, Route, Tick, Track
+from rightofway.model import Decision, Reroute, Route, Status, Tick, Track
 from rightofway.phrases import Phrase, chain_items
 from rightofway.planners.lacam import plan_fleet
 from rightofway.planners.prioritized import make_fleet_search, plan_in_turn
@@ -216,7 +216,7 @@ def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Ru
         because = Phrase("one robot at a time finds no way, so all were planned together")
         return _plan_together(task, because)
     ordered = [track for _, track in sorted(tracks.items())]
-    status, names = Phrase("waits only"), [robot.name for robot in task.scenario.robots]
+    status, names = Status("waits only"), [robot.name for robot in task.scenario.robots]
     if made_way:  # shift the visits of robots that waited for a robot on its former route
         ordered = build_graph_of_plan(task.scenario.problem, ordered).build_tracks()
     rerouted = [
@@ -225,8 +225,7 @@ def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Ru
         if tuple(ordered[robot].vertices.tolist()) != plan.routes[robot].vertices
     ]
     if rerouted:
-        robots = ", ".join(names[robot] for robot in rerouted)
-        status = Phrase("re-routed {robots}", robots=robots)
+        status = Status("re-routed", robots=[names[robot] for robot in rerouted])
     return Draft(
         tracks=tuple(ordered),
         status=status,
@@ -271,7 +270,7 @@ def _plan_together(task: Task, because: str) -> Draft:
         draft = plan_in_turn(task, make_fleet_search(task), "shortest")
     return replace(
         draft or plan_fleet(task),
-        status=Phrase("re-routed all robots together"),
+        status=Status("re-routed together"),
         reroutes=tuple(Reroute(robot=robot, because=because) for robot in robots),
     )
 

@@ -22,11 +22,10 @@ from itertools import pairwise
 from rightofway.deadline import Deadline
 from rightofway.errors import MAX_REASONS, Blockage, GaveUp, NoPlanExists
 from rightofway.facts import Fact
-from rightofway.model import Outcome, OutcomeKind, Plan, PlannerRun, Scenario, Tick, Track
+from rightofway.model import Outcome, OutcomeKind, Plan, PlannerRun, Scenario, Status, Tick, Track
 from rightofway.model.closures import Closure
 from rightofway.model.resources import measure_distance
 from rightofway.native import find_clashes
-from rightofway.phrases import Phrase
 from rightofway.search import (
     Bookings,
     Distances,
@@ -101,25 +100,25 @@ def _clashes(scenario: Scenario) -> Iterator[Blockage]:
     )
     for when, places in (("start", homes), ("end", ends)):
         for pair in find_clashes(scenario.problem.resources, places):
-            here, there = (places[robot] for robot in pair)
-            if here == there:
+            place, other_place = (places[robot] for robot in pair)
+            if place == other_place:
                 continue  # a shared end
-            one, other = (int(robot) for robot in pair)
-            values = {"one": one, "here": here, "other": other, "there": there}
-            zone = next((z for z in roadmap.zones if {here, there} <= {*z.vertices}), None)
+            robot, other = map(int, pair)
+            values = {"one": robot, "here": place, "other": other, "there": other_place}
+            zone = next((z for z in roadmap.zones if {place, other_place} <= {*z.vertices}), None)
             if zone is not None:
                 reason = Fact(f"{when} in one zone", scenario, **values, zone=zone.name)
             else:
-                needed = scenario.robots[one].radius + scenario.robots[other].radius
+                needed = scenario.robots[robot].radius + scenario.robots[other].radius
                 reason = Fact(
                     f"{when} too near",
                     scenario,
                     **values,
-                    distance=measure_distance(roadmap, here, there),
+                    distance=measure_distance(roadmap, place, other_place),
                     needed=needed + (scenario.rules.clearance if needed else 0),
                 )
-            names = _list_names(scenario, (one, other))
-            vertices = roadmap.name(here), roadmap.name(there)
+            names = _list_names(scenario, (robot, other))
+            vertices = roadmap.name(place), roadmap.name(other_place)
             yield Blockage(reason, names, vertices, Fact(f"{when} elsewhere", number=2))
 
 
@@ -295,7 +294,7 @@ def put_fleet_at_home(scenario: Scenario) -> Plan:
         tracks=tuple(Track.of([robot.home], [0]) for robot in scenario.robots),
         run=PlannerRun(
             name="none",
-            status=Phrase("no plan exists"),
+            status=Status("no plan exists"),
             outcome=Outcome(kind=OutcomeKind.NO_PLAN_EXISTS),
             alone=tuple(Tick(max(ticks, 0)) for ticks in alone.tolist()),
         ),

@@ -25,7 +25,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.phrases import Phrase
+from rightofway.model import Status
 from rightofway.planners.impossible import explain_no_room, find_smallest_set
 from rightofway.planners.task import Draft, Task
 
@@ -72,4 +72,4 @@ def plan_by_joint_states(task: Task) -> Draft | None:
     if plan.tracks is None:
         return None
     task.has_plan()
-    return Draft(tracks=plan.tracks, status=Phrase("joint states"))
+    return Draft(tracks=plan.tracks, status=Status("joint states"))

@@ -23,7 +23,7 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.model import Scenario, Track, make_route_through
+from rightofway.model import Scenario, Status, Track, make_route_through
 from rightofway.phrases import Phrase
 from rightofway.planners.impossible import (
     find_blocking_set,
@@ -86,9 +86,7 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
     if tracks is None:
         raise GaveUp("time ran out in the search for the whole fleet (give a longer time limit)")
     task.has_plan()
-    return Draft(
-        tracks=tuple(build_timetable(scenario, tracks)), status=Phrase("order of moves first")
-    )
+    return Draft(tracks=tuple(build_timetable(scenario, tracks)), status=Status("moves"))
 
 
 def _refuse_blocked(task: Task) -> NoReturn:
@@ -121,7 +119,7 @@ def plan_by_instants(
     if tracks is None:
         return None
     task.has_plan()
-    return Draft(tracks=tuple(tracks), status=Phrase("instant by instant"))
+    return Draft(tracks=tuple(tracks), status=Status("instants"))
 
 
 def build_timetable(scenario: Scenario, tracks: Sequence[Track]) -> list[Track]:

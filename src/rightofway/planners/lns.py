@@ -21,8 +21,8 @@ from dataclasses import replace
 from functools import partial
 
 from rightofway.errors import GaveUp
-from rightofway.model import Improvement, Objective, Tick, Track
-from rightofway.phrases import Phrase, chain_items, say_count
+from rightofway.model import Improvement, Objective, Status, Tick, Track
+from rightofway.phrases import Phrase, chain_items
 from rightofway.planners.lacam import plan_by_instants, plan_fleet
 from rightofway.planners.objectives import (
     compute_value,
@@ -72,7 +72,7 @@ def lns(task: Task) -> Draft:
     """Find a plan or take the one given, and improve it till time is up; options: `LnsOptions`."""
     search = make_fleet_search(task)
     if task.start is not None:
-        return _improve(task, search, Draft(tracks=task.start, status=Phrase("the plan given")))
+        return _improve(task, search, Draft(tracks=task.start, status=Status("given")))
     return improve_best(task, search)
 
 
@@ -126,7 +126,7 @@ def _together(task: Task) -> Draft | None:
     except GaveUp:
         return None
     task.better(lambda: draft.tracks)
-    return replace(draft, status=Phrase("all together"))
+    return replace(draft, status=Status("together"))
 
 
 def _quickly_together(task: Task) -> Draft | None:
@@ -137,7 +137,7 @@ def _quickly_together(task: Task) -> Draft | None:
     if draft is None:
         return None
     task.better(lambda: draft.tracks)
-    return replace(draft, status=Phrase("all together"))
+    return replace(draft, status=Status("together"))
 
 
 def _in_turn(task: Task, search: FleetSearch, *, has_plan: bool) -> Draft | None:
@@ -160,8 +160,8 @@ def _improve(
     task.better(lambda: first.tracks)
     spaced = _spaced(task, first.tracks)
     if spaced is None:
-        status = Phrase("closures leave no time for longer headways")
-        return replace(first, status=chain_items([first.status, status], "{first}; {second}"))
+        second = Status("no longer headways")
+        return replace(first, status=Status("then", first=first.status, second=second))
     search.start(spaced)
     is_open = task.scenario.problem.closures is None
     retiming = RETIMING if is_open else RETIMING_AMONG_CLOSURES
@@ -201,12 +201,13 @@ def _improve(
         is_interrupted = True
     tracks = _found(task, search, tuple(spaced), is_better=(search.value, search.cost) < before)
     rated = partial(measure_worth, task)
-    status = Phrase(
-        "optimal: every robot as fast as alone (first plan: {status})", status=first.status
-    )
+    status = Status("as fast as alone", status=first.status)
     if rated(tracks)[1] != least_cost:
         is_better = rated(tracks) != before
-        status = _status(first, done, is_better=is_better, is_interrupted=is_interrupted)
+        status = Status(
+            "improved" if is_better else "not improved", neighbourhoods=done, status=first.status
+        )
+        status = Status("interrupted", status=status) if is_interrupted else status
     if spaced is not first.tracks and rated(tracks) > rated(first.tracks):
         tracks = first.tracks  # the headway of planning costs more than the search gained
     saved = rated(first.tracks)[0] - rated(tracks)[0]
@@ -230,19 +231,6 @@ def _progress(task: Task, cost: int, bound: int, rate: float) -> str:
         figures.append(Phrase("{gap} above the bound", gap=f"{cost / bound - 1:.1%}"))
     figures.append(Phrase("{rate} attempts per s", rate=f"{rate:.0f}"))
     return chain_items(figures)
-
-
-def _status(first: Draft, done: int, *, is_better: bool, is_interrupted: bool) -> Phrase:
-    """Return what the search did with a first plan."""
-    values = {
-        "neighbourhoods": say_count(done, "neighbourhood", "neighbourhoods"),
-        "status": first.status,
-    }
-    if is_better:
-        status = Phrase("improved by {neighbourhoods} (first plan: {status})", **values)
-    else:
-        status = Phrase("{status}; {neighbourhoods} found nothing better", **values)
-    return Phrase("interrupted: {status}", status=status) if is_interrupted else status
 
 
 def _found(

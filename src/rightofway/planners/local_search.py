@@ -27,8 +27,7 @@ from itertools import chain
 from typing import NamedTuple
 
 from rightofway.errors import GaveUp
-from rightofway.model import Improvement, Objective, Tick
-from rightofway.phrases import Phrase, chain_items
+from rightofway.model import Improvement, Objective, Status, Tick
 from rightofway.planners.conflict_resolution import list_rights_if_waits
 from rightofway.planners.objectives import compute_value, find_objective, list_weights
 from rightofway.planners.task import Draft, Task
@@ -58,7 +57,7 @@ def local_search(task: Task) -> Draft:
 
     `two_level` makes the plan to start from where none is given.
     """
-    first = Draft(tracks=task.start, status="") if task.start else two_level(task)
+    first = Draft(tracks=task.start) if task.start else two_level(task)
     task.has_plan()
     task.better(lambda: first.tracks)
     graph = build_graph_of_plan(task.scenario.problem, first.tracks)
@@ -66,15 +65,17 @@ def local_search(task: Task) -> Draft:
     old = search.measure()
     search.run(rounds=int(task.options["rounds"]))
     new = search.measure()
-    gain = Phrase(
-        "flips took the {objective} from {before} to {after} ticks",
-        objective=Phrase(find_objective(task).value),
-        before=str(old[0]),
-        after=str(new[0]),
+    status = Status(
+        "reversals",
+        objective=find_objective(task).value,
+        before=int(old[0]),
+        after=int(new[0]),
     )
+    if first.status is not None:
+        status = Status("then", first=first.status, second=status)
     return Draft(
         tracks=tuple(graph.build_tracks()),
-        status=chain_items([*filter(None, [first.status]), gain], "{first}; {second}"),
+        status=status,
         reroutes=first.reroutes,
         improvement=Improvement(saved=Tick(old[0] - new[0])),
     )

@@ -31,9 +31,8 @@ from typing import NamedTuple
 
 from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.model import Scenario, Tick, Track, compute_least_dwell
+from rightofway.model import Scenario, Status, Tick, Track, compute_least_dwell
 from rightofway.native import list_excluded
-from rightofway.phrases import Phrase
 from rightofway.planners.impossible import explain_no_room, find_smallest_set, make_fleet_of
 from rightofway.planners.task import Draft, Task
 from rightofway.search import Distances, FleetSearch
@@ -82,7 +81,7 @@ def plan_by_moves(task: Task, search: FleetSearch) -> Draft:
     search.start(_in_sequence(task, moves))
     search.retime()
     task.has_plan()
-    return Draft(tracks=search.list_tracks(), status=Phrase("order of moves first"))
+    return Draft(tracks=search.list_tracks(), status=Status("moves"))
 
 
 def find_tracks_by_moves(

@@ -36,7 +36,7 @@ from dataclasses import replace
 from typing import Literal
 
 from rightofway.errors import GaveUp
-from rightofway.model import Tick
+from rightofway.model import Status, Tick
 from rightofway.phrases import Phrase
 from rightofway.planners.conflict_resolution import (
     PartialPlan,
@@ -159,7 +159,4 @@ def _best_of(
         if best is None:
             raise
     assert best is not None, "at least one order is tried"
-    status = Phrase("{status}; best of 1 order", status=best.status)
-    if tried > 1:
-        status = Phrase("{status}; best of {number} orders", status=best.status, number=str(tried))
-    return replace(best, status=status)
+    return replace(best, status=Status("best of orders", number=tried, status=best.status))

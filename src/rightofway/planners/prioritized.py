@@ -20,8 +20,7 @@ from fractions import Fraction
 import numpy as np
 
 from rightofway.deadline import Deadline
-from rightofway.model import Scenario, Stop, compute_cost
-from rightofway.phrases import Phrase
+from rightofway.model import Scenario, Status, Stop, compute_cost
 from rightofway.planners.impossible import refuse_stranded
 from rightofway.planners.lacam import build_timetable, plan_fleet
 from rightofway.planners.objectives import find_objective
@@ -59,7 +58,7 @@ def prioritized(task: Task) -> Draft:
     if draft is not None:
         return draft
     task.deadline.check("planning robots one after another")
-    status = Phrase("all together, because robots one after another found no way")
+    status = Status("together after in turn")
     return replace(plan_fleet(task), status=status)
 
 
@@ -125,7 +124,7 @@ def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
     if problem.closures is not None:  # a robot may have waited for a kept home
         tracks = tuple(build_graph_of_plan(task.scenario.problem, tracks).build_tracks())
     task.has_plan()
-    return Draft(tracks=tracks, status=Phrase("one after another"))
+    return Draft(tracks=tracks, status=Status("in turn"))
 
 
 def _at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:
@@ -140,7 +139,7 @@ def _at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:
         return None
     tracks = build_timetable(task.scenario, search.list_tracks())
     task.has_plan()
-    status = Phrase("one after another at one pace, each then at its own")
+    status = Status("in turn at one pace")
     return Draft(tracks=tuple(tracks), status=status)
 
 

@@ -17,6 +17,7 @@ from rightofway.model import (
     Proof,
     Reroute,
     Scenario,
+    Status,
     Track,
 )
 
@@ -73,7 +74,7 @@ class Draft:
     tracks
         One for each robot.
     status
-        What the planner did, in words.
+        The method that found them; in planners of other packages also an English phrase.
     decisions, reroutes, improvement, forced_losses
         As in `PlannerRun`.
     keeps_swaps
@@ -84,7 +85,7 @@ class Draft:
     """
 
     tracks: tuple[Track, ...]
-    status: str
+    status: Status | str | None = None
     decisions: tuple[Decision, ...] = ()
     reroutes: tuple[Reroute, ...] = ()
     improvement: Improvement | None = None

@@ -172,6 +172,9 @@ class FactWriter:
     def _forms(self) -> Mapping[str, Callable[[Any], str]]:
         return {
             "": self._write_text,
+            "factor": lambda factor: f"{float(factor):g}",
+            "listed": ", ".join,
+            "word": Phrase,
             "few": lambda values: join_names(list(map(self._write_text, values))),
             "few_places": lambda vertices: join_names(list(map(self.name_place, vertices))),
             "few_robots": lambda robots: join_names(list(map(self.name_robot, robots))),

@@ -29,7 +29,7 @@ def make_summary_data(plan: Plan) -> dict[str, Any]:
             "name": run.name,
             "options": dict(run.options),
             "seed": run.seed,
-            "status": run.status,
+            "status": None if run.status is None else run.status.as_dict(),
             "seconds": _rounded(run.seconds),
             "first_plan_seconds": _rounded(run.first_plan_seconds),
             **({} if run.start is None else {"start": asdict(run.start)}),

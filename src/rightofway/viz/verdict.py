@@ -24,7 +24,7 @@ def give_verdict(plan: Plan) -> Report:
     In an excerpt, robots stay at home after their last lap, in the way of others, and a robot that
     stands still for ever leaves stops undone. Neither is a fault of laps without end.
     """
-    is_excerpt = plan.run.name == "laps" and plan.run.status == plan.run.options.get("rule")
+    is_excerpt = plan.run.status is not None and plan.run.status.kind == "excerpt of laps"
     judge = _judge_excerpt if is_excerpt else partial(check, limit=LISTED_FAULTS)
     return plan.compute_once("verdict", lambda: judge(plan))
 

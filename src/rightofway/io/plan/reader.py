@@ -26,6 +26,7 @@ from rightofway.model import (
     Reroute,
     Scenario,
     StartPlan,
+    Status,
     SteadyState,
     Tick,
     Track,
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
         DecisionDocument,
         ForcedLossDocument,
         OutcomeDocument,
+        StatusDocument,
         SteadyDocument,
         TrackDocument,
     )
@@ -185,12 +187,13 @@ def _run(data: Any, names: _Names | None) -> PlannerRun | None:
         faults.attempt(("forced_losses", index), _forced_loss, loss, names)
         for index, loss in enumerate(document.forced_losses)
     ]
+    status = faults.attempt(("status",), _status, document.status)
     faults.stop()
     return PlannerRun(
         name=document.name,
         options={key: _with_floats(value) for key, value in document.options.items()},
         seed=document.seed,
-        status=document.status,
+        status=status,
         seconds=None if document.seconds is None else float(document.seconds),
         decisions=tuple(decision for decision in decisions if decision),
         reroutes=tuple(reroutes),
@@ -198,6 +201,10 @@ def _run(data: Any, names: _Names | None) -> PlannerRun | None:
         outcome=None if document.outcome is None else _outcome(document.outcome),
         forced_losses=tuple(loss for loss in losses if loss),
     )
+
+
+def _status(document: StatusDocument | None) -> Status | None:
+    return None if document is None else Status.read(document.model_dump())
 
 
 def _forced_loss(document: ForcedLossDocument, names: _Names) -> ForcedLoss:

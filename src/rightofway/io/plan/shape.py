@@ -103,13 +103,24 @@ class ForcedLossDocument(Document):
     )
 
 
+class StatusDocument(Document):
+    """The method by which a planner found the plan."""
+
+    kind: Name = Field(description="one of the kinds below")
+    counts: dict[str, Any] = Field(
+        default={}, description="a mapping of counts and names, and of statuses of earlier plans"
+    )
+
+
 class PlannerDocument(Document):
     """How a plan came about."""
 
     name: Name = Field(description="the name of the planner")
     options: dict[str, Any] = Field(default={}, description="a mapping of options to values")
     seed: int = Field(default=0, description="a whole number")
-    status: Sentence = Field(default="", description="a sentence, or its template and values")
+    status: StatusDocument | None = Field(
+        default=None, description="{kind, counts} of the method, or null"
+    )
     seconds: NotNegative | None = Field(default=None, description="how long it took, or null")
     decisions: list[DecisionDocument] = Field(default=[], description="a list of decisions")
     reroutes: list[RerouteDocument] = Field(default=[], description="a list of {robot, because}")

@@ -109,7 +109,7 @@ def _planner(run: PlannerRun, scenario: Scenario, *, seconds: bool) -> dict[str,
         "name": run.name,
         "options": dict(sorted(run.options.items())),
         "seed": run.seed,
-        "status": to_parts(run.status),
+        "status": None if run.status is None else run.status.as_dict(),
         "seconds": float(run.seconds) if seconds and run.seconds is not None else None,
         "decisions": [_decision(decision, scenario) for decision in run.decisions],
         "reroutes": [

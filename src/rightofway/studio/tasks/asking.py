@@ -9,7 +9,7 @@ from rightofway.check import check
 from rightofway.errors import InputError, InvalidPlan, find_nearest
 from rightofway.io import format_plan
 from rightofway.metrics import compute_lost_time
-from rightofway.model import Loss, Plan, Tick
+from rightofway.model import Loss, Plan, Status, Tick
 from rightofway.phrases import Phrase, to_parts
 from rightofway.planners.flip import flip_right_of_way
 from rightofway.report.sentences import Words, describe_decision, describe_losses, explain_decision
@@ -132,9 +132,8 @@ def flip(
     plan = read(blobs[0])
     pair = _index(plan, "waits", waits), _index(plan, "goes_first", goes_first)
     answer = flip_right_of_way(plan, *pair, Tick(tick), time_limit=time_limit)
-    status = f"{waits} goes before {goes_first}"
-    if not answer.keeps_routes:
-        status = f"{status}; both planned again"
+    kind = "reversed" if answer.keeps_routes else "reversed and replanned"
+    status = Status(kind, waits=waits, goes_first=goes_first)
     run = replace(plan.run, status=status, seconds=None, decisions=())
     flipped_plan = Plan(scenario=plan.scenario, tracks=answer.tracks, run=run)
     report = check(flipped_plan)
@@ -143,7 +142,7 @@ def flip(
     result = {
         "figures": compute_figures(flipped_plan),
         "before": compute_figures(plan),
-        "status": run.status,
+        "status": str(status),
     }
     return (result, format_plan(flipped_plan).encode())
 

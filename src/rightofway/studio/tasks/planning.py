@@ -10,7 +10,7 @@ from typing import Any
 from rightofway.facts import Fact
 from rightofway.io import FOREIGN_FORMATS, format_plan, parse_plan
 from rightofway.io.json_text import parse_json
-from rightofway.model import Plan
+from rightofway.model import Plan, Status
 from rightofway.solve import improve as improved
 from rightofway.solve import solve
 from rightofway.studio.messages import Blobs, Emit
@@ -93,9 +93,9 @@ def _searched(emit: Emit, search: Callable[[dict[str, Any]], Plan]) -> Result:
     except KeyboardInterrupt:
         if progress.best is None:
             raise
-        ended = "interrupted: the best plan that was made"
-        best = replace(progress.best, run=replace(progress.best.run, status=ended))
-    status = {"status": best.run.status, "seconds": best.run.seconds}
+        run = replace(progress.best.run, status=Status("stopped"))
+        best = replace(progress.best, run=run)
+    status = {"status": str(best.run.status), "seconds": best.run.seconds}
     return ({"figures": compute_figures(best), **status}, format_plan(best).encode())
 
 

@@ -267,7 +267,7 @@ def make_closure_data(closure: Closure, scenario: Scenario) -> ClosureData:
 
 def _planner(plan: Plan) -> PlannerData:
     run = plan.run
-    method = run.status
+    method = "" if run.status is None else FactWriter(plan.scenario).write(run.status)
     if run.improvement is not None:
         method = describe_improvement(run.improvement, plan.scenario.quantities)
     data: PlannerData = {"name": run.name, "method": to_parts(method)}

@@ -126,7 +126,8 @@ def _write_summary(sheet: Any, plan: Plan, more: Sequence[tuple[str, str]]) -> N
 
 def _figures(plan: Plan) -> Iterator[tuple[str, str]]:
     quantities, count = plan.scenario.quantities, len(plan.tracks)
-    yield "planner", f"{plan.run.name}: {plan.run.status}"
+    status = "" if plan.run.status is None else f": {plan.run.status}"
+    yield "planner", f"{plan.run.name}{status}"
     yield "robots", str(count)
     yield "flowtime", quantities.format_duration(plan.flowtime)
     yield "makespan", quantities.format_duration(plan.makespan)
