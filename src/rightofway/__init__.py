@@ -20,6 +20,7 @@ from types import ModuleType as _ModuleType
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists, RightOfWayError
+from rightofway.facts import Fact
 from rightofway.figures import PackageFigures as _PackageFigures
 from rightofway.figures import PackageTeller as _PackageTeller
 from rightofway.provision import provided as _provided
@@ -210,6 +211,7 @@ __all__ = [
     "CyclicResult",
     "Decision",
     "ExecutionTrace",
+    "Fact",
     "Fault",
     "Film",
     "FleetBuilder",
