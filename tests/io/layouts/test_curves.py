@@ -213,4 +213,4 @@ def test_a_curve_is_written_as_a_trajectory(tmp_path: Path) -> None:
         edge.shape for edge in found.levels[0].edges
     ]
     _, losses = format_layout(found, "graphml")
-    assert "curves that robots drive along (2: A to B and B to A)" in losses[0]
+    assert "curves that robots drive along (2: A to B and B to A)" in str(losses[0])

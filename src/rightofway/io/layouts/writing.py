@@ -13,8 +13,8 @@ from typing import Any
 
 from rightofway.arguments import checks_arguments, get_value
 from rightofway.errors import InputError
+from rightofway.facts import Fact
 from rightofway.io.json_text import format_json_line
-from rightofway.phrases import join_first, join_items
 from rightofway.site.geometry import Point, measure_squared_distance
 from rightofway.site.lane_table import LayoutEdge
 from rightofway.site.layout import Layout, LayoutVertex, Level, name_lanes
@@ -49,7 +49,7 @@ class LayoutWriter:
 
 
 @checks_arguments
-def format_layout(layout: Layout, name: str) -> tuple[str, tuple[str, ...]]:
+def format_layout(layout: Layout, name: str) -> tuple[str, tuple[Fact, ...]]:
     """Return a layout as the text of a file for another program.
 
     Parameters
@@ -62,7 +62,7 @@ def format_layout(layout: Layout, name: str) -> tuple[str, tuple[str, ...]]:
     Returns
     -------
     tuple
-        The text, and what the layout has and the format cannot say, a sentence each.
+        The text, and the content of the layout that the format leaves out.
 
     Raises
     ------
@@ -76,8 +76,8 @@ def format_layout(layout: Layout, name: str) -> tuple[str, tuple[str, ...]]:
     return writer.write(layout), tuple(list_losses(layout, writer.says))
 
 
-def list_losses(layout: Layout, says: frozenset[str]) -> Iterator[str]:
-    """Yield what a layout has beside vertices, lanes and speed limits, and a format cannot say."""
+def list_losses(layout: Layout, says: frozenset[str]) -> Iterator[Fact]:
+    """Yield the content of a layout, other than vertices and lanes, that a format leaves out."""
     levels = layout.levels
     vertices = [vertex for level in levels for vertex in level.vertices]
     edges = [edge for level in levels for edge in level.edges]
@@ -101,13 +101,13 @@ def list_losses(layout: Layout, says: frozenset[str]) -> Iterator[str]:
         "further zones of one place": [name for level in levels for name in _name_overlaps(level)],
         "lanes to other levels": [name for level in levels for name in name_lanes(level.links)],
     }
-    lost = [
-        f"{loss} ({len(names)}: {join_first(names)})"
+    lost = tuple(
+        Fact("loss", loss=loss, count=len(names), names=tuple(names))
         for loss, names in pieces.items()
         if names and loss not in says
-    ]
+    )
     if lost:
-        yield f"left out, the format has no place for them: {join_items(lost)}"
+        yield Fact("left out of format", losses=lost)
 
 
 def _name_edges(edges: Iterable[LayoutEdge]) -> list[str]:
