@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from rightofway.errors import InputError
+from rightofway.io import parse_scenario
 from rightofway.model import Resources, Rules, Scenario
 from rightofway.model.resources import bind_resources, circumscribe, close_pairs
 from rightofway.native import bind_lists, find_clashes, find_vertices_near, list_excluded
@@ -18,7 +19,7 @@ from rightofway.site import Edge, Roadmap, make_grid_roadmap, make_roadmap
 from rightofway.site.zones import NamedZone
 from tests.builders.any_fleet import any_fleet
 from tests.builders.fleets import grid_fleet
-from tests.builders.laws import law, leave
+from tests.builders.laws import law, leave, once
 from tests.builders.sizes import crossing
 from tests.oracles.space import incompatible
 
@@ -85,8 +86,30 @@ def test_moving_a_layout_changes_nothing(shift: tuple[float, float]) -> None:
     assert lists(here)[5] == [3, 4, 5, 6, 7]
 
 
-# All pairs of a large site take seconds; zones are rows of their own.
+def _star(*radii: str) -> Scenario:
+    """Six lanes from a vertex that robots only drive through, two robots."""
+    ends = [(2, 0), (1, 2), (-1, 2), (-2, 0), (-1, -2), (1, -2)]
+    vertices = {"M": {"at": [0, 0], "pass": True}}
+    lanes = [{"from": "M", "to": f"v{k}", "length": 3, "both_ways": True} for k in range(6)]
+    robots = [
+        {"name": f"R{k}", "home": f"v{k}", "target": f"v{k + 3}", "radius": radius}
+        for k, radius in enumerate(radii)
+    ]
+    drawn = {**vertices, **{f"v{k}": list(at) for k, at in enumerate(ends)}}
+    return parse_scenario(
+        {
+            "format": "rightofway-scenario/1",
+            "map": {"roadmap": {"vertices": drawn, "edges": lanes}},
+            "robots": robots,
+        }
+    )
+
+
+# All pairs of a large site take seconds; zones are rows of their own. Each vertex of a chain has
+# all parts of the chain, which a star of lanes around one vertex tries with 30 chains.
 @law(any_fleet(robots=(2, 3), always={"sizes"}, without={"zones", "spacing"}, tiny=True))
+@once(scenario=_star("0", "0"))
+@once(scenario=_star("0.3", "0.7"))
 def test_rows_exclude_what_the_definition_does_unless_the_ends_of_edges_do(
     scenario: Scenario,
 ) -> None:

@@ -70,8 +70,8 @@ def _lists_of(
     members = [list_members(roadmap, zone) for zone in roadmap.zones]
     passing = roadmap.passing
     chains = () if passing is None else passing.chains
-    if passing is not None:  # all vertices that stand for a passed one are one place
-        members += map(list[int], passing.copies.values())
+    if passing is not None:  # a passed vertex and all vertices that stand for it are one place
+        members += ([drawn, *copies] for drawn, copies in passing.copies.items())
     return _core.ExcludedRows(
         _core.Roads(
             roadmap.indptr,
