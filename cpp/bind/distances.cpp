@@ -1,6 +1,7 @@
 #include "bindings.hpp"
 #include "distances/congestion.hpp"
 #include "distances/distance_tables.hpp"
+#include "distances/shortest_paths.hpp"
 
 namespace rightofway::bind {
 namespace {
@@ -47,6 +48,33 @@ ArrayOut<std::int32_t> to(const DistanceTables& self, VertexId target,
     return to_numpy(std::move(distance));
 }
 
+constexpr auto paths_doc =
+    R"(Canonical shortest paths between single pairs of vertices, without a table for each target.
+
+The graph is copied once; one thread at a time may use one object.
+
+Parameters
+----------
+indptr, indices : int32[V + 1], int32[E]
+    The graph, as for `DistanceTables`.
+edge_ticks : int32[E]
+    What each edge takes, above 0; -1 where it is barred. [ticks])";
+
+constexpr auto find_doc =
+    R"(Return the vertices of a shortest path, both ends included, int32[n]; empty if there is none.
+
+Of several shortest paths, the one that takes the first edge of a vertex that it can.
+
+Parameters
+----------
+start, target : int
+    The vertices at which the path begins and ends.
+
+Raises
+------
+OverflowError
+    If a least time does not fit int32.)";
+
 constexpr auto congestion_doc = R"(Cheapest paths that keep clear of other robots.
 
 To drive an edge costs ``shares`` for each tick that it takes, and more per tick: what it costs to
@@ -91,6 +119,20 @@ void bind_distances(nb::module_& module) {
     nb::class_<DistanceTables>(module, "DistanceTables", distances_doc)
         .def("__init__", &init_distances, array("indptr"), array("indices"))
         .def("to", &to, nb::arg("target"), array("edge_ticks"), to_doc);
+    nb::class_<ShortestPaths>(module, "ShortestPaths", paths_doc)
+        .def(
+            "__init__",
+            [](ShortestPaths* self, const ArrayIn<EdgeId>& indptr, const ArrayIn<VertexId>& indices,
+               const ArrayIn<std::int32_t>& edge_ticks) {
+                new (self) ShortestPaths(view(indptr), view(indices), view(edge_ticks));
+            },
+            array("indptr"), array("indices"), array("edge_ticks"))
+        .def(
+            "find",
+            [](ShortestPaths& self, VertexId start, VertexId target) {
+                return to_numpy(self.find(start, target));
+            },
+            nb::arg("start"), nb::arg("target"), find_doc);
     nb::class_<Congestion>(module, "Congestion", congestion_doc)
         .def(
             "__init__",

@@ -1,13 +1,16 @@
 #include "problem/problem.hpp"
 
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/tuple.h>
 
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "objects.hpp"
+#include "problem/overlaps.hpp"
 
 namespace rightofway::bind {
 namespace {
@@ -204,6 +207,40 @@ void init_problem(Problem* self, const BoundRoads& roads, const BoundRobots& rob
     new (self) Problem(arrays, rules, resources, turns, closed);
 }
 
+constexpr auto overlaps_doc =
+    R"(Return which bookings of different robots overlap at a vertex, and whether these are all.
+
+Bookings come by vertex, then by start.
+
+Parameters
+----------
+vertex, robot : int32[N]
+    Where each booking is, and of which robot.
+start, end : int64[N]
+    From when to when it lasts, the end excluded. [ticks]
+most : int
+    How many pairs to find at most.
+time_limit : float or None
+    After how long to stop. [s]
+
+Returns
+-------
+tuple of (int32[K], int32[K], bool)
+    The earlier and the later booking of each pair; false if there may be more of them.)";
+
+std::tuple<ArrayOut<std::int32_t>, ArrayOut<std::int32_t>, bool> list_overlaps(
+    const ArrayIn<VertexId>& vertex, const ArrayIn<RobotId>& robot, const ArrayIn<Tick>& start,
+    const ArrayIn<Tick>& end, std::size_t most, std::optional<double> time_limit) {
+    const Deadline deadline(time_limit);
+    Overlaps found;
+    {
+        const nb::gil_scoped_release released;
+        found = find_overlaps({view(vertex), view(start), view(end), view(robot)}, most, deadline);
+    }
+    return {to_numpy(std::move(found.earlier)), to_numpy(std::move(found.later)),
+            found.end == SearchEnd::found};
+}
+
 }  // namespace
 
 void bind_problem(nb::module_& module) {
@@ -258,6 +295,9 @@ row : int
         .def_prop_ro("n_robots", &Problem::n_robots, "The number of robots, R.")
         .def_prop_ro("n_vertices", &Problem::n_vertices, "The number of vertices, V.")
         .def_prop_ro("rules", &Problem::rules, "How visits are booked.");
+    module.def("find_overlaps", &list_overlaps, array("vertex"), array("robot"), array("start"),
+               array("end"), nb::arg("most"), nb::arg("time_limit").none() = nb::none(),
+               overlaps_doc);
 }
 
 }  // namespace rightofway::bind

@@ -219,6 +219,29 @@ class Problem:
     def rules(self) -> BookingRules:
         """How visits are booked."""
 
+def find_overlaps(vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], robot: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], end: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], most: int, time_limit: float | None = None) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], bool]:
+    """
+    Return which bookings of different robots overlap at a vertex, and whether these are all.
+
+    Bookings come by vertex, then by start.
+
+    Parameters
+    ----------
+    vertex, robot : int32[N]
+        Where each booking is, and of which robot.
+    start, end : int64[N]
+        From when to when it lasts, the end excluded. [ticks]
+    most : int
+        How many pairs to find at most.
+    time_limit : float or None
+        After how long to stop. [s]
+
+    Returns
+    -------
+    tuple of (int32[K], int32[K], bool)
+        The earlier and the later booking of each pair; false if there may be more of them.
+    """
+
 class Routes:
     """
     Fixed visits of robots, robot by robot.
@@ -449,6 +472,39 @@ class DistanceTables:
             The vertex to reach.
         edge_ticks : int32[E]
             What each edge takes, above 0; -1 where it is barred. [ticks]
+
+        Raises
+        ------
+        OverflowError
+            If a least time does not fit int32.
+        """
+
+class ShortestPaths:
+    """
+    Canonical shortest paths between single pairs of vertices, without a table for each target.
+
+    The graph is copied once; one thread at a time may use one object.
+
+    Parameters
+    ----------
+    indptr, indices : int32[V + 1], int32[E]
+        The graph, as for `DistanceTables`.
+    edge_ticks : int32[E]
+        What each edge takes, above 0; -1 where it is barred. [ticks]
+    """
+
+    def __init__(self, indptr: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edge_ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+
+    def find(self, start: int, target: int) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+        """
+        Return the vertices of a shortest path, both ends included, int32[n]; empty if there is none.
+
+        Of several shortest paths, the one that takes the first edge of a vertex that it can.
+
+        Parameters
+        ----------
+        start, target : int
+            The vertices at which the path begins and ends.
 
         Raises
         ------

@@ -84,6 +84,11 @@ def check_work(doing: str) -> None:
     _deadline.get().check(doing)
 
 
+def measure_work_left() -> float | None:
+    """Return how long such work may take [s]; None for no limit."""
+    return _deadline.get().measure_seconds_left()
+
+
 def make_check(doing: str) -> Callable[[], None]:
     """Return a function that raises `GaveUp` if the time is over, for threads of a pool, too.
 

@@ -96,7 +96,7 @@ def test_the_paper_lists_a_collision_for_each_tick() -> None:
 
 def test_the_swap_that_the_published_method_leaves_is_listed() -> None:
     plan = published("door-5")
-    assert name_collisions(plan.scenario, plan.tracks) == (
+    assert tuple(name_collisions(plan.scenario, plan.tracks)) == (
         NamedCollision("R1", "R2", Tick(7), Tick(7), ("N7", "N4"), "swap"),
     )
 

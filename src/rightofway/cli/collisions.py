@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -10,13 +9,20 @@ import click
 
 from rightofway.cli.completion import SCENARIOS, complete_files, complete_planners
 from rightofway.cli.inputs import add_foreign_options, count_option, read_either
-from rightofway.cli.options import as_json_option, choose_quantities, require_writable, ticks_option
+from rightofway.cli.options import (
+    as_json_option,
+    choose_quantities,
+    require_writable,
+    ticks_option,
+    time_limit_option,
+)
 from rightofway.cli.tables import describe_clock, put_lists
-from rightofway.cli.terminal import put_json, show_progress
+from rightofway.cli.terminal import choose_deadline, put_json, show_progress
+from rightofway.errors import InputError
 from rightofway.phrases import Phrase, say_count
 
 if TYPE_CHECKING:
-    from rightofway.metrics import NamedCollision
+    from rightofway.metrics import NamedCollision, NamedCollisions
     from rightofway.model import Plan
     from rightofway.quantities import Quantities
     from rightofway.viz.table import Listing
@@ -47,6 +53,7 @@ LEGEND = Phrase(
               help="List Collision(i, j, t) = n tick by tick, as the paper does.")  # fmt: skip
 @click.option("--planner", metavar="NAME", shell_complete=complete_planners(improving=False),
               help="Plan a scenario first, and list each decision too.")  # fmt: skip
+@time_limit_option
 @ticks_option
 @as_json_option("list")
 def collisions(
@@ -56,6 +63,7 @@ def collisions(
     output: str | None,
     each_tick: bool,
     planner: str | None,
+    time_limit: float | None,
     in_ticks: bool,
     as_json: bool,
 ) -> None:
@@ -65,6 +73,7 @@ def collisions(
     shortest routes. Those of a plan drive the routes of the plan; the decisions of its planner
     follow, with the conflicts before and after each. A file of - is standard input.
     """
+    from rightofway.deadline import limit_work
     from rightofway.metrics import free_running, name_collisions
     from rightofway.model import Scenario, compute_completions
     from rightofway.planners.routing import free_running_tracks
@@ -75,39 +84,53 @@ def collisions(
         tabulate_decisions,
     )
 
-    opened = read_either(source, count)
-    if isinstance(opened, Scenario) and planner:
-        with show_progress() as report:
-            opened = solve(opened, planner, report=report)
-    plan = None if isinstance(opened, Scenario) else opened
-    scenario = opened if isinstance(opened, Scenario) else opened.scenario
-    tracks = free_running_tracks(scenario) if plan is None else free_running(plan)
-    quantities = choose_quantities(scenario, in_ticks=in_ticks)
-    listed = name_collisions(scenario, tracks)
-    if each_tick:
-        end = max(compute_completions(scenario, tracks))
-        lists = [tabulate_collision_ticks(listed, quantities, end)]
-    else:
-        lists = [tabulate_collisions(listed, quantities)]
-    if plan is not None and plan.run.decisions:
-        lists.append(tabulate_decisions(plan, quantities))
-    if output:
-        put_lists(lists, output)
-    if as_json:
-        put_json(_collision_data(listed, plan, quantities))
-    elif not output:
+    deadline = choose_deadline(time_limit)
+    with limit_work(deadline):
+        opened = read_either(source, count)
+        if isinstance(opened, Scenario) and planner:
+            with show_progress(time_limit) as report:
+                left = deadline.measure_seconds_left()
+                opened = solve(opened, planner, left, report=report)
+        plan = None if isinstance(opened, Scenario) else opened
+        scenario = opened if isinstance(opened, Scenario) else opened.scenario
+        tracks = free_running_tracks(scenario) if plan is None else free_running(plan)
+        quantities = choose_quantities(scenario, in_ticks=in_ticks)
+        listed = name_collisions(scenario, tracks)
+        if output or as_json:
+            _refuse_length(listed)
+        if each_tick:
+            end = max(compute_completions(scenario, tracks))
+            lists = [tabulate_collision_ticks(listed, quantities, end)]
+        else:
+            lists = [tabulate_collisions(listed, quantities)]
+        if plan is not None and plan.run.decisions:
+            lists.append(tabulate_decisions(plan, quantities))
+        if output:
+            put_lists(lists, output)
+        if as_json:
+            put_json(_collision_data(listed, plan, quantities))
+    if not output and not as_json:
         ticks = len(lists[0]) if each_tick else 0
         parts = [_headline(listed, ticks, is_planned=plan is not None), *_texts(lists)]
         if len(lists) > 1:
             parts.append(LEGEND)
         if plan is not None:
-            left = name_collisions(scenario, plan.tracks)
-            parts.append(Phrase("Left in the plan: {collisions}.", collisions=_counted(left)))
-            parts += _texts([tabulate_collisions(left, quantities)])
+            remaining = name_collisions(scenario, plan.tracks)
+            parts.append(Phrase("Left in the plan: {collisions}.", collisions=_counted(remaining)))
+            parts += _texts([tabulate_collisions(remaining, quantities)])
         click.echo("\n\n".join(parts))
 
 
-def _headline(listed: Sequence[NamedCollision], ticks: int, *, is_planned: bool) -> str:
+def _refuse_length(listed: NamedCollisions) -> None:
+    """Refuse to write a list that is too long for a file."""
+    from rightofway.viz.table import MAX_ROWS
+
+    if len(listed) > MAX_ROWS:
+        message = f"{len(listed)} collisions and swaps are more than {MAX_ROWS} rows"
+        raise InputError.at("-o, --json", f"{message} (leave both out, or take fewer robots)")
+
+
+def _headline(listed: NamedCollisions, ticks: int, *, is_planned: bool) -> str:
     number = _counted(listed)
     if ticks and listed:
         counted_ticks = say_count(ticks, "tick", "ticks")
@@ -121,8 +144,8 @@ def _texts(lists: Sequence[Listing]) -> list[str]:
     return [listing.as_text() for listing in lists if len(listing)]
 
 
-def _counted(listed: Sequence[NamedCollision]) -> str:
-    kinds = Counter(collision.kind for collision in listed)
+def _counted(listed: NamedCollisions) -> str:
+    kinds = listed.count_kinds()
     collisions = say_count(kinds["collision"], "collision", "collisions")
     swaps = say_count(kinds["swap"], "swap", "swaps")
     text = Phrase("{first} and {last}", first=collisions, last=swaps)
@@ -131,7 +154,7 @@ def _counted(listed: Sequence[NamedCollision]) -> str:
 
 
 def _collision_data(
-    listed: Sequence[NamedCollision], plan: Plan | None, quantities: Quantities
+    listed: NamedCollisions, plan: Plan | None, quantities: Quantities
 ) -> dict[str, Any]:
     """Return collisions and decisions for programs; times in ticks."""
     from rightofway.metrics import name_collisions

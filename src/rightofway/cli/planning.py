@@ -184,7 +184,8 @@ Examples:
     "--time-limit",
     type=click.FloatRange(min=0),
     metavar="SECONDS",
-    help="Time to raise the bound by what robots lose to each other; none unless given.",
+    help="Time limit of the whole command, to raise the bound by what robots lose to each"
+    " other; the bound is not raised unless given.",
 )
 def bound(
     *, scenario: str, count: int | None, in_ticks: bool, as_json: bool, time_limit: float | None
@@ -196,19 +197,20 @@ def bound(
     robots are listed that lose time to each other in every plan. A SCENARIO of - is
     standard input.
     """
-    from rightofway.deadline import Deadline
+    from rightofway.deadline import limit_work
     from rightofway.io.plan.writer import make_forced_losses
     from rightofway.metrics import compute_alone_completions, find_forced_losses
     from rightofway.planners.bounds import prove_bound
     from rightofway.report.plan import report_bounds
     from rightofway.report.plan_data import describe_measures
 
-    problem = read_scenario(scenario, count)
+    deadline = choose_deadline(time_limit)
+    with limit_work(deadline):
+        problem = read_scenario(scenario, count)
     alone, names = compute_alone_completions(problem), [robot.name for robot in problem.robots]
     proof, is_reached = None, False
     losses: tuple[ForcedLoss, ...] = ()
     if time_limit is not None:
-        deadline = Deadline.after(time_limit)
         share = deadline.shorten(SHARE_OF_PAIRS).measure_seconds_left()
         losses = find_forced_losses(problem, time_limit=share)
         proof, is_reached = prove_bound(problem, time_limit=deadline.measure_seconds_left())

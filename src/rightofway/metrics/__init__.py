@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from rightofway.metrics.collisions import (
         Collision,
         NamedCollision,
+        NamedCollisions,
         NearMiss,
         Swap,
         find_collisions,
@@ -38,6 +39,7 @@ _MODULES = {
     "collisions": (
         "Collision",
         "NamedCollision",
+        "NamedCollisions",
         "NearMiss",
         "Swap",
         "find_collisions",
@@ -75,6 +77,7 @@ __all__ = [
     "Inspection",
     "Metrics",
     "NamedCollision",
+    "NamedCollisions",
     "NearMiss",
     "Site",
     "Swap",

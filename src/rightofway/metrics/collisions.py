@@ -5,18 +5,20 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import chain, combinations, groupby, pairwise, product
-from operator import itemgetter
-from typing import NamedTuple
+from itertools import chain, pairwise, product
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments, require_one_for_each
+from rightofway.deadline import check_work, limit_loop, measure_work_left
+from rightofway.errors import InputError
 from rightofway.model import NEVER, Plan, Scenario, Stays, Tick, Track, find_stays
 from rightofway.model.resources import Resources
 from rightofway.model.sorting import order_by
-from rightofway.native import book_times, list_excluded
+from rightofway.model.stays import compute_drives
+from rightofway.native import book_times, find_overlaps, list_excluded
 from rightofway.site import VertexId
 
 
@@ -25,19 +27,29 @@ class BookedPlaces:
     """All bookings of a fleet, by vertex, then by start; each array has shape (n,)."""
 
     visit: NDArray[np.int64]  # counted robot by robot along the tracks
-    robot: NDArray[np.int64]
+    robot: NDArray[np.int32]
     vertex: NDArray[np.int32]
     start: NDArray[np.int64]  # [ticks]
     end: NDArray[np.int64]  # [ticks]
 
 
+MOST_MEETINGS = 10_000_000
+"""Collisions and swaps of a fleet that are found, at most; half a gigabyte."""
+
+FINDING = "finding collisions"
+"""What takes the time, for messages."""
+
+ROWS_AT_ONCE = 4096
+"""Rows of a list of collisions that are made objects at once."""
+
+
 def list_bookings(
-    scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
+    scenario: Scenario, tracks: Sequence[Track], drive: NDArray[np.int64]
 ) -> BookedPlaces:
-    """Return what a fleet books under the scenario's rules."""
-    start, end = book_times(scenario.problem, tracks, stays)
+    """Return what a fleet books under the scenario's rules, given its drives out of all visits."""
+    start, end = book_times(scenario.problem, tracks, drive)
     vertex = np.concatenate([track.vertices for track in tracks])
-    robot = np.repeat(np.arange(len(tracks)), [len(track) for track in tracks])
+    robot = np.repeat(np.arange(len(tracks), dtype=np.int32), [len(track) for track in tracks])
     order = order_by(vertex, start)  # stable, so by robot where all else is equal
     return BookedPlaces(
         visit=order, robot=robot[order], vertex=vertex[order], start=start[order], end=end[order]
@@ -98,30 +110,15 @@ def find_collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Collis
     The paper's list counts the ticks of these intervals one by one.
     """
     require_one_for_each(scenario.robots, tracks=tracks)
-    bookings = list_bookings(scenario, tracks, find_stays(scenario, tracks))
-    columns = (bookings.vertex, bookings.start, bookings.end, bookings.robot)
-    collisions_at_vertex: list[Collision] = []
-    open_bookings: list[tuple[int, int, int]] = []  # of the vertex, those that have not ended yet
-    for vertex, start, end, robot in zip(*(column.tolist() for column in columns), strict=True):
-        open_bookings = [
-            booking for booking in open_bookings if booking[0] == vertex and booking[1] > start
-        ]
-        for _, other_end, other in open_bookings:
-            until = min(end, other_end)
-            if other != robot:
-                collision = Collision(
-                    robots=(min(robot, other), max(robot, other)),
-                    vertex=VertexId(vertex),
-                    start=Tick(start),
-                    end=None if until == NEVER else Tick(until),
-                )
-                collisions_at_vertex.append(collision)
-        open_bookings.append((vertex, end, robot))
+    found = _list_collisions(scenario, tracks)
     return tuple(
-        sorted(
-            collisions_at_vertex,
-            key=lambda collision: (collision.start, collision.robots, collision.vertex),
+        Collision(
+            robots=(i, j),
+            vertex=VertexId(vertex),
+            start=Tick(start),
+            end=None if end == NEVER else Tick(end),
         )
+        for i, j, start, end, vertex, _ in found.list_rows(slice(None))
     )
 
 
@@ -153,28 +150,110 @@ def find_swaps(tracks: Sequence[Track]) -> tuple[Swap, ...]:
     tracks
         One track for each robot.
     """
-    if not tracks:
-        return ()
-    tail = np.concatenate([track.vertices[:-1] for track in tracks])
-    head = np.concatenate([track.vertices[1:] for track in tracks])
-    tick = np.concatenate([track.enter[1:] for track in tracks])
-    robot = np.repeat(np.arange(len(tracks)), [len(track) - 1 for track in tracks])
+    return tuple(
+        Swap(robots=(i, j), vertices=(VertexId(vertex), VertexId(other)), tick=Tick(tick))
+        for i, j, tick, _, vertex, other in _list_swaps(tracks).list_rows(slice(None))
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Meetings:
+    """Collisions and swaps in columns of shape (n,), by start.
+
+    ``other`` is the second vertex of a swap, -1 for a collision.
+    """
+
+    i: NDArray[np.int32]
+    j: NDArray[np.int32]
+    start: NDArray[np.int64]  # [ticks]
+    end: NDArray[np.int64]  # [ticks]
+    vertex: NDArray[np.int32]
+    other: NDArray[np.int32]
+
+    def list_rows(self, chosen: slice) -> Iterator[tuple[int, ...]]:
+        """Yield the values of some rows."""
+        columns = (self.i, self.j, self.start, self.end, self.vertex, self.other)
+        return zip(*(column[chosen].tolist() for column in columns), strict=True)
+
+
+def _sort_meetings(*parts: tuple[NDArray[Any], ...]) -> _Meetings:
+    """Return collisions or swaps, given by the columns of `_Meetings`, in their order."""
+    i, j, start, end, vertex, other = (
+        np.concatenate(column) for column in zip(*parts, strict=True)
+    )
+    order = order_by(start, (other >= 0).astype(np.int8), i, j, vertex, other)
+    return _Meetings(
+        i=i[order],
+        j=j[order],
+        start=start[order],
+        end=end[order],
+        vertex=vertex[order],
+        other=other[order],
+    )
+
+
+def _find_overlaps(
+    vertex: NDArray[np.int32],
+    robot: NDArray[np.int32],
+    start: NDArray[np.int64],
+    end: NDArray[np.int64],
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Return the earlier and the later booking of each pair that overlaps at one vertex."""
+    left = measure_work_left()
+    earlier, later, are_all = find_overlaps(
+        vertex, robot, start, end, most=MOST_MEETINGS, time_limit=left
+    )
+    check_work(FINDING)
+    if not are_all:
+        message = f"robots meet more than {MOST_MEETINGS} times (take fewer robots)"
+        raise InputError.at("robots", message)
+    return earlier, later
+
+
+def _list_collisions(scenario: Scenario, tracks: Sequence[Track]) -> _Meetings:
+    bookings = list_bookings(scenario, tracks, compute_drives(scenario, tracks))
+    check_work(FINDING)
+    earlier, later = _find_overlaps(bookings.vertex, bookings.robot, bookings.start, bookings.end)
+    one, other = bookings.robot[earlier], bookings.robot[later]
+    return _sort_meetings(
+        (
+            np.minimum(one, other),
+            np.maximum(one, other),
+            bookings.start[later],
+            np.minimum(bookings.end[earlier], bookings.end[later]),
+            bookings.vertex[later],
+            np.full(len(later), -1, np.int32),
+        )
+    )
+
+
+def _list_swaps(tracks: Sequence[Track]) -> _Meetings:
+    """Return the swaps of any tracks: two moves along one lane at one instant, in both ways."""
+    none = np.zeros(0, np.int32)
+    tail = np.concatenate([none, *(track.vertices[:-1] for track in tracks)])
+    head = np.concatenate([none, *(track.vertices[1:] for track in tracks)])
+    tick = np.concatenate([none.astype(np.int64), *(track.enter[1:] for track in tracks)])
+    robot = np.repeat(np.arange(len(tracks), dtype=np.int32), [len(track) - 1 for track in tracks])
     low, high = np.minimum(tail, head), np.maximum(tail, head)
     order = order_by(low, high, tick)
+    check_work(FINDING)
+    low, high, tick = low[order], high[order], tick[order]
+    is_same_lane = (np.diff(low) == 0) & (np.diff(high) == 0)
     as_before = np.zeros(len(order) + 1, bool)  # nearly all moves are alone at their instant
-    as_before[1:-1] = np.logical_and.reduce(
-        [np.diff(column[order]) == 0 for column in (low, high, tick)]
+    as_before[1:-1] = (is_same_lane & (np.diff(tick) == 0))[: max(len(order) - 1, 0)]
+    together = as_before[:-1] | as_before[1:]
+    lane = np.append(0, np.cumsum(~is_same_lane)).astype(np.int32)[: len(order)][together]
+    tick, order = tick[together], order[together]
+    tail, head, robot = tail[order], head[order], robot[order]
+    one, other = _find_overlaps(lane, robot, tick, tick + 1)
+    is_swap = (tail[one] != head[one]) & (tail[one] != tail[other])
+    one, other = one[is_swap], other[is_swap]
+    first, last = (
+        np.where(robot[one] < robot[other], *pair) for pair in ((one, other), (other, one))
     )
-    order = order[as_before[:-1] | as_before[1:]]
-    columns = (low, high, tick, robot, tail, head)
-    moves = zip(*(column[order].tolist() for column in columns), strict=True)
-    swaps_in_place = [
-        Swap(robots=(robot, other), vertices=(VertexId(start), VertexId(end)), tick=Tick(when))
-        for (_, _, when), together in groupby(moves, key=itemgetter(0, 1, 2))
-        for (*_, robot, start, end), (*_, other, start_of_other, _) in combinations(together, 2)
-        if robot != other and start not in (end, start_of_other)
-    ]
-    return tuple(sorted(swaps_in_place, key=lambda swap: (swap.tick, swap.robots, swap.vertices)))
+    return _sort_meetings(
+        (robot[first], robot[last], tick[first], tick[first], tail[first], tail[last])
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -255,8 +334,76 @@ class NamedCollision(NamedTuple):
     kind: str
 
 
+class NamedCollisions(Sequence[NamedCollision]):
+    """Collisions, swaps and near misses by start; rows become objects when they are read.
+
+    Parameters
+    ----------
+    scenario
+        The names of robots and places.
+    meetings
+        Collisions and swaps.
+    near
+        Near misses.
+    """
+
+    def __init__(
+        self, scenario: Scenario, meetings: _Meetings, near: Sequence[NamedCollision] = ()
+    ) -> None:
+        self._scenario, self._meetings, self._near = scenario, meetings, tuple(near)
+        starts = np.append(meetings.start, np.array([row.start for row in near], np.int64))
+        self._order = np.argsort(starts, kind="stable") if near else None
+
+    def __len__(self) -> int:
+        return len(self._meetings.start) + len(self._near)
+
+    @overload
+    def __getitem__(self, at: int) -> NamedCollision: ...
+    @overload
+    def __getitem__(self, at: slice) -> Sequence[NamedCollision]: ...
+    def __getitem__(self, at: int | slice) -> NamedCollision | Sequence[NamedCollision]:
+        rows = range(len(self))[at]
+        if isinstance(rows, int):
+            return self._list_rows(slice(rows, rows + 1))[0]
+        return self._list_rows(at if isinstance(at, slice) else slice(None))
+
+    def __iter__(self) -> Iterator[NamedCollision]:
+        for first in limit_loop(range(0, len(self), ROWS_AT_ONCE), FINDING, 1):
+            yield from self._list_rows(slice(first, first + ROWS_AT_ONCE))
+
+    def count_kinds(self) -> dict[str, int]:
+        """Return the number of rows of each kind: collision, swap, too near."""
+        n_swaps = int(np.count_nonzero(self._meetings.other >= 0))
+        n_collisions = len(self._meetings.start) - n_swaps
+        return {"collision": n_collisions, "swap": n_swaps, "too near": len(self._near)}
+
+    def _list_rows(self, chosen: slice) -> list[NamedCollision]:
+        if self._order is None:
+            return list(map(self._name, self._meetings.list_rows(chosen)))
+        n_meetings = len(self._meetings.start)
+        return [
+            self._name(next(self._meetings.list_rows(slice(row, row + 1))))
+            if row < n_meetings
+            else self._near[row - n_meetings]
+            for row in self._order[chosen].tolist()
+        ]
+
+    def _name(self, row: tuple[int, ...]) -> NamedCollision:
+        i, j, start, end, vertex, other = row
+        robots, place = self._scenario.robots, self._scenario.roadmap.name
+        vertices = (vertex,) if other < 0 else (vertex, other)
+        return NamedCollision(
+            robots[i].name,
+            robots[j].name,
+            Tick(start),
+            None if end == NEVER else Tick(end),
+            tuple(map(place, vertices)),
+            "collision" if other < 0 else "swap",
+        )
+
+
 @checks_arguments
-def name_collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NamedCollision, ...]:
+def name_collisions(scenario: Scenario, tracks: Sequence[Track]) -> NamedCollisions:
     """Return the collisions, swaps and near misses of any tracks, by time, with names of places.
 
     Parameters
@@ -265,28 +412,30 @@ def name_collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NamedC
         The problem.
     tracks
         One track for each robot.
+
+    Raises
+    ------
+    InputError
+        If there are more than `MOST_MEETINGS` collisions or swaps.
     """
+    require_one_for_each(scenario.robots, tracks=tracks)
+    parts = [_list_collisions(scenario, tracks), _list_swaps(tracks)]
+    meetings = _sort_meetings(
+        *((part.i, part.j, part.start, part.end, part.vertex, part.other) for part in parts)
+    )
     name, place = [robot.name for robot in scenario.robots], scenario.roadmap.name
-    meetings: list[Collision | Swap | NearMiss] = [
-        *find_collisions(scenario, tracks),
-        *find_swaps(tracks),
+    near = [
+        NamedCollision(
+            name[miss.robots[0]],
+            name[miss.robots[1]],
+            miss.start,
+            miss.end,
+            tuple("-".join(map(place, vertices)) for vertices in miss.places),
+            "too near",
+        )
+        for miss in find_near_misses(scenario, tracks)
     ]
-    meetings += find_near_misses(scenario, tracks)
-    rows = []
-    for meeting in meetings:
-        i, j = (name[robot] for robot in meeting.robots)
-        if isinstance(meeting, Collision):
-            row = NamedCollision(
-                i, j, meeting.start, meeting.end, (place(meeting.vertex),), "collision"
-            )
-        elif isinstance(meeting, NearMiss):
-            near = tuple("-".join(map(place, vertices)) for vertices in meeting.places)
-            row = NamedCollision(i, j, meeting.start, meeting.end, near, "too near")
-        else:
-            places = tuple(map(place, meeting.vertices))
-            row = NamedCollision(i, j, meeting.tick, meeting.tick, places, "swap")
-        rows.append(row)
-    return tuple(sorted(rows, key=lambda row: row.start))
+    return NamedCollisions(scenario, meetings, near)
 
 
 class _Booking(NamedTuple):

@@ -70,7 +70,8 @@ def compute_lost_time(plan: Plan) -> tuple[LostTime, ...]:
 def _lost_time(plan: Plan) -> tuple[LostTime, ...]:
     scenario, tracks, alone = plan.scenario, plan.tracks, measure(plan).alone
     stays = plan.stays
-    bookings = list_bookings(scenario, tracks, stays)
+    drive = np.concatenate([stay.drive for stay in stays])
+    bookings = list_bookings(scenario, tracks, drive)
     losses: defaultdict[int, list[Loss]] = defaultdict(list)
     for loss in join_waits(scenario, tracks, stays):
         losses[loss.robot].append(loss)

@@ -84,7 +84,7 @@ def find_freeing_visits(
     """
     rules, (start, end) = (
         scenario.problem.booking_rules,
-        book_times(scenario.problem, tracks, stays),
+        book_times(scenario.problem, tracks, np.concatenate([stay.drive for stay in stays])),
     )
     robot = np.repeat(np.arange(len(tracks)), [len(track) for track in tracks])
     first, second = list_rights_of_way(scenario, tracks, stays).T

@@ -26,6 +26,7 @@ from rightofway.model.route import (
     compute_turns_along,
     find_serving_visits,
     join_route,
+    join_track,
     make_route,
     make_route_through,
 )
@@ -92,6 +93,7 @@ __all__ = [
     "find_serving_visits",
     "find_stays",
     "join_route",
+    "join_track",
     "make_lap",
     "make_route",
     "make_route_through",

@@ -140,12 +140,35 @@ def join_route(roadmap: Roadmap, itinerary: Itinerary, legs: Sequence[Sequence[V
         One path for each stage, from where the stage before it is (or home) to its own vertex, both
         included. A stage at the vertex where the robot already is has a leg of that one vertex.
     """
-    vertices = [itinerary.home]
-    serves = []
+    vertices, serves = _join_legs(itinerary, legs)
+    return _route(roadmap, itinerary, vertices, serves)
+
+
+def join_track(roadmap: Roadmap, itinerary: Itinerary, legs: Sequence[Sequence[VertexId]]) -> Track:
+    """Join paths into the track of a robot that never waits.
+
+    Parameters
+    ----------
+    roadmap, itinerary, legs
+        As for `join_route`.
+    """
+    vertices, serves = _join_legs(itinerary, legs)
+    path = np.array(vertices, np.int32)
+    least = compute_least_dwells(itinerary.stages, serves, len(vertices))
+    least += compute_turns_along(roadmap, itinerary, path)
+    least[:-1] += np.array(compute_drives_along(roadmap, itinerary, vertices), np.int64)
+    return Track(vertices=path, enter=np.append(0, np.cumsum(least[:-1])))
+
+
+def _join_legs(
+    itinerary: Itinerary, legs: Sequence[Sequence[VertexId]]
+) -> tuple[list[VertexId], list[int]]:
+    """Return the vertices of paths one after another, and the visit that ends each path."""
+    vertices, serves = [itinerary.home], list[int]()
     for leg in legs:
         vertices += leg[1:]
         serves.append(len(vertices) - 1)
-    return _route(roadmap, itinerary, vertices, serves)
+    return vertices, serves
 
 
 def make_route_through(

@@ -93,6 +93,20 @@ def find_stays(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Stays, ...]
     )
 
 
+def compute_drives(scenario: Scenario, tracks: Sequence[Track]) -> NDArray[np.int64]:
+    """Return the ticks of the edge that ends each visit of a fleet, robot after robot.
+
+    Parameters
+    ----------
+    scenario
+        The problem.
+    tracks
+        One track for each robot.
+    """
+    ends = np.cumsum([len(track) for track in tracks])
+    return _drives_of_fleet(scenario, tracks, _edges_of_fleet(scenario.roadmap, tracks, ends))
+
+
 def compute_completions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Tick, ...]:
     """Return when each robot has done its work and entered its last vertex [ticks].
 

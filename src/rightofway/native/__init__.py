@@ -6,6 +6,7 @@ from rightofway.native.bookings import (
     bind_closures,
     bind_rows,
     book_times,
+    find_overlaps,
 )
 from rightofway.native.problem import (
     bind_native,
@@ -29,6 +30,7 @@ __all__ = [
     "bind_turning",
     "book_times",
     "find_clashes",
+    "find_overlaps",
     "find_vertices_near",
     "list_excluded",
     "make_tracks",

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import NEVER, Lap, Problem, Route, Stays, Tick, Track
+from rightofway.model import NEVER, Lap, Problem, Route, Tick, Track
 from rightofway.native.resources import bind_lists
 
 
@@ -146,7 +146,7 @@ class ClosedPlaces:
 
 
 def book_times(
-    problem: Problem, tracks: Sequence[Track], stays: Sequence[Stays]
+    problem: Problem, tracks: Sequence[Track], drive: NDArray[np.int64]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return from when to when each visit books its vertex, robot after robot; int64, shape (N,).
 
@@ -154,14 +154,39 @@ def book_times(
     ----------
     problem
         The scenario in ticks; its booking rules say when bookings begin and end.
-    tracks, stays
-        One track for each robot, and the parts of its visits.
+    tracks
+        One track for each robot.
+    drive
+        Ticks of the edge that ends each visit, robot after robot, 0 for last ones; shape (N,).
     """
     enter = np.concatenate([track.enter for track in tracks])
-    drive_in = np.roll(np.concatenate([stay.drive for stay in stays]), 1)  # that of the last is 0
+    drive_in = np.roll(drive, 1)  # that of the last is 0
     end = np.append(problem.booking_rules.end(enter[1:]), NEVER)
     end[np.cumsum([len(track) for track in tracks]) - 1] = NEVER
     return problem.booking_rules.start(enter, drive_in), end
+
+
+def find_overlaps(
+    vertex: NDArray[np.int32],
+    robot: NDArray[np.int32],
+    start: NDArray[np.int64],
+    end: NDArray[np.int64],
+    *,
+    most: int,
+    time_limit: float | None,
+) -> tuple[NDArray[np.int32], NDArray[np.int32], bool]:
+    """Return the earlier and the later of any two bookings that overlap, and whether these are all.
+
+    Parameters
+    ----------
+    vertex, robot, start, end
+        The bookings, by vertex, then by start [ticks]; shape (N,).
+    most
+        How many pairs to find at most.
+    time_limit
+        After how long to stop [s].
+    """
+    return _core.find_overlaps(vertex, robot, start, end, most, time_limit)
 
 
 def bind_rows(rows: BookedRows | None) -> _core.VisitRows | None:

@@ -14,7 +14,6 @@ import random
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from itertools import accumulate
 
 import numpy as np
 
@@ -23,7 +22,7 @@ from rightofway.model import Decision, Reroute, Route, Status, Tick, Track
 from rightofway.phrases import Phrase, chain_items
 from rightofway.planners.lacam import plan_fleet
 from rightofway.planners.prioritized import make_fleet_search, plan_in_turn
-from rightofway.planners.routing import find_shortest_route
+from rightofway.planners.routing import find_shortest_track
 from rightofway.planners.task import Draft, Task
 from rightofway.precedence import (
     Meeting,
@@ -329,9 +328,7 @@ class _Reservations:
             alone = Bookings(self.bookings.problem)
             track = find_earliest_track(robot, alone, self.distances)
         if track is None:
-            route = find_shortest_route(self.bookings.problem.roadmap, itinerary, self.distances)
-            enter = accumulate(map(route.compute_least, range(len(route) - 1)), initial=0)
-            track = Track.of(route.vertices, list(enter))
+            track = find_shortest_track(self.bookings.problem.roadmap, itinerary, self.distances)
         return self.bookings.find_blockers(robot, track)
 
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import partial
-from itertools import accumulate, pairwise
+from itertools import pairwise
 
 from rightofway.deadline import limit_loop
-from rightofway.errors import GaveUp
-from rightofway.model import Itinerary, Route, Scenario, Track, join_route, make_route
+from rightofway.errors import GaveUp, InputError
+from rightofway.model import Itinerary, Route, Scenario, Track, join_route, join_track, make_route
 from rightofway.planners.impossible import refuse_stranded, refuse_the_impossible
 from rightofway.planners.task import Task
 from rightofway.search import Bookings, Congestion, Distances, find_earliest_track
-from rightofway.search.missing_ways import reaches_its_places
+from rightofway.search.distances import Path
 from rightofway.site import Roadmap, VertexId
 
 ROUTING = "choosing routes"
@@ -53,14 +53,11 @@ def find_shortest_routes(scenario: Scenario, distances: Distances) -> list[Route
 
     Raises `NoPlanExists` as `refuse_the_impossible`.
     """
-    routes, stranded = list[Route](), list[int]()
-    for robot, itinerary in enumerate(limit_loop(scenario.problem.itineraries, ROUTING)):
-        if reaches_its_places(itinerary, distances):  # by the tables that its route needs
-            routes.append(find_shortest_route(scenario.roadmap, itinerary, distances))
-        else:
-            stranded.append(robot)
-    refuse_stranded(scenario, stranded)
-    return routes
+    itineraries = scenario.problem.itineraries
+    return [
+        join_route(scenario.roadmap, itinerary, legs)
+        for itinerary, legs in zip(itineraries, _find_all_legs(scenario, distances), strict=True)
+    ]
 
 
 def free_running_tracks(scenario: Scenario) -> tuple[Track, ...]:
@@ -71,13 +68,10 @@ def free_running_tracks(scenario: Scenario) -> tuple[Track, ...]:
     NoPlanExists
         As `refuse_the_impossible`.
     """
-    routes = find_shortest_routes(scenario, Distances(scenario.roadmap))
+    itineraries, distances = scenario.problem.itineraries, Distances(scenario.roadmap)
     return tuple(
-        Track.of(
-            route.vertices,
-            list(accumulate(map(route.compute_least, range(len(route) - 1)), initial=0)),
-        )
-        for route in routes
+        join_track(scenario.roadmap, itinerary, legs)
+        for itinerary, legs in zip(itineraries, _find_all_legs(scenario, distances), strict=True)
     )
 
 
@@ -88,15 +82,49 @@ def find_shortest_route(roadmap: Roadmap, itinerary: Itinerary, distances: Dista
     The way home from the last stop of a lap is the path that leads there from home, reversed,
     wherever that is a shortest path too.
     """
-    ticks, legs = itinerary.edge_costs, []
+    return join_route(roadmap, itinerary, _find_legs(itinerary, distances))
+
+
+def find_shortest_track(roadmap: Roadmap, itinerary: Itinerary, distances: Distances) -> Track:
+    """Return the track of a robot that drives its shortest route and never waits."""
+    return join_track(roadmap, itinerary, _find_legs(itinerary, distances))
+
+
+def _find_all_legs(scenario: Scenario, distances: Distances) -> Iterator[list[Path]]:
+    """Yield the legs of each robot; at the end, refuse robots that have no way."""
+    stranded = list[int]()
+    for robot, itinerary in enumerate(limit_loop(scenario.problem.itineraries, ROUTING, 8)):
+        try:
+            yield _find_legs(itinerary, distances)
+        except InputError:
+            stranded.append(robot)
+            yield []
+    refuse_stranded(scenario, stranded)
+
+
+def _find_legs(itinerary: Itinerary, distances: Distances) -> list[Path]:
+    """Return a shortest path to each stage. Raise `InputError` where one cannot be reached."""
+    ticks, legs = itinerary.edge_ticks, list[Path]()
+    found: dict[tuple[VertexId, VertexId], Path] = {}
     for place, stage in _trips(itinerary):
-        leg = distances.find_path(place, stage, ticks)
         if stage == itinerary.home:
-            back = distances.find_path(stage, place, ticks)[::-1]
-            if distances.compute_cost(back, ticks) == distances.compute_cost(leg, ticks):
-                leg = back
+            out = found.get((stage, place)) or distances.find_path(stage, place, ticks)
+            leg = _find_way_back(out, itinerary, distances)
+        else:
+            leg = distances.find_path(place, stage, ticks)
+        found[place, stage] = leg
         legs.append(leg)
-    return join_route(roadmap, itinerary, legs)
+    return legs
+
+
+def _find_way_back(out: Path, itinerary: Itinerary, distances: Distances) -> Path:
+    """Return a shortest path reversed if that is a shortest path too, else another path back."""
+    ticks, reverse = itinerary.edge_ticks, out[::-1]
+    if distances.is_symmetric(ticks):
+        return reverse
+    other = distances.find_path(out[-1], out[0], ticks)
+    is_shortest = distances.compute_cost(reverse, ticks) == distances.compute_cost(other, ticks)
+    return reverse if is_shortest else other
 
 
 def clear_routes(scenario: Scenario, distances: Distances) -> list[Route]:

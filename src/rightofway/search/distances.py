@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import cached_property
+from math import gcd
 from threading import Lock
 
 import numpy as np
@@ -21,6 +22,9 @@ Path = tuple[VertexId, ...]
 
 MOST_ENTRIES = 2**27
 """Entries of all tables that are kept: half a gigabyte."""
+
+ENTRIES_OF_PATHS = 32
+"""Entries for each vertex of a search for single paths, with its graph and its landmarks."""
 
 
 class Distances:
@@ -44,6 +48,8 @@ class Distances:
         self._tables: dict[tuple[int, tuple[Tick, ...]], NDArray[np.int32]] = {}
         self._lock = Lock()
         self._edges: dict[tuple[Tick, ...], NDArray[np.int32]] = {}
+        self._symmetric: dict[tuple[Tick, ...], bool] = {}
+        self._paths: dict[tuple[int, ...], _core.ShortestPaths] = {}
 
     @cached_property
     def _kernel(self) -> _core.DistanceTables:
@@ -100,6 +106,17 @@ class Distances:
             self._edges[edge_ticks] = by_class[self.roadmap.class_of_edge]
         return self._edges[edge_ticks]
 
+    def is_symmetric(self, edge_ticks: tuple[Tick, ...]) -> bool:
+        """Return whether every edge may be driven in both directions in equal ticks."""
+        if edge_ticks not in self._symmetric:
+            roadmap, ticks = self.roadmap, self.compute_edge_ticks(edge_ticks)
+            counts = np.diff(roadmap.indptr)
+            tails = np.repeat(np.arange(roadmap.n_vertices, dtype=np.int32), counts)
+            opposite = roadmap.find_edges(roadmap.heads, tails)
+            has_all = bool((opposite >= 0).all() and (ticks[opposite] == ticks).all())
+            self._symmetric[edge_ticks] = has_all
+        return self._symmetric[edge_ticks]
+
     def compute_cost(self, path: Path, edge_ticks: tuple[Tick, ...]) -> int | None:
         """Return what it takes to drive a path [ticks]; None where an edge is missing."""
         vertices = np.array(path, np.int32)
@@ -115,21 +132,27 @@ class Distances:
         """Return a shortest path; a ValueError says that the target cannot be reached.
 
         At each vertex it goes on by the first edge that brings it nearer; on grids edges are in
-        the order east, south, west, north, which gives the routes of the paper.
+        the order east, south, west, north, which gives the routes of the paper. No table is
+        computed for it.
         """
         self.checkpoint()
-        indptr, heads = self.roadmap.indptr, self.roadmap.heads
-        table, ticks = self.to(target, edge_ticks), self.compute_edge_ticks(edge_ticks)
         require_index("start", start, self.roadmap.n_vertices)
-        if table[start] < 0:
+        with self._lock:
+            path = self._find_paths(edge_ticks).find(start, target)
+        if not len(path):
             raise InputError.at("target", f"{target} cannot be reached from vertex {start}")
-        path = [start]
-        while path[-1] != target:
-            vertex = path[-1]
-            nearer = (
-                heads[edge]
-                for edge in range(indptr[vertex], indptr[vertex + 1])
-                if ticks[edge] > 0 and 0 <= table[heads[edge]] == table[vertex] - ticks[edge]
-            )
-            path.append(VertexId(int(next(nearer))))
-        return tuple(path)
+        return tuple(path.tolist())
+
+    def _find_paths(self, edge_ticks: tuple[Tick, ...]) -> _core.ShortestPaths:
+        """Return the search for paths of a pace; paces in proportion have the same paths."""
+        divisor = gcd(*(ticks for ticks in edge_ticks if ticks > 0)) or 1
+        pace = tuple(ticks // divisor if ticks > 0 else ticks for ticks in edge_ticks)
+        paths = self._paths.get(pace)
+        if paths is None:
+            entries = ENTRIES_OF_PATHS * max(self.roadmap.n_vertices, 1)
+            while self._paths and (len(self._paths) + 1) * entries > MOST_ENTRIES:
+                del self._paths[next(iter(self._paths))]
+            ticks = self.compute_edge_ticks(edge_ticks) // np.int32(divisor)
+            paths = _core.ShortestPaths(self.roadmap.indptr, self.roadmap.heads, ticks)
+            self._paths[pace] = paths
+        return paths

@@ -2,6 +2,7 @@
 
 from rightofway.viz.table.listing import ListColumn, Listing
 from rightofway.viz.table.lists import (
+    MAX_ROWS,
     choose_events,
     count_conflicts_before,
     tabulate_collision_ticks,
@@ -22,6 +23,7 @@ from rightofway.viz.table.timespace import (
 from rightofway.viz.table.writing import as_csv, as_text, write_csv, write_xlsx
 
 __all__ = [
+    "MAX_ROWS",
     "Cell",
     "CellRun",
     "ListColumn",

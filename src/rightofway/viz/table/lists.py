@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from operator import attrgetter
+from typing import overload
 
 from rightofway.errors import InputError
 from rightofway.metrics import (
@@ -16,11 +18,11 @@ from rightofway.metrics import (
 )
 from rightofway.model import Decision, Plan, Tick
 from rightofway.quantities import Quantities
-from rightofway.viz.table.listing import ListColumn, Listing
+from rightofway.viz.table.listing import ListColumn, Listing, Value
 from rightofway.viz.table.timespace import choose_robots
 
-MAX_TICKS = 1_000_000
-"""Rows of a list that has one for each tick, at most."""
+MAX_ROWS = 1_000_000
+"""Rows of a list that is written to a file or has one for each tick, at most."""
 
 
 def choose_events(
@@ -99,6 +101,38 @@ def tabulate_events(
     )
 
 
+class _Cells(Sequence[Value]):
+    """The cells of a column, computed from the rows that are written."""
+
+    def __init__(
+        self, rows: Sequence[NamedCollision], compute: Callable[[NamedCollision], Value]
+    ) -> None:
+        self._rows, self._compute = rows, compute
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    @overload
+    def __getitem__(self, at: int) -> Value: ...
+    @overload
+    def __getitem__(self, at: slice) -> Sequence[Value]: ...
+    def __getitem__(self, at: int | slice) -> Value | Sequence[Value]:
+        if isinstance(at, slice):
+            return [self._compute(row) for row in self._rows[at]]
+        return self._compute(self._rows[at])
+
+    def __iter__(self) -> Iterator[Value]:
+        return map(self._compute, self._rows)
+
+
+def _get_end(row: NamedCollision) -> Value:
+    return row.until if row.until is not None else "for ever"
+
+
+def _join_places(row: NamedCollision) -> str:
+    return " and ".join(row.places)
+
+
 def tabulate_collisions(
     collisions: Sequence[NamedCollision], quantities: Quantities, title: str = "collisions"
 ) -> Listing:
@@ -113,16 +147,15 @@ def tabulate_collisions(
     title
         A name for the list.
     """
-    until = [row.until if row.until is not None else "for ever" for row in collisions]
     return Listing(
         title=title,
         columns=(
-            ListColumn(heading="robot i", values=[row.i for row in collisions]),
-            ListColumn(heading="robot j", values=[row.j for row in collisions]),
-            ListColumn(heading="from", values=[row.start for row in collisions], kind="time"),
-            ListColumn(heading="until", values=until, kind="time"),
-            ListColumn(heading="place", values=[" and ".join(row.places) for row in collisions]),
-            ListColumn(heading="kind", values=[row.kind for row in collisions]),
+            ListColumn(heading="robot i", values=_Cells(collisions, attrgetter("i"))),
+            ListColumn(heading="robot j", values=_Cells(collisions, attrgetter("j"))),
+            ListColumn(heading="from", values=_Cells(collisions, attrgetter("start")), kind="time"),
+            ListColumn(heading="until", values=_Cells(collisions, _get_end), kind="time"),
+            ListColumn(heading="place", values=_Cells(collisions, _join_places)),
+            ListColumn(heading="kind", values=_Cells(collisions, attrgetter("kind"))),
         ),
         quantities=quantities,
     )
@@ -145,12 +178,12 @@ def tabulate_collision_ticks(
     Raises
     ------
     InputError
-        If the list would have more than `MAX_TICKS` rows.
+        If the list would have more than `MAX_ROWS` rows.
     """
     last = [end + 1 if row.until is None else row.until for row in collisions]
     ticks = sum(until - row.start for row, until in zip(collisions, last, strict=True))
-    if ticks > MAX_TICKS:
-        message = f"the collisions last {ticks} ticks, more than {MAX_TICKS} (leave it out)"
+    if ticks > MAX_ROWS:
+        message = f"the collisions last {ticks} ticks, more than {MAX_ROWS} (leave it out)"
         raise InputError.at("--each-tick", message)
     rows = sorted(
         (
