@@ -7,6 +7,10 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
+import pytest
+
+from rightofway.deadline import Deadline, limit_work
+from rightofway.errors import GaveUp, InputError
 from rightofway.metrics import (
     Collision,
     Swap,
@@ -15,7 +19,9 @@ from rightofway.metrics import (
     find_swaps,
     free_running,
 )
+from rightofway.metrics import collisions as room
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Tick, Track
+from rightofway.planners.routing import free_running_tracks
 from rightofway.site import VertexId
 from tests.builders.fleets import grid_fleet
 
@@ -163,3 +169,19 @@ def test_a_robot_that_drives_by_is_too_near_while_it_books_the_cell() -> None:
 def test_robots_without_a_size_are_never_too_near() -> None:
     tracks = (Track.of([0], [0]), Track.of([1], [0]))
     assert find_near_misses(grid_fleet(OPEN, [("N0", "N0"), ("N1", "N1")]), tracks) == ()
+
+
+def test_more_meetings_than_a_list_may_have_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """R1 and R2 collide in N1, N4 and N7 on their ways out and back."""
+    monkeypatch.setattr(room, "MOST_MEETINGS", 2)
+    scenario = grid_fleet(DOOR, [("N0", "N6"), ("N2", "N8")])
+    tracks = free_running_tracks(scenario)
+    with pytest.raises(InputError, match=r"robots: robots meet more than 2 times \(take fewer"):
+        find_collisions(scenario, tracks)
+
+
+def test_finding_collisions_keeps_the_limit_of_the_work() -> None:
+    scenario = grid_fleet(DOOR, [("N0", "N6"), ("N2", "N8")])
+    tracks = free_running_tracks(scenario)
+    with limit_work(Deadline.after(0)), pytest.raises(GaveUp, match="while finding collisions"):
+        find_collisions(scenario, tracks)
