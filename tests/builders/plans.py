@@ -23,6 +23,7 @@ from rightofway.model import (
     Track,
     find_stays,
 )
+from rightofway.model.kept_facts import RerouteReason
 from rightofway.quantities import Units
 from rightofway.site import Edge, VertexId, make_grid_roadmap, make_roadmap
 
@@ -104,7 +105,10 @@ def loop(*, occupancy: str = "one", names: tuple[str, ...] = ("a", "b", "c", "d"
     return Plan(
         scenario=Scenario(roadmap=roadmap, robots=(robot,), rules=rules),
         tracks=(Track.of([0, 1, 2, 3, 0], [0, 2, 4, 14, 16]),),
-        run=PlannerRun(name="by hand", reroutes=(Reroute(robot=0, because="just so"),)),
+        run=PlannerRun(
+            name="by hand",
+            reroutes=(Reroute(robot=0, because=RerouteReason("other", text="just so")),),
+        ),
     )
 
 
@@ -121,7 +125,7 @@ def hostile(name: str) -> Plan:
     run = PlannerRun(
         name=name,
         status=Status("other", text=name),
-        reroutes=(Reroute(robot=0, because=name),),
+        reroutes=(Reroute(robot=0, because=RerouteReason("other", text=name)),),
     )
     tracks = (Track.of([0, 1, 0], [0, 1, 2]),)
     return Plan(scenario=Scenario(roadmap=roadmap, robots=(robot,)), tracks=tracks, run=run)

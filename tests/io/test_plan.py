@@ -23,6 +23,7 @@ from rightofway.model import (
     Tick,
     Track,
 )
+from rightofway.model.kept_facts import RerouteReason
 from rightofway.site import VertexId
 from tests.builders.fleets import grid_fleet
 
@@ -56,7 +57,7 @@ def door_plan() -> Plan:
             status=Status("waits only"),
             seconds=0.25,
             decisions=(decision,),
-            reroutes=(Reroute(robot=1, because="a deadlock at N4"),),
+            reroutes=(Reroute(robot=1, because=RerouteReason("makes way for", robot="R1")),),
         ),
     )
 
@@ -93,7 +94,7 @@ TEXT = """\
 "completion_sums": [19, 20]}
     ],
     "reroutes": [
-      {"robot": "R2", "because": "a deadlock at N4"}
+      {"robot": "R2", "because": {"kind": "makes way for", "values": {"robot": "R1"}}}
     ]
   },
   "metrics": {METRICS},

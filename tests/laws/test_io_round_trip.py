@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import pytest
 from hypothesis import reject
@@ -41,8 +41,8 @@ from rightofway.model import (
     Track,
 )
 from rightofway.model.attributes import Attribute
+from rightofway.model.kept_facts import KeptFact, RerouteReason
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
-from rightofway.phrases import Phrase
 from rightofway.site import Edge, Roadmap, VertexId, make_grid_roadmap, make_roadmap
 from rightofway.values import format_number, read_exact
 from tests.builders.any_fleet import any_fleet
@@ -124,11 +124,6 @@ options = st.recursive(
 )
 
 
-def _phrase(text: str) -> Phrase:
-    """Return a phrase of a phrase; a brace in its template stays one."""
-    return Phrase("first {one}; {other}", one=text, other=Phrase("{{ {value}", value=text))
-
-
 @st.composite
 def plans(draw: st.DrawFn) -> Plan:
     scenario = draw(scenarios())
@@ -150,8 +145,6 @@ def plans(draw: st.DrawFn) -> Plan:
         conflicts_left=counts,
         completion_sums=st.one_of(st.none(), counts),
     )
-    words = st.text(max_size=8).filter(str.isprintable)
-    sentences = st.one_of(words, words.map(_phrase))
     run = PlannerRun(
         name=draw(names),
         options=draw(st.dictionaries(st.text(), options, max_size=2)),
@@ -161,7 +154,7 @@ def plans(draw: st.DrawFn) -> Plan:
         decisions=tuple(draw(st.lists(decision, max_size=2))),
         outcome=draw(st.one_of(st.none(), OUTCOMES)),
         reroutes=tuple(
-            draw(st.lists(st.builds(Reroute, robot=robots, because=sentences), max_size=2))
+            draw(st.lists(st.builds(Reroute, robot=robots, because=REASONS), max_size=2))
         ),
     )
     track = st.lists(st.tuples(vertices, ticks), min_size=1, max_size=6)
@@ -169,8 +162,11 @@ def plans(draw: st.DrawFn) -> Plan:
     return Plan(scenario=scenario, tracks=tracks, run=run, steady=draw(repeating(tracks)))
 
 
-def _statuses(inner: st.SearchStrategy[Status]) -> st.SearchStrategy[Status]:
-    """Return statuses of all kinds, with these in them."""
+F = TypeVar("F", bound=KeptFact)
+
+
+def _facts(of: type[F], inner: st.SearchStrategy[Status]) -> st.SearchStrategy[F]:
+    """Return facts of all kinds, with these statuses in them."""
     samples = {
         "read_label": st.text(max_size=8).filter(str.isprintable),
         "_read_status": inner,
@@ -181,16 +177,19 @@ def _statuses(inner: st.SearchStrategy[Status]) -> st.SearchStrategy[Status]:
     }
     kinds = [
         st.builds(
-            Status,
+            of,
             st.just(kind),
             **{name: samples[reader.__name__] for name, reader in readers.items()},
         )
-        for kind, readers in Status.KINDS.items()
+        for kind, readers in of.KINDS.items()
     ]
     return st.one_of(kinds)
 
 
-STATUSES = st.recursive(st.just(Status("waits only")), _statuses, max_leaves=4)
+STATUSES = st.recursive(
+    st.just(Status("waits only")), lambda inner: _facts(Status, inner), max_leaves=4
+)
+REASONS = _facts(RerouteReason, st.just(Status("waits only")))
 
 OUTCOMES = st.builds(
     Outcome,

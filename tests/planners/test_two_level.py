@@ -9,6 +9,7 @@ import pytest
 import rightofway
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Plan, Rules, Scenario, Status
+from rightofway.model.kept_facts import RerouteReason
 from rightofway.planners.routing import choose_routes
 from rightofway.planners.task import Task
 from rightofway.planners.two_level import replay_movement_groups
@@ -128,7 +129,7 @@ def test_a_deadlock_that_waiting_cannot_open_is_opened_by_another_way() -> None:
     assert rightofway.check(plan).ok
     assert plan.run.status == Status("re-routed", robots=["R2"])
     assert plan.scenario.roadmap.get_vertex("N8") in plan.tracks[1].vertices
-    assert "waiting cannot keep R1 and R2 apart" in plan.run.reroutes[0].because
+    assert "waiting cannot keep R1 and R2 apart" in str(plan.run.reroutes[0].because)
 
 
 def test_a_robot_planned_again_on_its_own_route_is_not_called_rerouted() -> None:
@@ -144,7 +145,7 @@ def test_a_robot_planned_again_on_its_own_route_is_not_called_rerouted() -> None
 
 def test_a_rerouted_robot_names_the_robot_that_it_makes_way_for() -> None:
     plan = solve(random_fleet(21, size=6, robots=8))
-    assert [reroute.because for reroute in plan.run.reroutes] == [
+    assert [str(reroute.because) for reroute in plan.run.reroutes] == [
         "it makes way for R6",
         "it makes way for R6",
         "waiting cannot keep R4 and R6 apart at N28",
@@ -165,7 +166,7 @@ def test_where_time_is_short_all_are_planned_together(monkeypatch: pytest.Monkey
     monkeypatch.setattr("rightofway.planners.conflict_resolution.reroute", too_slow)
     plan = solve(paper_scenario(CASES["door-5"]))
     assert plan.run.status == Status("re-routed together")
-    assert plan.run.reroutes[0].because == "time was short, so all were planned together"
+    assert plan.run.reroutes[0].because == RerouteReason("short time")
 
 
 @pytest.mark.parametrize("occupancy", ["one", "both"])

@@ -2,13 +2,14 @@
 
 import json
 import pickle
+from collections.abc import Collection
 from fractions import Fraction
 
 import pytest
 
 from rightofway.check import check
 from rightofway.facts import Fact
-from rightofway.model import Status
+from rightofway.model import RerouteReason, Status
 from rightofway.report.facts import VALUE, FactWriter, list_texts, read_templates
 from rightofway.report.judgement import describe_fault, write_fault
 from tests.builders.fleets import grid_fleet
@@ -62,11 +63,21 @@ def test_a_number_with_a_noun_is_a_fact_of_its_own() -> None:
     assert writer.fill("{n:n_other_places}", {"n": 2}) == "2 other places"
 
 
-@pytest.mark.parametrize("kind", Status.KINDS)
-def test_a_status_has_a_template_with_its_counts(kind: str) -> None:
+@pytest.mark.parametrize(("kind", "values"), [*Status.KINDS.items(), *RerouteReason.KINDS.items()])
+def test_a_fact_of_plan_files_has_a_template_with_its_values(
+    kind: str, values: Collection[str]
+) -> None:
     texts = read_templates()["facts"][kind]
     for text in [texts] if isinstance(texts, str) else texts.values():
-        assert {name for name, _ in VALUE.findall(text)} <= {*Status.KINDS[kind]}
+        assert {name for name, _ in VALUE.findall(text)} <= {*values}
+
+
+def test_a_reason_of_a_reroute_is_a_sentence() -> None:
+    robots = {"one": "R1", "other": "R2", "place": "N4"}
+    circle = RerouteReason("deadlock in circle", **robots, robots=["R1", "R2", "R3"])
+    pair = "waiting cannot keep R1 and R2 apart at N4"
+    assert str(RerouteReason("deadlock of two", **robots)) == pair
+    assert str(circle) == f"{pair}: in a circle, R1, R2, R3 would each wait for the next"
 
 
 def test_a_status_in_a_status_is_a_sentence_in_a_sentence() -> None:

@@ -7,6 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from rightofway.model import Improvement, Plan, PlannerRun, Reroute, Rules, Tick, Track
+from rightofway.model.kept_facts import RerouteReason
 from rightofway.quantities import Units
 from rightofway.report.plan import describe_planning, report_decisions, summarize_plan
 from tests.builders.fleets import grid_fleet
@@ -173,7 +174,10 @@ def test_what_a_planner_did_needs_no_knowledge_of_its_method() -> None:
     assert words(improvement=Improvement(saved=Tick(75), tries=1, interrupted=True)) == (
         "two-level; interrupted: 1 attempt to improve the first plan saved 1 min 15 s"
     )
-    assert words(reroutes=(Reroute(robot=1, because="x"),)) == "two-level; rerouted: R2"
+    assert (
+        words(reroutes=(Reroute(robot=1, because=RerouteReason("makes way")),))
+        == "two-level; rerouted: R2"
+    )
 
 
 def test_of_a_large_fleet_the_robots_that_lose_time_are_listed() -> None:

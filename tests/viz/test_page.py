@@ -112,7 +112,7 @@ def test_names_come_through_as_they_are() -> None:
     payload = payload_in(make_page(hostile(EVIL)))
     assert payload["robots"][0]["name"] == EVIL
     assert payload["map"]["names"][0] == EVIL
-    assert payload["reroutes"][0]["because"] == EVIL
+    assert payload["reroutes"][0]["because"] == ["{text}", {"text": EVIL}]
 
 
 def test_a_name_that_is_no_valid_unicode_can_be_written(tmp_path: Path) -> None:

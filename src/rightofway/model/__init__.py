@@ -2,7 +2,7 @@
 
 from rightofway.model.booking_rules import BookingRules
 from rightofway.model.closures import Closure, Closures
-from rightofway.model.kept_facts import Status
+from rightofway.model.kept_facts import RerouteReason, Status
 from rightofway.model.lap import Lap, make_lap, make_visits_of_laps
 from rightofway.model.lost_time import Loss, LostTime
 from rightofway.model.outcome import ForcedLoss, Objective, Outcome, OutcomeKind, Proof
@@ -65,6 +65,7 @@ __all__ = [
     "Problem",
     "Proof",
     "Reroute",
+    "RerouteReason",
     "Resources",
     "Robot",
     "RobotPlan",

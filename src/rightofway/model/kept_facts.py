@@ -213,7 +213,7 @@ class RerouteReason(KeptFact):
     __slots__ = ()
 
     KINDS: ClassVar = {
-        "deadlock": {"one": read_label, "other": read_label, "place": read_label},
+        "deadlock of two": {"one": read_label, "other": read_label, "place": read_label},
         "deadlock in circle": {
             "one": read_label,
             "other": read_label,

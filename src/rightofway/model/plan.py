@@ -10,7 +10,7 @@ from typing import Any, Literal, TypeVar
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, find_nearest, quote
 from rightofway.model.figures import get_figures
-from rightofway.model.kept_facts import Status
+from rightofway.model.kept_facts import RerouteReason, Status
 from rightofway.model.lost_time import LostTime
 from rightofway.model.outcome import ForcedLoss, Objective, Outcome
 from rightofway.model.passing import unfold_tracks
@@ -90,11 +90,11 @@ class Reroute:
     robot
         Its index.
     because
-        What made it necessary, in words.
+        The reason.
     """
 
     robot: int
-    because: str
+    because: RerouteReason
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

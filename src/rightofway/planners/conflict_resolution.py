@@ -19,7 +19,7 @@ import numpy as np
 
 from rightofway.errors import GaveUp
 from rightofway.model import Decision, Reroute, Route, Status, Tick, Track
-from rightofway.phrases import Phrase, chain_items
+from rightofway.model.kept_facts import RerouteReason
 from rightofway.planners.lacam import plan_fleet
 from rightofway.planners.prioritized import make_fleet_search, plan_in_turn
 from rightofway.planners.routing import find_shortest_track
@@ -86,7 +86,7 @@ class PartialPlan:
         self.routes = routes
         self.sees_swaps = sees_swaps
         self.settled = np.zeros(len(routes), np.uint8)
-        self.deferred: dict[int, str] = {}
+        self.deferred: dict[int, RerouteReason] = {}
         self.decisions: list[Decision] = []
         self.graph = graph or build_graph(task.scenario.problem, routes, forbid_swaps=sees_swaps)
 
@@ -125,7 +125,7 @@ class PartialPlan:
         (i, visit_i), (j, visit_j) = (self.graph.place(visit) for visit in meeting.visits)
         return make_crossing(self.routes[i], visit_i, self.routes[j], visit_j)
 
-    def defer(self, robots: Sequence[int], why: str) -> None:
+    def defer(self, robots: Sequence[int], why: RerouteReason) -> None:
         """Take out one of some robots that no waiting keeps apart; the others keep their rights."""
         if not self.sees_swaps:
             raise GaveUp(f"{why} (the published method is stuck here; try two-level)")
@@ -138,14 +138,12 @@ class PartialPlan:
         self.settled[robot] = 0
         self.graph.withdraw(robot)
 
-    def _explain_rotation(self, rotation: Sequence[int]) -> Phrase:
+    def _explain_rotation(self, rotation: Sequence[int]) -> RerouteReason:
         """Name the robots that would move round a circle at one instant."""
         names = [self.task.scenario.robots[robot].name for robot in rotation]
-        return Phrase(
-            "{robots} would move round in a circle at one instant", robots=chain_items(names)
-        )
+        return RerouteReason("rotation", robots=names)
 
-    def explain_deadlock(self, meeting: Meeting) -> str:
+    def explain_deadlock(self, meeting: Meeting) -> RerouteReason:
         """Name the two robots, and the cycle of robots that one of them would close by waiting."""
         scenario, segment = self.task.scenario, self.find_segment(meeting)
         names = [scenario.robots[robot].name for robot in meeting.robots]
@@ -202,7 +200,7 @@ def plan_by_rule(task: Task, distances: Distances, routes: Sequence[Route], rule
         hurried = replace(task, deadline=task.deadline.shorten(SHARE))
         return plan_on_routes(hurried, distances, PartialPlan(hurried, routes), rule)
     except GaveUp:
-        because = Phrase("time was short, so all were planned together")
+        because = RerouteReason("short time")
         return _plan_together(task, because)
 
 
@@ -212,7 +210,7 @@ def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Ru
     tracks = {r: t for r, t in enumerate(plan.graph.build_tracks()) if r not in plan.deferred}
     made_way = reroute(task, distances, tracks, list(plan.deferred))
     if made_way is None:
-        because = Phrase("one robot at a time finds no way, so all were planned together")
+        because = RerouteReason("no way in turn")
         return _plan_together(task, because)
     ordered = [track for _, track in sorted(tracks.items())]
     status, names = Status("waits only"), [robot.name for robot in task.scenario.robots]
@@ -239,30 +237,23 @@ def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Ru
     )
 
 
-def describe_deadlock(names: Sequence[str], place: str, circle: Sequence[str] = ()) -> Phrase:
+def describe_deadlock(
+    names: Sequence[str], place: str, circle: Sequence[str] = ()
+) -> RerouteReason:
     """Return which two robots no waiting keeps apart, and the circle that a wait would close."""
-    pair = Phrase(
-        "waiting cannot keep {one} and {other} apart at {place}",
-        one=names[0],
-        other=names[1],
-        place=place,
-    )
+    one, other = names
     if len(circle) < 3:  # noqa: PLR2004 (the two themselves)
-        return pair
-    return Phrase(
-        "{deadlock}: in a circle, {robots} would each wait for the next",
-        deadlock=pair,
-        robots=", ".join(circle),
-    )
+        return RerouteReason("deadlock of two", one=one, other=other, place=place)
+    return RerouteReason("deadlock in circle", one=one, other=other, place=place, robots=circle)
 
 
-def _for(names: Sequence[str], robot: int | None) -> str:
+def _for(names: Sequence[str], robot: int | None) -> RerouteReason:
     if robot is None:
-        return Phrase("it makes way for another robot")
-    return Phrase("it makes way for {robot}", robot=names[robot])
+        return RerouteReason("makes way")
+    return RerouteReason("makes way for", robot=names[robot])
 
 
-def _plan_together(task: Task, because: str) -> Draft:
+def _plan_together(task: Task, because: RerouteReason) -> Draft:
     robots, problem = range(len(task.scenario.robots)), task.scenario.problem
     draft = None
     if not problem.resources.are_points or not problem.is_open:

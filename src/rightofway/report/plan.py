@@ -20,6 +20,7 @@ from rightofway.model import ForcedLoss, Loss, LostTime, Plan, Proof, Scenario
 from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import Phrase, chain_items, join_items, say_count
 from rightofway.quantities import Quantities, format_decimal
+from rightofway.report.facts import FactWriter
 from rightofway.report.judgement import list_report_sentences
 from rightofway.report.lines import (
     Facts,
@@ -290,7 +291,8 @@ def _decisions(words: Words) -> Iterator[Part]:
         yield Paragraph(explain_decision(words, decision), "    ")
     for reroute in plan.run.reroutes:
         robot = words.name_robot(reroute.robot)
-        yield Phrase("{robot} is rerouted: {why}.", robot=robot, why=reroute.because)
+        why = FactWriter(plan.scenario).write(reroute.because)
+        yield Phrase("{robot} is rerouted: {why}.", robot=robot, why=why)
     if plan.run.decisions or plan.run.reroutes:
         return
     tracks = free_running(plan)

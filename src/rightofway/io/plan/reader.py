@@ -24,6 +24,7 @@ from rightofway.model import (
     Plan,
     PlannerRun,
     Reroute,
+    RerouteReason,
     Scenario,
     StartPlan,
     Status,
@@ -182,7 +183,9 @@ def _run(data: Any, names: _Names | None) -> PlannerRun | None:
         decisions.append(faults.attempt(("decisions", index), _decision, decision, names))
     for index, reroute in enumerate(document.reroutes):
         robot = faults.attempt(("reroutes", index), names.find_robot, "robot", reroute.robot)
-        reroutes.append(Reroute(robot=robot or 0, because=reroute.because))
+        place, data = ("reroutes", index, "because"), reroute.because.model_dump()
+        if because := faults.attempt(place, RerouteReason.read, data):
+            reroutes.append(Reroute(robot=robot or 0, because=because))
     losses = [
         faults.attempt(("forced_losses", index), _forced_loss, loss, names)
         for index, loss in enumerate(document.forced_losses)

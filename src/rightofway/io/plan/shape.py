@@ -10,7 +10,6 @@ from rightofway.io.fields import (
     Document,
     Name,
     NotNegative,
-    Sentence,
     TickLength,
     Ticks,
     make_optional,
@@ -44,11 +43,18 @@ class DecisionDocument(Document):
     )
 
 
+class ReasonDocument(Document):
+    """The reason why a robot got another route."""
+
+    kind: Name = Field(description="one of the kinds below")
+    values: dict[str, Any] = Field(default={}, description="a mapping of names")
+
+
 class RerouteDocument(Document):
     """A robot that was sent another way."""
 
     robot: Name = Field(description="the name of the robot")
-    because: Sentence = Field(description="a sentence, or its template and values")
+    because: ReasonDocument = Field(description="{kind, values} of the reason")
 
 
 class StartDocument(Document):

@@ -24,7 +24,6 @@ from rightofway.model import (
     SteadyState,
 )
 from rightofway.model.given import require_plan, require_truths
-from rightofway.phrases import to_parts
 from rightofway.values import format_number
 
 
@@ -113,7 +112,7 @@ def _planner(run: PlannerRun, scenario: Scenario, *, seconds: bool) -> dict[str,
         "seconds": float(run.seconds) if seconds and run.seconds is not None else None,
         "decisions": [_decision(decision, scenario) for decision in run.decisions],
         "reroutes": [
-            {"robot": scenario.robots[reroute.robot].name, "because": to_parts(reroute.because)}
+            {"robot": scenario.robots[reroute.robot].name, "because": reroute.because.as_dict()}
             for reroute in run.reroutes
         ],
         **({} if run.start is None else {"start": asdict(run.start)}),

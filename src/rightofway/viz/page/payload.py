@@ -144,7 +144,10 @@ def make_payload(
         "planner": _planner(plan),
         "decisions": [_decision(decision, words, book) for decision in run.decisions],
         "reroutes": [
-            {"robot": reroute.robot, "because": to_parts(reroute.because)}
+            {
+                "robot": reroute.robot,
+                "because": to_parts(FactWriter(scenario).write(reroute.because)),
+            }
             for reroute in run.reroutes
         ],
         "metrics": {
