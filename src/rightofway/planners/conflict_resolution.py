@@ -241,10 +241,10 @@ def describe_deadlock(
     names: Sequence[str], place: str, circle: Sequence[str] = ()
 ) -> RerouteReason:
     """Return which two robots no waiting keeps apart, and the circle that a wait would close."""
-    one, other = names
+    meeting = {"one": names[0], "other": names[1], "place": place}
     if len(circle) < 3:  # noqa: PLR2004 (the two themselves)
-        return RerouteReason("deadlock of two", one=one, other=other, place=place)
-    return RerouteReason("deadlock in circle", one=one, other=other, place=place, robots=circle)
+        return RerouteReason("deadlock of two", **meeting)
+    return RerouteReason("deadlock in circle", **meeting, robots=circle)
 
 
 def _for(names: Sequence[str], robot: int | None) -> RerouteReason:
