@@ -73,6 +73,35 @@ def test_a_translation_has_the_values_of_its_template(language: str) -> None:
         assert sorted(VALUE.findall(template)) == sorted(VALUE.findall(text)), template
 
 
+OTHER_WORDS = {
+    r"\bPlaner\b": "Verfahren",
+    r"\bRunden?\b": "Umlauf",
+    r"\bHeim\b|[Ff]alscher? Starts?\b|\"Start\"": "Startplatz",
+    r"\bHalten?\b(?! auf Durchfahrt)|\bArbeitspl": "Ziel",
+    r"\bBoden\b": "Grundriss",
+    r"\bWenden\b": "Drehen",
+    r"\bFolgezeit\b": "Zeitabstand",
+    r"(?<!Höchst)\b[Gg]eschwindigkeit: ": "Tempo",
+    r"Summe der (Ankünfte|Ankunftszeiten)": "Zeitsumme",
+}
+"""Second words for things of the glossary, with the words that it has for them."""
+
+GERMAN_TEXTS = (
+    "texts/de.json",
+    "viz/page/assets/texts/de.js",
+    "studio/assets/words/de.js",
+)
+
+
+@pytest.mark.parametrize("name", GERMAN_TEXTS)
+def test_the_german_texts_have_one_word_for_one_thing(name: str) -> None:
+    text = (SOURCES / name).read_text("utf-8")
+    found = {
+        match[0]: word for other, word in OTHER_WORDS.items() for match in re.finditer(other, text)
+    }
+    assert not found
+
+
 def test_a_phrase_is_its_text_and_keeps_template_and_values() -> None:
     phrase = Phrase("{place} holds {robots}", place="{N1}", robots=say_count(2, "robot", "robots"))
     assert phrase == "{N1} holds 2 robots"

@@ -6,6 +6,7 @@ table from English templates to templates of that language; the values are put i
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from functools import cache
 from string import Formatter
@@ -21,6 +22,7 @@ __all__ = [
     "join_first",
     "join_items",
     "join_parts",
+    "mark_figure",
     "say_count",
     "to_parts",
 ]
@@ -177,6 +179,26 @@ class PhraseBook:
             self._index[entry] = len(self.entries)
             self.entries.append(entry if isinstance(entry, str) else list(entry))
         return self._index[entry]
+
+
+FIGURE = re.compile(r"\d[.%]")
+"""What languages write differently in a number: the decimal point, and the space before ``%``."""
+
+
+def mark_figure(text: str) -> str:
+    """Return a number with its unit, marked so that pages write it as their language does.
+
+    Parameters
+    ----------
+    text
+        The number as English has it: ``6 min 23.5 s``, ``4.4%``.
+
+    Examples
+    --------
+    >>> to_parts([mark_figure("1.5 s"), mark_figure("2 s")])
+    [['{figure}', {'figure': '1.5 s'}], '2 s']
+    """
+    return Phrase("{figure}", figure=text) if FIGURE.search(text) else text
 
 
 def say_count(number: int | str, singular: str, plural: str) -> Phrase:

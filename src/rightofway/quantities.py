@@ -13,7 +13,7 @@ from typing import Literal, get_args
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, InputFault, quote
-from rightofway.phrases import Phrase, say_count
+from rightofway.phrases import Phrase, mark_figure, say_count
 
 __all__ = ["Quantities", "Units", "format_decimal"]
 
@@ -81,14 +81,14 @@ class Units:
         """Return a length: ``0.45 m``, ``0.45 length units``."""
         number = format_decimal(value)
         return (
-            f"{number} {self.length}"
+            mark_figure(f"{number} {self.length}")
             if self.length
             else say_count(number, "length unit", "length units")
         )
 
 
 def format_decimal(value: Value, digits: int = DIGITS) -> str:
-    """Return a number as a person writes it.
+    """Return a number as a person writes it; pages write it with the point of their language.
 
     Parameters
     ----------
@@ -112,6 +112,10 @@ def format_decimal(value: Value, digits: int = DIGITS) -> str:
     >>> format_decimal(Fraction(1, 3000))
     '0.00033'
     """
+    return mark_figure(_write_decimal(value, digits))
+
+
+def _write_decimal(value: Value, digits: int) -> str:
     exact = Fraction(repr(value)) if isinstance(value, float) else Fraction(value)
     scaled = exact * 10**digits
     if scaled.denominator == 1:
@@ -177,7 +181,7 @@ class Quantities:
         seconds = self.units.seconds
         if seconds is None:
             return say_count(format_decimal(time), "time unit", "time units")
-        return self._clock(time * seconds)
+        return mark_figure(self._clock(time * seconds))
 
     @checks_arguments
     def format_moment(self, ticks: Value) -> str:
@@ -216,7 +220,9 @@ class Quantities:
         """Return a speed: ``1.2 m/s``; a bare number where the scenario names no units."""
         length, time = self.units.length, self.units.time
         return (
-            f"{format_decimal(value)} {length}/{time}" if length and time else format_decimal(value)
+            mark_figure(f"{format_decimal(value)} {length}/{time}")
+            if length and time
+            else format_decimal(value)
         )
 
     def compute_ticks_per_hour(self) -> Fraction | None:

@@ -32,7 +32,8 @@ SAID = """(words) => {
   const look = (text, node) => {
     const said = (text ?? "").toLowerCase().match(/\\p{L}+/gu) ?? [];
     const foreign = said.filter((word) => words.includes(word));
-    if (foreign.length && !isEnglish(node)) found.push(text.trim().slice(0, 90));
+    const isPoint = /\\d\\.\\d|\\d%/.test(text ?? ""); // "1.5 s", "4.4%"
+    if ((foreign.length || isPoint) && !isEnglish(node)) found.push(text.trim().slice(0, 90));
   };
   const tree = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
   for (let node = tree.nextNode(); node; node = tree.nextNode())
@@ -40,12 +41,14 @@ SAID = """(words) => {
   for (const node of document.querySelectorAll("*"))
     for (const name of ["aria-label", "title", "placeholder", "alt", "aria-roledescription"])
       look(node.getAttribute(name), node);
+  for (const field of document.querySelectorAll("input:not([type]), input[type=search]"))
+    look(field.value, field);
   return [...new Set(found)];
 }"""
 
 
 def english_on(viewer: Viewer) -> list[str]:
-    """Return the texts of a page, hidden ones and names of elements too, that are English.
+    """Return the texts of a page, hidden ones too, that are English or have English numbers.
 
     Parameters
     ----------

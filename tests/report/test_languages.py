@@ -37,7 +37,7 @@ def test_columns_are_as_wide_as_their_words() -> None:
 def test_notes_of_a_reader_are_said_in_german() -> None:
     (note,) = write_notes(load_with_notes(EXAMPLES / "floor.yaml").notes)
     assert note == "floor cut into 24 x 16 = 384 cells of 0.5 m"
-    assert translate(note) == "Boden in 24 x 16 = 384 Zellen von 0.5 m geteilt"
+    assert translate(note) == "Grundriss in 24 x 16 = 384 Zellen von 0.5 m geteilt"
     draft = LayoutDraft("LIF layout")
     level = draft.begin_level()
     for name, x in (("A", 0), ("B", 2)):

@@ -69,7 +69,7 @@ def test_a_plan_its_robots_and_its_waits_are_german(german: StudioPage) -> None:
 
 def test_what_the_reader_notes_is_german(german: StudioPage) -> None:
     notes = german.page.locator("details.notes")
-    notes.get_by_text("Boden in 24 x 16 = 384 Zellen von 0.5 m geteilt").wait_for()
+    notes.get_by_text("Grundriss in 24 x 16 = 384 Zellen von 0,5 m geteilt").wait_for()
 
 
 def test_another_language_is_spoken_at_once(german: StudioPage) -> None:
@@ -77,7 +77,7 @@ def test_another_language_is_spoken_at_once(german: StudioPage) -> None:
     german.page.get_by_label("Sprache").select_option("en")
     german.page.get_by_text("Who waits, and why").wait_for()
     assert "driving" in german.text("#states")
-    assert "arrivals" in german.text(".curve")
+    assert "Flowtime" in german.text(".curve")
 
 
 def test_the_line_below_the_map_says_the_longest_wait_in_german(

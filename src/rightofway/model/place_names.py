@@ -16,7 +16,8 @@ DECIMALS = 3
 
 def describe_middle(roadmap: Roadmap, vertex: int) -> str:
     """Return the middle of a cell in the site's frame: ``7.25, 4.75``."""
-    return ", ".join(format_decimal(part, DECIMALS) for part in roadmap.get_point(vertex))
+    x, y = (format_decimal(part, DECIMALS) for part in roadmap.get_point(vertex))
+    return Phrase("{x}, {y}", x=x, y=y)
 
 
 class PlaceNames:
@@ -46,8 +47,10 @@ class PlaceNames:
             return roadmap.name(vertex)
         if vertex in self._stations:
             return self._with_number(self._stations[vertex], vertex)
-        number = f"{roadmap.name(vertex)} " if self.numbered else ""
-        return f"{number}({describe_middle(roadmap, vertex)})"
+        middle = Phrase("({middle})", middle=describe_middle(roadmap, vertex))
+        if not self.numbered:
+            return middle
+        return Phrase("{first} {second}", first=roadmap.name(vertex), second=middle)
 
     def __call__(self, vertex: int) -> str:
         """Return what a sentence calls a vertex: ``the home of R1``, else where it is."""

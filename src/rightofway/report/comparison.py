@@ -8,7 +8,7 @@ from rightofway.facts import Fact
 from rightofway.metrics.changes import Change
 from rightofway.metrics.comparison import Comparison
 from rightofway.model import Plan
-from rightofway.phrases import join_items
+from rightofway.phrases import join_items, to_parts
 from rightofway.quantities import format_decimal
 from rightofway.report.facts import FactWriter
 
@@ -45,10 +45,10 @@ def describe_change(change: Change) -> dict[str, Any]:
     before, after = map(_write_value, (change.before, change.after))
     values = f"{before} → {after}" if before or after else ""
     return {
-        "subject": subject,
+        "subject": to_parts(subject),
         "key": change.key,
-        "before": before,
-        "after": after,
+        "before": to_parts(before),
+        "after": to_parts(after),
         "robots": list(change.robots),
         "text": f"{subject}: {' '.join(filter(None, (change.key, values)))}",
     }

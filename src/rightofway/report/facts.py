@@ -20,7 +20,7 @@ from rightofway.errors import join_names
 from rightofway.facts import Fact
 from rightofway.model import Scenario
 from rightofway.model.place_names import PlaceNames, describe_middle
-from rightofway.phrases import Phrase, chain_items, join_first, join_items
+from rightofway.phrases import Phrase, chain_items, join_first, join_items, mark_figure
 from rightofway.quantities import Quantities, Units, format_decimal
 
 if TYPE_CHECKING:
@@ -172,7 +172,7 @@ class FactWriter:
     def _forms(self) -> Mapping[str, Callable[[Any], str]]:
         return {
             "": self._write_text,
-            "factor": lambda factor: f"{float(factor):g}",
+            "factor": lambda factor: mark_figure(f"{float(factor):g}"),
             "listed": ", ".join,
             "word": Phrase,
             "few": lambda values: join_names(list(map(self._write_text, values))),
@@ -188,7 +188,7 @@ class FactWriter:
             "list": lambda facts: chain_items(list(map(self.write, facts))),
             "and": lambda facts: join_items([self.write(fact) for fact in facts]),
             "angle": lambda degrees: format_decimal(degrees, 6),
-            "decimal": "{:g}".format,
+            "decimal": lambda number: mark_figure(f"{number:g}"),
             "fine_length": self._write_fine_length,
             "first": lambda names: join_first(list(map(self._write_text, names))),
             "duration": cache(self.quantities.format_duration),
@@ -201,7 +201,7 @@ class FactWriter:
             "percent": lambda share: f"{round(100 * share)} %",
             "robot": self.name_robot,
             "robots": lambda robots: join_items(list(map(self.name_robot, robots))),
-            "rounded": "{:.3g}".format,
+            "rounded": lambda number: mark_figure(f"{number:.3g}"),
             "until": self._write_until,
             "vertex": self.name_vertex,
             "vertices": lambda vertices: join_items(list(map(self.name_vertex, vertices))),
@@ -236,7 +236,7 @@ class FactWriter:
         if about.roadmap.has_cells and about.units.length:
             middle = describe_middle(about.roadmap, vertex)
             if use is None:
-                return f"({middle})"
+                return Phrase("({middle})", middle=middle)
             return Phrase("({middle}, {what})", middle=middle, what=self.write(use))
         name = about.roadmap.name(vertex)
         return name if use is None else Phrase("{name} ({what})", name=name, what=self.write(use))

@@ -23,7 +23,7 @@ from rightofway.model import (
     Scenario,
 )
 from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase, chain_items, join_items, say_count
+from rightofway.phrases import Phrase, chain_items, join_items, mark_figure, say_count
 from rightofway.quantities import Quantities
 from rightofway.values import format_number
 
@@ -113,7 +113,7 @@ def describe_proof(plan: Plan) -> str:
         cost = plan.compute_value(outcome.objective)
         return Phrase(
             "at most {gap} above the least {objective}",
-            gap=f"{cost / outcome.bound - 1:.1%}",
+            gap=mark_figure(f"{cost / outcome.bound - 1:.1%}"),
             objective=OBJECTIVES[outcome.objective],
         )
     return ""

@@ -6,6 +6,8 @@ import {
   decimal,
   fraction,
 } from "../../../src/rightofway/viz/page/assets/quantities.js";
+import { figure, setLanguage } from "../../../src/rightofway/viz/page/assets/language.js";
+import { learn, said } from "../../../src/rightofway/viz/page/assets/library.js";
 import { roundLength } from "../../../src/rightofway/viz/page/assets/scale_bar.js";
 import { times } from "../made.js";
 
@@ -72,4 +74,43 @@ test("the scale bar has the longest round length that 130 pixels have room for",
   // maps of which 130 pixels show a length of 0.9, 4 and 13
   const lengths = [0.9, 4, 13].map((width) => roundLength(width / 130));
   assert.deepEqual(lengths, [0.5, 2, 10]);
+});
+
+/** @param {() => void} check */
+function inGerman(check) {
+  setLanguage("de", /** @type {HTMLElement} */ ({}));
+  try {
+    check();
+  } finally {
+    setLanguage("en", /** @type {HTMLElement} */ ({}));
+  }
+}
+
+test("quantities have decimal commas in German", () =>
+  inGerman(() => {
+    const quantities = new Quantities({ time: "s", length: "m" }, [1, 4]);
+    assert.equal(quantities.duration(6), "1,5 s");
+    assert.equal(quantities.running(8), "2,0 s");
+    assert.equal(quantities.cell(5), "1,25");
+    assert.equal(quantities.speed("6/5"), "1,2 m/s");
+    assert.equal(quantities.length("9/20"), "0,45 m");
+    assert.equal(
+      new Quantities({ time: null, length: null }, [1, 2]).duration(3),
+      "1,5 Zeiteinheiten",
+    );
+  }));
+
+test("marked numbers of a phrase have decimal commas in German, names keep their points", () => {
+  learn({ de: { "{robot} waits {time}": "{robot} wartet {time}", "{figure}": "{figure}" } });
+  /** @type {[string, Record<string, any>]} */
+  const phrase = [
+    "{robot} waits {time}",
+    { robot: "AGV 1.2", time: ["{figure}", { figure: "6 min 23.5 s" }] },
+  ];
+  assert.equal(said(phrase), "AGV 1.2 waits 6 min 23.5 s");
+  inGerman(() => {
+    assert.equal(said(phrase), "AGV 1.2 wartet 6 min 23,5 s");
+    assert.equal(figure("4.4%"), "4,4 %");
+    assert.equal(figure("1/3"), "1/3");
+  });
 });

@@ -2,6 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { setLanguage } from "../../../src/rightofway/viz/page/assets/language.js";
 import { cellsOfBox, cellsOfLine } from "../../../src/rightofway/studio/assets/draw/ground.js";
 import {
   numberOf,
@@ -27,4 +28,13 @@ test("places are read as they are written, and cells lie on a line", () => {
     [3, 1],
   ]);
   assert.equal(cellsOfBox([2, 1], [0, 0]).length, 6);
+});
+
+test("a point is written and read with decimal commas in German", () => {
+  setLanguage("de", /** @type {HTMLElement} */ ({}));
+  assert.equal(textOfPlace({ x: 1.25, y: 0.75 }), "1,25 | 0,75");
+  assert.deepEqual(placeOfText("1,25 | 0,75"), { x: 1.25, y: 0.75 });
+  assert.deepEqual(placeOfText("1,25; 0,75"), { x: 1.25, y: 0.75 });
+  assert.deepEqual(placeOfText("1.25, 0.75"), { x: 1.25, y: 0.75 });
+  setLanguage("en", /** @type {HTMLElement} */ ({}));
 });

@@ -665,11 +665,11 @@ export interface Saved {
 
 /** Something in which a scenario differs from another one. */
 export interface ScenarioChange {
-  subject: string;
+  subject: PhraseData | string;
   robots: Array<string>;
   key: string;
-  before: string;
-  after: string;
+  before: PhraseData | string;
+  after: PhraseData | string;
   text: string;
 }
 

@@ -2,6 +2,7 @@
 
 import { UNREACHABLE, get, inAddress } from "./api.js";
 import { html, useEffect, useRef, useState } from "./vendor/htm-preact.js";
+import { figure } from "../../viz/page/assets/language.js";
 import { language, words } from "./words.js";
 import { present } from "./given.js";
 /** @import { Glance } from "./api_types.js" */
@@ -103,7 +104,7 @@ function Card({ document, open, remove }) {
  * @returns {string}
  */
 function aboutOf({ kind, robots, extent: [width, height], unit }, hasRoom) {
-  const size = unit && hasRoom ? `${width} × ${height} ${unit}` : "";
+  const size = unit && hasRoom ? figure(`${width} × ${height} ${unit}`) : "";
   const what = kind === "layout" ? words.mapAlone : words.robotCount(robots ?? 0);
   return [kind === "plan" ? words.planOf(what) : what, size].filter(Boolean).join(" · ");
 }
@@ -124,7 +125,7 @@ export function ago(seconds) {
   const past = seconds - Date.now() / 1000;
   const format = new Intl.RelativeTimeFormat(language, {
     numeric: "auto",
-    style: "narrow",
+    style: "short",
   });
   for (const [unit, length] of UNITS)
     if (-past >= length) return format.format(Math.round(past / length), unit);

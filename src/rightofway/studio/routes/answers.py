@@ -489,11 +489,11 @@ class CommandLine(TypedDict):
 class ScenarioChange(TypedDict):
     """Something in which a scenario differs from another one."""
 
-    subject: str
+    subject: Phrase | str
     robots: list[str]
     key: str
-    before: str
-    after: str
+    before: Phrase | str
+    after: Phrase | str
     text: str
 
 

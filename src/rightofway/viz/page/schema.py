@@ -323,11 +323,11 @@ class FeedData(TypedDict):
 class ChangeData(TypedDict):
     """Something in which a scenario differs from another one; see `Change`."""
 
-    subject: str
+    subject: PhraseData
     robots: list[str]
     key: str
-    before: str
-    after: str
+    before: PhraseData
+    after: PhraseData
     text: str
 
 

@@ -1,6 +1,7 @@
 /** Closed places and lanes: found, closed for a while or for ever, opened again. */
 
 import { html } from "../vendor/htm-preact.js";
+import { figure } from "../../../viz/page/assets/language.js";
 import { Field } from "../field.js";
 import { written } from "../robots/columns.js";
 import { withKey } from "../robots/fleet.js";
@@ -105,7 +106,7 @@ export function Times({ document, faults, closure, write, of = "" }) {
   /** @param {TimeKey} key */
   const given = (key) =>
     write && {
-      value: closure?.[key] ?? "",
+      value: figure(String(closure?.[key] ?? "")),
       onChange: (/** @type {PageEvent} */ { target }) => write(key, target.value),
     };
   /**

@@ -1,5 +1,6 @@
 /** Drawing on the map: the tool in hand, pointer and keys, what is selected. Every change goes through the store. */
 
+import { figure, texts } from "../../../viz/page/assets/language.js";
 import { Observable } from "../../../viz/page/assets/observable.js";
 import { RobotTool } from "../robots/tool.js";
 import { PickTool } from "./backdrop.js";
@@ -460,14 +461,22 @@ export class Editor extends Observable {
     const vertex = this.vertexAt(this.cursor);
     this.say(
       vertex < 0
-        ? roadmap
-            .toSite(this.cursor.x, this.cursor.y)
-            .map((length) => length.toFixed(2))
-            .join(", ")
+        ? this.#pointText(this.cursor)
         : [roadmap.label(vertex), roadmap.uses(vertex), ...this.hits.namesAt(vertex)]
             .filter(Boolean)
             .join(", "),
     );
+  }
+
+  /**
+   * A point of the drawing in the frame of the site.
+   *
+   * @param {DrawingPoint} point
+   */
+  #pointText({ x: right, y: up }) {
+    const { roadmap } = this.stage.plan;
+    const [x, y] = roadmap.toSite(right, up);
+    return texts.pair(figure(x.toFixed(2)), figure(y.toFixed(2)));
   }
 
   /** The menu of the cursor's place, or of what is selected. */

@@ -1,5 +1,6 @@
 /** Places of a document, vertices of the map, and points of its drawing. */
 
+import { figure, texts } from "../../../viz/page/assets/language.js";
 /** @import { Roadmap } from "../../../viz/page/assets/roadmap.js" */
 /** @import { MapData, Numeral, Place, Point, ScenarioDocument } from "../types.js" */
 
@@ -81,14 +82,15 @@ export function vertexOf(place, roadmap) {
 }
 
 /**
- * A place as one reads it in a table: "N3", "1.25, 0.75", "row 2, column 3".
+ * A place as one reads it in a table: "N3", "1.25, 0.75" ("1,25 | 0,75" in German), "row 2, column 3".
  * @param {Place | null | undefined} place
  * @returns {string}
  */
 export function textOfPlace(place) {
   if (place === undefined || place === null) return "";
   if (Array.isArray(place)) return `[${place.join(", ")}]`;
-  return typeof place === "object" ? `${place.x}, ${place.y}` : String(place);
+  if (typeof place !== "object") return String(place);
+  return texts.pair(figure(String(place.x)), figure(String(place.y))).replaceAll("\u00a0", " ");
 }
 
 /**
@@ -101,6 +103,10 @@ export function placeOfText(text) {
   if (!written) return undefined;
   const cell = /^\[\s*(\d+)\s*[,;]\s*(\d+)\s*\]$/.exec(written);
   if (cell) return [Number(cell[1]), Number(cell[2])];
-  const point = /^(-?[\d.]+)\s*[,;]\s*(-?[\d.]+)$/.exec(written);
-  return point ? { x: Number(point[1]), y: Number(point[2]) } : written;
+  const point =
+    /^(-?[\d.,]+)\s*[|;]\s*(-?[\d.,]+)$/.exec(written) ?? // a comma is a decimal point then
+    /^(-?[\d.]+)\s*,\s*(-?[\d.]+)$/.exec(written);
+  if (!point) return written;
+  const [x, y] = point.slice(1).map((part) => Number(part.replace(",", ".")));
+  return { x, y };
 }

@@ -1,5 +1,6 @@
 /** Numbers at the pointer and rulers along the map, in the length unit of the scenario. */
 
+import { figure } from "../../../viz/page/assets/language.js";
 import { rounded } from "./places.js";
 /** @import { Stage } from "../stage.js" */
 /** @import { Point } from "../types.js" */
@@ -174,5 +175,5 @@ function* ticks(from, to, step) {
  */
 function shortNumber(value, step) {
   const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-  return value.toFixed(digits).replace(/^-(0(\.0+)?)$/, "$1");
+  return figure(value.toFixed(digits).replace(/^-(0(\.0+)?)$/, "$1"));
 }

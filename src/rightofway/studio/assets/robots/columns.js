@@ -1,5 +1,6 @@
 /** The columns of the table of robots: what a cell says, and what it means when it is written. */
 
+import { figure } from "../../../viz/page/assets/language.js";
 import { said } from "../../../viz/page/assets/library.js";
 import { numberOf, placeOfText, textOfPlace } from "../draw/places.js";
 import { ATTRIBUTES } from "./attributes.js";
@@ -42,7 +43,7 @@ function stopsOfText(text) {
  */
 function textOfWork(robot) {
   const works = new Set(stopsOf(robot).map(({ work }) => work ?? ""));
-  return works.size === 1 ? String([...works][0]) : "";
+  return works.size === 1 ? figure(String([...works][0])) : "";
 }
 
 /**
@@ -54,7 +55,10 @@ function attribute(name) {
   const key = /** @type {keyof typeof ATTRIBUTES} */ (name);
   const { isText, title, hint, usual } = ATTRIBUTES[key];
   /** @param {RobotData} robot */
-  const text = (robot) => String(robot[key] ?? "");
+  const text = (robot) => {
+    const value = String(robot[key] ?? "");
+    return isText ? value : figure(value);
+  };
   return {
     key,
     words: () => [said([title, {}]), said([hint, {}]), usual],
@@ -101,7 +105,7 @@ export const COLUMNS = [
     key: "work",
     words: ({ columns }) => columns.work,
     text: textOfWork,
-    value: (robot) => numberOf(textOfWork(robot), -1),
+    value: (robot) => numberOf(written(textOfWork(robot)), -1),
     set: (robot, text) =>
       withStops(
         robot,

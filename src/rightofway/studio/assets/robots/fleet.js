@@ -1,5 +1,6 @@
 /** The robots of a document, as edits of it. */
 
+import { figure } from "../../../viz/page/assets/language.js";
 import { textOfPlace } from "../draw/places.js";
 import { present } from "../given.js";
 /** @import { Column, Place, RobotData, ScenarioDocument, Stop } from "../types.js" */
@@ -171,5 +172,7 @@ export const tableText = (robots, columns) =>
  */
 export const textOfStops = (robot) =>
   stopsOf(robot)
-    .map(({ at, work }) => (work === undefined ? textOfPlace(at) : `${textOfPlace(at)} (${work})`))
+    .map(({ at, work }) =>
+      work === undefined ? textOfPlace(at) : `${textOfPlace(at)} (${figure(String(work))})`,
+    )
     .join("; ");

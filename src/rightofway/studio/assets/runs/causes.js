@@ -1,6 +1,7 @@
 /** Causes of delay as fields: each has a sentence with places for numbers, and its notation for the command. */
 
 import { html } from "../vendor/htm-preact.js";
+import { figure } from "../../../viz/page/assets/language.js";
 import { decimal, fraction } from "../../../viz/page/assets/quantities.js";
 import { words } from "../words.js";
 import { over } from "./parameter_curve.js";
@@ -72,7 +73,7 @@ const KINDS = {
  */
 export const causeOf = (kind, robots) => ({
   kind,
-  values: KINDS[kind].fields.map(([type, value]) => (type === "robot" ? robots[0] : value)),
+  values: KINDS[kind].fields.map(([type, value]) => (type === "robot" ? robots[0] : figure(value))),
 });
 
 /**

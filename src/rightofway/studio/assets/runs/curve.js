@@ -2,6 +2,7 @@
 
 import { html, useEffect, useState } from "../vendor/htm-preact.js";
 import { connection } from "../connection.js";
+import { figure } from "../../../viz/page/assets/language.js";
 import { Quantities } from "../../../viz/page/assets/quantities.js";
 import { words } from "../words.js";
 import { secondsOf } from "./list.js";
@@ -92,10 +93,10 @@ function Caption({ run: { state, figures, status }, isFaulty, bound, seconds }) 
   const said = !isFaulty && figures?.tick && new Quantities(figures.units, figures.tick);
   return html`<figcaption>
     ${isLive && html`<span role="status">${stateOf({ state })}</span> `}
-    ${state === "running" && !connection.isLost && `${seconds.toFixed(1)} s `}
+    ${state === "running" && !connection.isLost && `${figure(seconds.toFixed(1))} s `}
     ${said && html`<${Term} of="flowtime" /> <b>${said.duration(figures.flowtime)}</b>, `}
     ${said && html`<${Term} of="bound" /> ${said.duration(figures.lower_bound)}`}
-    ${said && figures.flowtime > (bound ?? Infinity) && ` (+${figures.text.gap})`}
+    ${said && figures.flowtime > (bound ?? Infinity) && ` (+${figure(figures.text.gap ?? "")})`}
     ${!isLive && status && html` <span class="hint" lang="en">${status}</span>`}
   </figcaption>`;
 }
@@ -129,7 +130,7 @@ function Labels({ most, floor, bound, place, time, last }) {
     <span class="label" style=${at(most)}>${time(most)}</span>
     ${isApart && html`<span class="label" style=${at(floor)} title=${words.bound}>${lowest}</span>`}
     <span class="seconds first">0</span>
-    <span class="seconds last">${Number(last.toPrecision(2))} s</span>`;
+    <span class="seconds last">${figure(String(Number(last.toPrecision(2))))} s</span>`;
 }
 
 /**
@@ -143,7 +144,13 @@ function inWords(drawn, bound, time) {
   if (!drawn.length || !time) return words.curve;
   const parts = drawn.map(({ number, points }) => {
     const [[start, first], [end, best]] = [points[0], points[points.length - 1]];
-    return words.curveOf(number, time(first), start.toFixed(1), time(best), end.toFixed(1));
+    return words.curveOf(
+      number,
+      time(first),
+      figure(start.toFixed(1)),
+      time(best),
+      figure(end.toFixed(1)),
+    );
   });
   return [words.curve, ...parts, bound === undefined ? "" : `${words.bound} ${time(bound)}`]
     .filter(Boolean)

@@ -3,6 +3,7 @@
 import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
 import { post } from "../api.js";
 import { changeRobots, robotsOf, stopsOf, withStops, writtenIn } from "../robots/fleet.js";
+import { figure } from "../../../viz/page/assets/language.js";
 import { decimal, fraction, Quantities } from "../../../viz/page/assets/quantities.js";
 import { said as phraseText } from "../../../viz/page/assets/library.js";
 import { several } from "../../../viz/page/assets/words.js";
@@ -87,7 +88,7 @@ class Said {
    */
   throughput(laps, period) {
     const seconds = times(period, SECONDS[this.units.time ?? ""] ?? [1n, 1n]);
-    return decimal(over(times([BigInt(laps), 1n], HOUR), seconds), 1);
+    return figure(decimal(over(times([BigInt(laps), 1n], HOUR), seconds), 1));
   }
 }
 

@@ -2,6 +2,7 @@
 
 import { html, useEffect, useState } from "../vendor/htm-preact.js";
 import { Field } from "../field.js";
+import { figure } from "../../../viz/page/assets/language.js";
 import { Quantities } from "../../../viz/page/assets/quantities.js";
 import { words } from "../words.js";
 import { doNotRun, faultsOf, inShort } from "./faults.js";
@@ -212,7 +213,7 @@ function Row({ studio, run, order, isOwn, hasUnit }) {
   const about = rest.filter(Boolean).join(" · ");
   const flowtime = figures?.tick
     ? new Quantities(figures.units, figures.tick)[hasUnit ? "cell" : "short"](figures.flowtime)
-    : figures?.text.flowtime;
+    : figure(figures?.text.flowtime ?? "");
   /**
    * @param {PageEvent} event
    * @returns {void}
@@ -249,7 +250,7 @@ function Row({ studio, run, order, isOwn, hasUnit }) {
           ? html`<b class="wrong" title=${doNotRun(faultsOf(run))}>${inShort(faultsOf(run))}</b>`
           : html`${flowtime}${figures?.text.gap && html`<${Gap} figures=${figures} />`}`
       }</td>
-      <td class="short">${took ? took.toFixed(1) : ""}</td>
+      <td class="short">${took ? figure(took.toFixed(1)) : ""}</td>
       <td class="do">${isOver(run) && remove}</td>
     </tr>
     ${
@@ -265,8 +266,8 @@ function Row({ studio, run, order, isOwn, hasUnit }) {
  */
 function Gap({ figures: { flowtime, lower_bound: bound, text } }) {
   const share = Math.min(flowtime / bound - 1, 1);
-  return html`<small title=${`${words.gap} ${text.gap}`}>
-    <span class="gap-bar" style=${{ "--gap": share }}></span>+${text.gap}</small>`;
+  return html`<small title=${`${words.gap} ${figure(text.gap ?? "")}`}>
+    <span class="gap-bar" style=${{ "--gap": share }}></span>+${figure(text.gap ?? "")}</small>`;
 }
 
 /**

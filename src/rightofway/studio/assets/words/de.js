@@ -36,7 +36,7 @@ export const GERMAN = {
   putIntoFolder: (names, folder) => `${names}: jetzt im Ordner ${folder}.`,
   draftIsNewer: (name) => `Das ist neuer als ${name} und noch nicht gespeichert.`,
   openSaved: "Gesichertes öffnen",
-  changedElsewhere: "Von diesem Boden gibt es einen anderen Entwurf.",
+  changedElsewhere: "Von diesem Grundriss gibt es einen anderen Entwurf.",
   loadOther: "Den laden",
   keepCopy: "Meinen als Kopie behalten",
   draftRemoved: "Der Entwurf ist gelöscht.",
@@ -116,7 +116,7 @@ export const GERMAN = {
     mark: ["Station", "Ein Klick macht einen Knoten zur Station, mit Umschalt zum Parkplatz."],
     robot: [
       "Roboter platzieren",
-      "Den Startplatz anklicken, dann den Platz, wo der Roboter arbeitet.",
+      "Den Startplatz anklicken, dann das Ziel, an dem der Roboter arbeitet.",
     ],
     measure: [
       "Messen",
@@ -126,7 +126,7 @@ export const GERMAN = {
   nextRobots: "Weiter: Roboter platzieren",
   nextPlan: "Weiter: planen und zusehen",
   needsRobots:
-    "Ein Plan braucht Roboter: auf der Karte den Startplatz eines Roboters anklicken, dann den Platz, wo er arbeitet.",
+    "Ein Plan braucht Roboter: auf der Karte den Startplatz eines Roboters anklicken, dann das Ziel, an dem er arbeitet.",
   needsMending: (count) =>
     count === 1
       ? "Erst den Fehler in der Liste beheben."
@@ -153,8 +153,8 @@ export const GERMAN = {
   copiedPiece: "Kopiert; mit Strg+V einfügen, auch in einem anderen Tab.",
   noVertexHere: "Dort kann kein Roboter stehen.",
   homeTaken: "Dort hat ein anderer Roboter seinen Startplatz.",
-  pressStop: "Jetzt den Platz anklicken, wo er arbeitet; mit Umschalt mehrere.",
-  pressMore: "Den nächsten Platz anklicken; ohne Umschalt ist es der letzte.",
+  pressStop: "Jetzt das Ziel anklicken, an dem er arbeitet; mit Umschalt mehrere.",
+  pressMore: "Das nächste Ziel anklicken; ohne Umschalt ist es der letzte.",
   pressHome: "Den Startplatz des nächsten Roboters anklicken oder planen, was da ist.",
   pressLane: "Den nächsten Knoten anklicken oder denselben zum Beenden.",
   robotsElsewhere: "Die Roboter stehen in einer anderen Datei.",
@@ -203,7 +203,7 @@ export const GERMAN = {
   noUnit: "keine",
   columns: {
     name: ["Name", "Name"],
-    home: ["Start", "Startplatz, wo er beginnt und endet: N3 oder 1.25, 0.75"],
+    home: ["Startplatz", "Wo er beginnt und endet: N3 oder 1,25 | 0,75"],
     stops: ["Ziele", "Wo er arbeitet; mehrere mit ; getrennt"],
     work: ["Arbeit", "Wie lange er an jedem Ziel arbeitet", "0"],
   },
@@ -215,8 +215,7 @@ export const GERMAN = {
   newRow: "neuer Roboter",
   findRobot: "Roboter oder Platz suchen",
   moreRows: (count) => `${count} weitere zeigen`,
-  noRobots:
-    "Noch keine Roboter: auf der Karte einen Startplatz anklicken, dann einen Platz zum Arbeiten.",
+  noRobots: "Noch keine Roboter: auf der Karte einen Startplatz anklicken, dann ein Ziel.",
   randomFleet: "Zufällige Roboter",
   deal: "Hinzufügen",
   dealFew: (count, between) =>
@@ -280,7 +279,7 @@ export const GERMAN = {
   whatIf: "Was wäre, wenn",
   whatIfOf: (name) => `Was wäre, wenn ${name} anders wäre`,
   chooseRobot:
-    "Einen Roboter auf der Karte wählen; dann Startplatz oder Arbeitsplatz ziehen oder Tempo und Arbeit ändern.",
+    "Einen Roboter auf der Karte wählen; dann Startplatz oder Ziel ziehen oder Tempo und Arbeit ändern.",
   closeByPress: "Platz auf der Karte sperren",
   pressToClose: "Den Platz oder die Strecke auf der Karte anklicken; Esc bricht ab.",
   closePlace: "Platz sperren",
@@ -461,7 +460,7 @@ export const GERMAN = {
     failed: "fehlgeschlagen",
     interrupted: "unterbrochen",
   },
-  dragPlaces: (name) => `Startplatz oder Arbeitsplatz von ${name} ziehen: Was ändert sich?`,
+  dragPlaces: (name) => `Startplatz oder Ziel von ${name} ziehen: Was ändert sich?`,
   watching: "Ein Klick auf einen Roboter oder ein Warten zeigt, warum er Zeit verliert.",
   keyGroups: {
     tools: "Werkzeuge",
@@ -496,7 +495,7 @@ export const GERMAN = {
       ["Leertaste", "Abspielen oder anhalten"],
       ["← →", "Einen Schritt zurück oder weiter"],
       ["Klicken", "Auf einen Roboter: warum er wartet"],
-      ["Ziehen", "Startplatz oder Arbeitsplatz dieses Roboters: Was wäre, wenn er anderswo wäre"],
+      ["Ziehen", "Startplatz oder Ziel dieses Roboters: Was wäre, wenn er anderswo wäre"],
     ],
   },
 };

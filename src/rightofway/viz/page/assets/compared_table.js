@@ -1,5 +1,6 @@
 import { element } from "./dom.js";
-import { texts } from "./language.js";
+import { figure, texts } from "./language.js";
+import { said } from "./library.js";
 import { joined } from "./words.js";
 
 /** @import { Compared, ComparedFigures } from "./compared.js" */
@@ -29,7 +30,7 @@ export class ComparedTable {
       isFaulty ? this.#row("faults", ({ faults }) => this.#faults(faults)) : null,
       this.#row("planner", ({ planner }) => planner),
       ...TIMES.map((key) => this.#row(key, (figures) => compared.time(figures[key]))),
-      ...RATES_OF_PLANS.map((key) => this.#row(key, ({ text }) => text[key])),
+      ...RATES_OF_PLANS.map((key) => this.#row(key, ({ text }) => figure(text[key]))),
       this.#row("seed", ({ seed }) => String(seed)),
     ];
     if (new Set(plans.map(({ robots }) => robots)).size > 1)
@@ -120,7 +121,7 @@ export function changeInWords({ subject, robots, key, before, after }) {
   /** @type {Record<"whats" | "keys", Partial<Record<string, string>>>} */
   const { whats, keys } = texts.compared;
   const named = robots.length > FEW_NAMES ? texts.robots(robots.length) : joined(robots).join("");
-  const whose = named || (whats[subject] ?? subject);
-  const values = before || after ? `${before} → ${after}` : "";
+  const whose = named || (whats[said(subject)] ?? said(subject));
+  const values = before || after ? `${said(before)} → ${said(after)}` : "";
   return `${whose}: ${[keys[key] ?? key, values].filter(Boolean).join(" ")}`;
 }

@@ -92,6 +92,17 @@ export function writeMarkup(within = document) {
 }
 
 /**
+ * Numbers as the language writes them: "1.5 s" is "1,5 s" in German, "4.4%" is "4,4 %".
+ *
+ * @param {string} text with numbers as English has them
+ */
+export function figure(text) {
+  return texts.point === "."
+    ? text
+    : text.replace(/(\d)\.(?=\d)/g, `$1${texts.point}`).replace(/(\d)%/g, "$1 %");
+}
+
+/**
  * "Zoom in (+)".
  *
  * @param {string} text

@@ -1,5 +1,5 @@
 import { element } from "./dom.js";
-import { language } from "./language.js";
+import { figure, language } from "./language.js";
 
 /** @import { PhraseData, PhraseEntry } from "./payload.d.ts" */
 
@@ -44,9 +44,8 @@ const VALUE = /\{(\w+)\}/g; // a place for a value in a template
  */
 function filled(english, values) {
   const own = LIBRARIES[language]?.[english] ?? english;
-  return own.replace(
-    VALUE,
-    (/** @type {string} */ whole, /** @type {string} */ name) => values[name] ?? whole,
+  return own.replace(VALUE, (/** @type {string} */ whole, /** @type {string} */ name) =>
+    name === "figure" ? figure(values[name]) : (values[name] ?? whole),
   );
 }
 

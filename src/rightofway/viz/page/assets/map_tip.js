@@ -1,6 +1,6 @@
 import { nearest } from "./arrays.js";
 import { all, element, swatch } from "./dom.js";
-import { texts } from "./language.js";
+import { figure, texts } from "./language.js";
 import { said } from "./library.js";
 import { DRIVE } from "./phases.js";
 import { several } from "./words.js";
@@ -211,7 +211,9 @@ export class MapTip {
   #position(x, y) {
     const { roadmap, quantities } = this.plan;
     const digits = Math.max(0, Math.ceil(-Math.log10(roadmap.unit / 50)));
-    const [right, up] = roadmap.toSite(x, y).map((value) => value.toFixed(Math.min(digits, 6)));
+    const [right, up] = roadmap
+      .toSite(x, y)
+      .map((value) => figure(value.toFixed(Math.min(digits, 6))));
     const unit = quantities.units.length ? ` ${quantities.units.length}` : "";
     return `x ${right}${unit}, y ${up}${unit}`;
   }

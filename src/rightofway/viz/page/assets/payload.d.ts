@@ -23,11 +23,11 @@ export interface BestData {
 
 /** Something in which a scenario differs from another one; see `Change`. */
 export interface ChangeData {
-  subject: string;
+  subject: PhraseData;
   robots: string[];
   key: string;
-  before: string;
-  after: string;
+  before: PhraseData;
+  after: PhraseData;
   text: string;
 }
 

@@ -1,5 +1,6 @@
 import { FleetMemo } from "./fleet_memo.js";
 import { LabelBoard, SIDES, TextWidths, boxBeside, cut } from "./label_board.js";
+import { figure } from "./language.js";
 import { decimal, fraction } from "./quantities.js";
 import { LONGEST_BAR } from "./scale_bar.js";
 import { haloed, ringed } from "./shapes.js";
@@ -182,7 +183,7 @@ export class PlaceNames {
       if (limit === usualLimit) continue;
       if (Math.hypot(xs[head] - xs[tail], ys[head] - ys[tail]) * this.viewport.scale < SIGNED_LANE)
         continue;
-      const name = decimal(fraction(limit));
+      const name = figure(decimal(fraction(limit)));
       const radius = Math.max(this.#widths.of(context, name, font) / 2 + 4, 9);
       const [one, other] = [this.#pointOf(tail), this.#pointOf(head)];
       /** @type {Box[]} */

@@ -1,4 +1,4 @@
-import { texts } from "./language.js";
+import { figure, texts } from "./language.js";
 
 /** @import { UnitsData } from "./payload.d.ts" */
 
@@ -99,7 +99,9 @@ export class Quantities {
    */
   duration(ticks) {
     const time = this.#time(ticks);
-    return this.seconds ? this.#clock(product(time, this.seconds)) : texts.timeUnits(decimal(time));
+    return this.seconds
+      ? figure(this.#clock(product(time, this.seconds)))
+      : texts.timeUnits(figure(decimal(time)));
   }
 
   /**
@@ -117,7 +119,7 @@ export class Quantities {
    * @param {number | string} ticks
    */
   cell(ticks) {
-    return decimal(this.#time(ticks));
+    return figure(decimal(this.#time(ticks)));
   }
 
   /**
@@ -138,8 +140,8 @@ export class Quantities {
   running(ticks, digits = 1) {
     const time = this.#time(ticks);
     return this.seconds
-      ? this.#clock(product(time, this.seconds), (part) => fixed(part, digits))
-      : fixed(time, digits);
+      ? figure(this.#clock(product(time, this.seconds), (part) => fixed(part, digits)))
+      : figure(fixed(time, digits));
   }
 
   /**
@@ -149,9 +151,8 @@ export class Quantities {
    */
   length(value) {
     const { length } = this.units;
-    return length
-      ? `${decimal(fraction(value))} ${length}`
-      : texts.lengthUnits(decimal(fraction(value)));
+    const number = figure(decimal(fraction(value)));
+    return length ? `${number} ${length}` : texts.lengthUnits(number);
   }
 
   /**
@@ -161,9 +162,8 @@ export class Quantities {
    */
   speed(value) {
     const { length, time } = this.units;
-    return length && time
-      ? `${decimal(fraction(value))} ${length}/${time}`
-      : decimal(fraction(value));
+    const number = figure(decimal(fraction(value)));
+    return length && time ? `${number} ${length}/${time}` : number;
   }
 
   /** @param {number | string} ticks */

@@ -1,5 +1,5 @@
 import { fromDifferences, lastAtMost, nearest } from "./arrays.js";
-import { texts } from "./language.js";
+import { figure, texts } from "./language.js";
 import { decimal, fraction } from "./quantities.js";
 
 /** @import { BackgroundData, CloseData, MapData, NetworkData } from "./payload.d.ts" */
@@ -109,8 +109,8 @@ export class Roadmap {
   where(vertex) {
     if (!this.isMeasured) return this.name(vertex);
     const middle = this.toSite(this.x[vertex], this.y[vertex]);
-    const [x, y] = middle.map((at) => decimal(fraction(Number(at.toFixed(5))), PLACES));
-    return `(${x},\u00a0${y})`; // in one line
+    const [x, y] = middle.map((at) => figure(decimal(fraction(Number(at.toFixed(5))), PLACES)));
+    return `(${texts.pair(x, y)})`;
   }
 
   /**

@@ -1,4 +1,4 @@
-import { texts } from "./language.js";
+import { figure, texts } from "./language.js";
 import { BROKEN } from "./phases.js";
 
 /** @import { Site } from "./site.js" */
@@ -133,7 +133,7 @@ export class Words {
    */
   percent(share) {
     const percent = 100 * share;
-    return `${percent && percent < 9.95 ? percent.toFixed(1) : Math.round(percent)} %`;
+    return `${percent && percent < 9.95 ? figure(percent.toFixed(1)) : Math.round(percent)} %`;
   }
 
   /**

@@ -110,6 +110,12 @@ export const ENGLISH = {
     keyEscape: "choose nothing",
   },
 
+  /** The decimal point, and how both coordinates of a point are written, in one line. */
+
+  point: ".",
+  /** @type {(x: string, y: string) => string} */
+  pair: (x, y) => `${x},\u00a0${y}`,
+
   /** Quantities without a unit. */
 
   /** @param {number | string} number */
