@@ -14,7 +14,9 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import cache, cached_property
 from importlib.resources import files
-from typing import TYPE_CHECKING, Any, TypedDict
+from typing import TYPE_CHECKING, Any
+
+from typing_extensions import TypedDict
 
 from rightofway.errors import join_names
 from rightofway.facts import Fact

@@ -9,7 +9,8 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 from functools import lru_cache
-from typing import TypedDict
+
+from typing_extensions import TypedDict
 
 from rightofway.errors import InputError
 from rightofway.model import Plan
