@@ -161,8 +161,19 @@ GOOD: dict[str, Callable[[], tuple[Callable[..., Any], dict[str, Any]]]] = {
 """What callers call: how it is reached, and arguments that fit or are refused."""
 
 RESULTS = (
-    {"CyclicResult", "Decision", "ExecutionTrace", "Fault", "Film", "Layout", "Loss", "LostTime"}
+    {
+        "CyclicResult",
+        "Decision",
+        "ExecutionTrace",
+        "Fact",
+        "Fault",
+        "Film",
+        "Layout",
+        "Loss",
+        "LostTime",
+    }
     | {
+        "LostTime",
         "Metrics",
         "SimulationResult",
         "Objective",

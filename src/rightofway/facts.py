@@ -6,12 +6,12 @@ the values as people read them: a robot by its name, ticks as a time.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, Protocol, Self, cast
+from collections.abc import Iterable, Mapping
+from typing import Any, Protocol, cast
 
 from rightofway.provision import provided
 
-__all__ = ["Fact", "get_teller"]
+__all__ = ["Fact", "get_teller", "note_pieces", "read_fact"]
 
 
 class Fact:
@@ -43,20 +43,6 @@ class Fact:
         values = {name: _pack(value) for name, value in self.values.items()}
         return {"kind": self.kind, "values": values}
 
-    @classmethod
-    def from_dict(cls, data: Mapping[str, Any], about: Any = None) -> Self:
-        """Return the fact of `as_dict`.
-
-        Parameters
-        ----------
-        data
-            Its kind and values.
-        about
-            The scenario of the values.
-        """
-        values = {name: _unpack(value) for name, value in data["values"].items()}
-        return cls(data["kind"], about=about, **values)
-
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Fact):
             return NotImplemented
@@ -79,9 +65,20 @@ def _pack(value: Any) -> Any:
     return [_pack(item) for item in value] if isinstance(value, list | tuple) else value
 
 
+def note_pieces(sentence: Fact, names: Iterable[str | Fact]) -> Fact:
+    """Return a note on some pieces: the fact, and the name of each piece."""
+    return Fact("note on pieces", sentence.about, sentence=sentence, names=tuple(names))
+
+
+def read_fact(data: Mapping[str, Any], about: Any = None) -> Fact:
+    """Return the fact of `Fact.as_dict`, about a scenario."""
+    values = {name: _unpack(value) for name, value in data["values"].items()}
+    return Fact(data["kind"], about=about, **values)
+
+
 def _unpack(value: Any) -> Any:
     if isinstance(value, dict):
-        return Fact.from_dict(value)
+        return read_fact(value)
     return tuple(map(_unpack, value)) if isinstance(value, list) else value
 
 

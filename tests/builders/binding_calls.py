@@ -189,6 +189,11 @@ def _problem(rng: random.Random, kind: str | None = None) -> Part:
     return Part("Problem", problem_arguments(kind or rng.choice(KINDS)))
 
 
+def _ticks_of_edges(rng: random.Random) -> NDArray[np.int32]:
+    """Return one or two ticks for each edge."""
+    return int32(*(rng.choice((1, 1, 2)) for _ in HEADS))
+
+
 def tables() -> _core.DistanceTables:
     """Return distance tables of the grid."""
     return _core.DistanceTables(**graph())
@@ -464,7 +469,17 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
     "PeriodicBookings.find_route": _find_route,
     "DistanceTables": lambda rng: graph(),  # noqa: ARG005
     "DistanceTables.to": lambda rng: {
-        "target": rng.randrange(V), "edge_ticks": int32(*(rng.choice((1, 1, 2)) for _ in HEADS))
+        "target": rng.randrange(V), "edge_ticks": _ticks_of_edges(rng)
+    },
+    "ShortestPaths": lambda rng: {**graph(), "edge_ticks": _ticks_of_edges(rng)},
+    "ShortestPaths.find": lambda rng: {"start": rng.randrange(V), "target": rng.randrange(V)},
+    "find_overlaps": lambda rng: {
+        "vertex": int32(0, 0, 1),
+        "robot": int32(*(rng.randrange(3) for _ in range(3))),
+        "start": np.array([0, rng.randrange(4), 2]),
+        "end": np.array([3, 6, rng.randrange(3, 9)]),
+        "most": rng.randrange(1, 9),
+        "time_limit": None,
     },
     "Congestion": lambda rng: {
         "problem": _problem(rng), "shares": 16, "station": np.full(V, rng.randrange(99), np.int64)

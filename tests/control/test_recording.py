@@ -15,7 +15,7 @@ from rightofway.control.demo import drive_demo
 from rightofway.control.notices import EVERY_KIND, make_notice
 from rightofway.control.recording import Recording
 from rightofway.errors import InputError
-from rightofway.facts import Fact
+from rightofway.facts import Fact, read_fact
 from rightofway.model import Plan
 from rightofway.phrases import join_parts, to_parts
 from rightofway.report.facts import FactWriter
@@ -247,4 +247,4 @@ def test_a_journal_of_a_run_has_kinds_and_values_and_no_sentences(tmp_path: Path
     begin, end = (fact["values"]["predicate"] for fact in facts)
     assert begin == {"kind": "not moving", "values": {"place": "N2", "target": "N8"}}
     assert end == {"kind": "moving", "values": {}}
-    assert {str(Fact.from_dict(fact)) for fact in facts} < set(told)
+    assert {str(read_fact(fact)) for fact in facts} < set(told)

@@ -22,7 +22,7 @@ def test_a_deadlock_is_explained_by_its_circle() -> None:
     plan = PartialPlan(Task(scenario=scenario), routes)
     plan.resolve_all(plan_by_two_levels)
     [why] = plan.deferred.values()
-    apart, _, circle = why.partition(": in a circle, ")
+    apart, _, circle = str(why).partition(": in a circle, ")
     assert apart.startswith("waiting cannot keep ")
     names = circle.removesuffix(" would each wait for the next").split(", ")
     start = names.index("R1")

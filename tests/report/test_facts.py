@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 
 from rightofway.check import check
-from rightofway.facts import Fact
+from rightofway.facts import Fact, read_fact
 from rightofway.model import RerouteReason, Status
 from rightofway.report.facts import VALUE, FactWriter, list_texts, read_templates
 from rightofway.report.judgement import describe_fault, write_fault
@@ -120,8 +120,8 @@ def test_a_fact_is_the_same_after_json() -> None:
     arrivals = [{"kind": "place open", "values": {"place": "B"}}]
     values = {"robot": "R1", "place": "A", "arrivals": arrivals}
     assert data == {"kind": "waits", "values": values}
-    assert Fact.from_dict(data) == fact
-    assert str(Fact.from_dict(data)) == "R1 waits at A until B is open"
+    assert read_fact(data) == fact
+    assert str(read_fact(data)) == "R1 waits at A until B is open"
 
 
 def test_measured_numbers_have_few_digits() -> None:

@@ -289,7 +289,7 @@ def _print_groups(
     """Put the table of both movement groups of a decision, with their sums below it."""
     from rightofway.viz.table.groups import make_decision_table
 
-    made = make_decision_table(
+    groups = make_decision_table(
         plan,
         number,
         robots=shown.robots,
@@ -307,7 +307,7 @@ def _print_groups(
     first = Phrase("Decision {number}: {text}", number=str(number), text=text)
     waits = plan.scenario.robots[decision.waits].name
     last = Phrase("{robot} waits ({level} level).", robot=waits, level=decision.level)
-    words = [first, chain_items([*made.sums, last], "{first}\n{second}")]
+    words = [first, chain_items([*groups.sums, last], "{first}\n{second}")]
     _put_table(
-        made.table, output, as_json=as_json, words=words, more={"completions": made.completions}
+        groups.table, output, as_json=as_json, words=words, more={"completions": groups.completions}
     )

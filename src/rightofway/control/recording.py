@@ -18,7 +18,7 @@ from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive
 from rightofway.control.story import Story
 from rightofway.errors import InputError, quote
-from rightofway.facts import Fact
+from rightofway.facts import Fact, read_fact
 from rightofway.model import Plan
 from rightofway.phrases import to_parts
 from rightofway.report.facts import FactWriter
@@ -232,7 +232,7 @@ class Recording:
 
     def _write(self, fact: Fact | Entry) -> Any:
         """Return the sentence of a fact, or of one as a journal has it, for pages."""
-        fact = fact if isinstance(fact, Fact) else Fact.from_dict(fact)
+        fact = fact if isinstance(fact, Fact) else read_fact(fact)
         return to_parts(self._writer.write(fact))
 
     def _notice(self, entry: Entry, tick: float) -> None:

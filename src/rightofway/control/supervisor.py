@@ -13,7 +13,7 @@ from rightofway.control.messages import Message
 from rightofway.control.notices import Notices
 from rightofway.control.operator import Operator
 from rightofway.control.standstill import Standstill
-from rightofway.facts import Fact
+from rightofway.facts import Fact, read_fact
 from rightofway.model import NEVER
 from rightofway.precedence import Part
 
@@ -105,7 +105,7 @@ class Supervisor:
         self._answers += answers
         for _, answer in answers:
             if answer["fact"]:
-                self._notices.report(Fact.from_dict(answer["fact"]))
+                self._notices.report(read_fact(answer["fact"]))
         return messages
 
     def answer(self) -> None:

@@ -157,9 +157,9 @@ def advance(simulation: Simulation, deadline: Deadline) -> GroupResult:
 def _explain(deadlock: Deadlock, context: GroupContext) -> Fact:
     """Return the two robots that no waiting keeps apart, and the circle that a wait would close."""
     scenario, robots = context.scenario, context.robots
-    one, other = (robots[position] for position in deadlock.robots)
+    first, second = (robots[position] for position in deadlock.robots)
     place = Fact("place at time", name=int(deadlock.vertex), what=int(deadlock.tick))
-    pair = Fact("deadlock", scenario, one=one, other=other, place=place)
+    pair = Fact("deadlock", scenario, one=first, other=second, place=place)
     if len(deadlock.circle) < 3:  # noqa: PLR2004 (the two themselves)
         return pair
     circle = tuple(robots[position] for position in deadlock.circle)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from rightofway.errors import InputError, name_file
-from rightofway.facts import Fact
+from rightofway.facts import Fact, note_pieces
 from rightofway.io.content import read_text
 from rightofway.io.faults import validate
 from rightofway.io.formats import SCENARIO_FORMAT
@@ -22,7 +22,7 @@ from rightofway.io.scenario.reader import read_scenario
 from rightofway.metrics import Site
 from rightofway.model import Scenario
 from rightofway.quantities import Units
-from rightofway.site.layout import Layout, Level, build_roadmap_of_level, note_pieces
+from rightofway.site.layout import Layout, Level, build_roadmap_of_level
 
 METRES = Units(length="m", time="s")
 

@@ -231,8 +231,8 @@ def _compare_closures(before: Scenario, after: Scenario) -> Iterator[Change]:
             "time", before, _list_times(was[name][1]), after, _list_times(closures)
         ):
             old, new = (
-                Fact("closed at", scenario, times=tuple(map(_describe_time, each)))
-                for scenario, each in ((before, was[name][1]), (after, closures))
+                Fact("closed at", scenario, times=tuple(map(_describe_time, times)))
+                for scenario, times in ((before, was[name][1]), (after, closures))
             )
             yield Change(subject="place", place=place, key="closed", before=old, after=new)
     for name, (place, _) in was.items():
@@ -248,7 +248,7 @@ def _list_closures(scenario: Scenario) -> dict[Place, tuple[Fact, list[Closure]]
     """Return the places that are closed, each with its closures."""
     roadmap = scenario.roadmap
     is_measured = roadmap.has_cells and scenario.units.length
-    found: dict[Place, tuple[Fact, list[Closure]]] = {}
+    places: dict[Place, tuple[Fact, list[Closure]]] = {}
     for closure in scenario.closures:
         ends = [int(end) for end in closure.edge or (closure.at,) if end is not None]
         place = (
@@ -257,8 +257,8 @@ def _list_closures(scenario: Scenario) -> dict[Place, tuple[Fact, list[Closure]]
             else Fact("listed edge", scenario, tail=ends[0], head=ends[1])
         )
         name = tuple(roadmap.get_point(end) if is_measured else roadmap.name(end) for end in ends)
-        found.setdefault(name, (place, []))[1].append(closure)
-    return found
+        places.setdefault(name, (place, []))[1].append(closure)
+    return places
 
 
 def _describe_time(closure: Closure) -> Fact:

@@ -110,7 +110,7 @@ def find_collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Collis
     The paper's list counts the ticks of these intervals one by one.
     """
     require_one_for_each(scenario.robots, tracks=tracks)
-    found = _list_collisions(scenario, tracks)
+    meetings = _list_collisions(scenario, tracks)
     return tuple(
         Collision(
             robots=(i, j),
@@ -118,7 +118,7 @@ def find_collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Collis
             start=Tick(start),
             end=None if end == NEVER else Tick(end),
         )
-        for i, j, start, end, vertex, _ in found.list_rows(slice(None))
+        for i, j, start, end, vertex, _ in meetings.list_rows(slice(None))
     )
 
 
@@ -214,11 +214,11 @@ def _list_collisions(scenario: Scenario, tracks: Sequence[Track]) -> _Meetings:
     bookings = list_bookings(scenario, tracks, compute_drives(scenario, tracks))
     check_work(FINDING)
     earlier, later = _find_overlaps(bookings.vertex, bookings.robot, bookings.start, bookings.end)
-    one, other = bookings.robot[earlier], bookings.robot[later]
+    first, second = bookings.robot[earlier], bookings.robot[later]
     return _sort_meetings(
         (
-            np.minimum(one, other),
-            np.maximum(one, other),
+            np.minimum(first, second),
+            np.maximum(first, second),
             bookings.start[later],
             np.minimum(bookings.end[earlier], bookings.end[later]),
             bookings.vertex[later],
@@ -245,11 +245,12 @@ def _list_swaps(tracks: Sequence[Track]) -> _Meetings:
     lane = np.append(0, np.cumsum(~is_same_lane)).astype(np.int32)[: len(order)][together]
     tick, order = tick[together], order[together]
     tail, head, robot = tail[order], head[order], robot[order]
-    one, other = _find_overlaps(lane, robot, tick, tick + 1)
-    is_swap = (tail[one] != head[one]) & (tail[one] != tail[other])
-    one, other = one[is_swap], other[is_swap]
+    earlier, later = _find_overlaps(lane, robot, tick, tick + 1)
+    is_swap = (tail[earlier] != head[earlier]) & (tail[earlier] != tail[later])
+    earlier, later = earlier[is_swap], later[is_swap]
     first, last = (
-        np.where(robot[one] < robot[other], *pair) for pair in ((one, other), (other, one))
+        np.where(robot[earlier] < robot[later], *pair)
+        for pair in ((earlier, later), (later, earlier))
     )
     return _sort_meetings(
         (robot[first], robot[last], tick[first], tick[first], tail[first], tail[last])

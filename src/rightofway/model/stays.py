@@ -94,15 +94,7 @@ def find_stays(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Stays, ...]
 
 
 def compute_drives(scenario: Scenario, tracks: Sequence[Track]) -> NDArray[np.int64]:
-    """Return the ticks of the edge that ends each visit of a fleet, robot after robot.
-
-    Parameters
-    ----------
-    scenario
-        The problem.
-    tracks
-        One track for each robot.
-    """
+    """Return the ticks of the edge that ends each visit of a fleet, robot after robot."""
     ends = np.cumsum([len(track) for track in tracks])
     return _drives_of_fleet(scenario, tracks, _edges_of_fleet(scenario.roadmap, tracks, ends))
 

@@ -104,22 +104,22 @@ def _find_all_legs(scenario: Scenario, distances: Distances) -> Iterator[list[Pa
 
 def _find_legs(itinerary: Itinerary, distances: Distances) -> list[Path]:
     """Return a shortest path to each stage. Raise `InputError` where one cannot be reached."""
-    ticks, legs = itinerary.edge_ticks, list[Path]()
-    found: dict[tuple[VertexId, VertexId], Path] = {}
+    ticks, legs = itinerary.edge_costs, list[Path]()
+    paths: dict[tuple[VertexId, VertexId], Path] = {}
     for place, stage in _trips(itinerary):
         if stage == itinerary.home:
-            out = found.get((stage, place)) or distances.find_path(stage, place, ticks)
+            out = paths.get((stage, place)) or distances.find_path(stage, place, ticks)
             leg = _find_way_back(out, itinerary, distances)
         else:
             leg = distances.find_path(place, stage, ticks)
-        found[place, stage] = leg
+        paths[place, stage] = leg
         legs.append(leg)
     return legs
 
 
 def _find_way_back(out: Path, itinerary: Itinerary, distances: Distances) -> Path:
     """Return a shortest path reversed if that is a shortest path too, else another path back."""
-    ticks, reverse = itinerary.edge_ticks, out[::-1]
+    ticks, reverse = itinerary.edge_costs, out[::-1]
     if distances.is_symmetric(ticks):
         return reverse
     other = distances.find_path(out[-1], out[0], ticks)

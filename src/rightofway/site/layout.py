@@ -15,7 +15,7 @@ import numpy as np
 from rightofway.arguments import checks_arguments
 from rightofway.deadline import READING, check_work
 from rightofway.errors import InputError, find_nearest, join_names, quote
-from rightofway.facts import Fact
+from rightofway.facts import Fact, note_pieces
 from rightofway.site.drawing import Drawing, Picture
 from rightofway.site.edges import EdgeTable, make_roadmap_of_table
 from rightofway.site.geometry import Point
@@ -411,11 +411,6 @@ def _lacks(
     if level.links:
         lanes = describe_lanes(level.links)
         yield note_pieces(Fact("lanes to other levels", lanes=len(lanes)), lanes)
-
-
-def note_pieces(sentence: Fact, names: Iterable[str | Fact]) -> Fact:
-    """Return a note on some pieces: the fact, and the name of each piece."""
-    return Fact("note on pieces", sentence.about, sentence=sentence, names=tuple(names))
 
 
 def describe_lanes(ends: Iterable[tuple[str, str]]) -> list[Fact]:

@@ -18,7 +18,7 @@ from rightofway.control.commands import Answer, Commands
 from rightofway.control.journal import JournalReader
 from rightofway.control.recording import Recording
 from rightofway.errors import InputError
-from rightofway.facts import Fact
+from rightofway.facts import Fact, read_fact
 from rightofway.languages import read_tables
 from rightofway.model import Plan
 from rightofway.phrases import to_parts
@@ -198,5 +198,5 @@ def _write_answer(answer: Answer) -> dict[str, Any]:
     """Return an answer as pages show it: a refusal with its reason."""
     if answer["done"]:
         return {"done": True}
-    refusal = Fact.from_dict(answer["fact"])
+    refusal = read_fact(answer["fact"])
     return {"done": False, "text": to_parts(FactWriter(None).write(refusal.values["reason"]))}

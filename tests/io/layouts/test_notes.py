@@ -13,12 +13,12 @@ import networkx as nx  # type: ignore[import-untyped]
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.facts import Fact
+from rightofway.facts import Fact, note_pieces
 from rightofway.io import read_layout
 from rightofway.io.layouts import make_layout_of_graph
 from rightofway.phrases import join_parts, to_parts
 from rightofway.report.facts import write_note
-from rightofway.site.layout import Layout, build_roadmap_of_level, note_pieces
+from rightofway.site.layout import Layout, build_roadmap_of_level
 from tests.builders.sentences import tell_notes
 
 HERE = Path(__file__).parents[2] / "data" / "layouts"

@@ -94,7 +94,7 @@ def jobs(
         raise click.UsageError("a job is somewhere (give --at)")
     from rightofway.control.commands import NAMED, Commands
     from rightofway.control.journal import JournalReader
-    from rightofway.facts import Fact
+    from rightofway.facts import read_fact
     from rightofway.report.facts import FactWriter
 
     if action in NAMED and not name:
@@ -115,6 +115,6 @@ def jobs(
         rows = (map(job.get, ("name", "at", "state")) for job in answer["jobs"])
         put_report("\n".join("  ".join(f"{cell:12}" for cell in row).rstrip() for row in rows))
     else:
-        sentence = FactWriter(None).write(Fact.from_dict(answer["fact"]))
+        sentence = FactWriter(None).write(read_fact(answer["fact"]))
         (put_report if answer["done"] else say)(sentence)
     return 0 if answer["done"] else 1

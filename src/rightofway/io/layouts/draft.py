@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from rightofway.deadline import READING, STEPS_BETWEEN_LOOKS, check_work, limit_loop
 from rightofway.errors import InputError, find_nearest, is_printable, quote
-from rightofway.facts import Fact
+from rightofway.facts import Fact, note_pieces
 from rightofway.io.faults import Faults
 from rightofway.io.source import LONGEST_NAME, Source
 from rightofway.site.drawing import Picture
@@ -32,7 +32,6 @@ from rightofway.site.layout import (
     Level,
     Station,
     describe_lanes,
-    note_pieces,
 )
 from rightofway.site.zones import NamedZone
 

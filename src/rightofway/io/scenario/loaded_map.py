@@ -7,10 +7,9 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
 
-from rightofway.facts import Fact
+from rightofway.facts import Fact, note_pieces
 from rightofway.quantities import Units
 from rightofway.site import Floor, Grid, Roadmap, VertexId
-from rightofway.site.layout import note_pieces
 from rightofway.site.places import as_place, find_vertex_at
 from rightofway.site.spacing import SplitLanes
 

@@ -42,11 +42,11 @@ MOST_COLUMNS = 500
 
 def show_groups(_emit: Emit, blobs: Blobs, *, decision: int) -> Result:
     """Return both movement groups of a decision as a table, with their sums in sentences."""
-    made = make_decision_table(read(blobs[0]), decision)
-    table = made.table
+    groups = make_decision_table(read(blobs[0]), decision)
+    table = groups.table
     if len(table.ticks) > MOST_COLUMNS:
         shorter = table.keep_changes(), table.limit_columns(MOST_COLUMNS)
-        table = min(shorter, key=lambda each: len(each.ticks))
+        table = min(shorter, key=lambda choice: len(choice.ticks))
     rows = [
         {
             "robot": row.robot,
@@ -61,7 +61,7 @@ def show_groups(_emit: Emit, blobs: Blobs, *, decision: int) -> Result:
         "heading": table.heading,
         "times": list(map(table.describe_time, table.ticks)),
         "rows": rows,
-        "sums": list(map(to_parts, made.sums)),
+        "sums": list(map(to_parts, groups.sums)),
     }
     return (None, zip_text(as_compact_json(data)))
 

@@ -42,18 +42,9 @@ def make_decision_table(
     quantities: Quantities | None = None,
     step: int = 1,
 ) -> DecisionTable:
-    """Return the table and the sums of both movement groups of a decision.
+    """Return the table and the sums of both movement groups of a decision, counted from 1.
 
-    Parameters
-    ----------
-    plan
-        The plan that the decision led to.
-    number
-        The decision, from 1.
-    robots
-        Names of the robots to show; those of the decision by default.
-    first_tick, last_tick, quantities, step
-        As for `make_table`.
+    It shows ``robots``, by name, those of the decision by default; the rest is as in `make_table`.
 
     Raises
     ------
