@@ -152,7 +152,7 @@ def test_the_page_names_its_modules_in_advance(client: httpx.Client) -> None:
     """Their addresses are paths of files below the package: imports lead to files on disk."""
     root = str(client.base_url).removesuffix("/api/v1/")
     named = set(re.findall(r'modulepreload" href="(.*?)"', client.get(f"{root}/").text))
-    assert "/viz/page/assets/words.js" in named
+    assert "/viz/page/assets/language/words.js" in named
     package = Path(rightofway.__file__).parent
     for address in named:
         assert (package / address.removeprefix("/")).is_file()
@@ -300,7 +300,7 @@ def test_a_defect_of_ours_is_one_line_and_one_form(capsys: pytest.CaptureFixture
     asyncio.run(guard({**scope, "headers": [(b"host", b"h")]}, receive, send))
     assert sent_back[0]["status"] == 500
     error = json.loads(sent_back[1]["body"])["error"]
-    assert error["message"] == "unexpected RuntimeError: first line second line"
+    assert error["message"] == "unexpected RuntimeError: first line second line (please report it)"
     assert capsys.readouterr().err.count("\n") == 1
 
 

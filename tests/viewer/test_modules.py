@@ -29,9 +29,9 @@ PAGE = """<!doctype html><title>editor</title><style>STYLE</style>
 <div class="map" style="height: 400px"><canvas id="plot" tabindex="0"></canvas>
 <div class="hover" hidden></div></div>
 <script type="module">
-import { MapView } from "./assets/map_view.js";
-import { Site } from "./assets/site.js";
-import { Theme } from "./assets/theme.js";
+import { MapView } from "./assets/map/map_view.js";
+import { Site } from "./assets/plan/site.js";
+import { Theme } from "./assets/drawing/theme.js";
 const raw = await (await fetch("site.json")).json();
 const view = new MapView(document.getElementById("plot"), new Site(raw), new Theme());
 view.viewport.fit();

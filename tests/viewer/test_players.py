@@ -47,7 +47,7 @@ def page(browser: Browser) -> Iterator[Page]:
     page.on("pageerror", lambda error: complaints.append(str(error)))
     parts = {
         "STYLE": re.sub(r":root|\bbody\b", ".page", make_style_sheet()) + WIDGET_STYLE,
-        "MODULES": "\n".join(make_classic_script(name) for name in order_scripts("player")),
+        "MODULES": "\n".join(make_classic_script(name) for name in order_scripts("player/player")),
         "FIRST": json.dumps(json.loads(make_payload_text(door()))),
         "SECOND": json.dumps(json.loads(make_payload_text(loop()))),
     }
@@ -115,9 +115,10 @@ def test_an_inspection_is_a_part_too(browser: Browser) -> None:
     scenario = door().scenario
     site = Site(roadmap=scenario.roadmap, robots=scenario.robots, rules=scenario.rules)
     text = make_inspection_page([("", site, inspect(site))], title="door")
+    scripts = order_scripts("player/inspection")
     parts = {
         "STYLE": re.sub(r":root|\bbody\b", ".page", make_style_sheet()) + WIDGET_STYLE,
-        "MODULES": "\n".join(make_classic_script(name) for name in order_scripts("inspection")),
+        "MODULES": "\n".join(map(make_classic_script, scripts)),
         "PAYLOAD": payload_text_in(text),
     }
     context = browser.new_context(viewport={"width": 1200, "height": 1500})

@@ -4,7 +4,7 @@ import {
   fromDifferences,
   lastAtMost,
   nearest,
-} from "../../../src/rightofway/viz/page/assets/arrays.js";
+} from "../../../src/rightofway/viz/page/assets/common/arrays.js";
 
 test("first differences add up", () => {
   assert.deepEqual(fromDifferences([3, 1, 2, -6], Int32Array), Int32Array.of(3, 4, 6, 0));

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { labelStep } from "../../../src/rightofway/viz/page/assets/axis.js";
-import { Quantities } from "../../../src/rightofway/viz/page/assets/quantities.js";
+import { labelStep } from "../../../src/rightofway/viz/page/assets/timetable/axis.js";
+import { Quantities } from "../../../src/rightofway/viz/page/assets/language/quantities.js";
 
 /**
  * Labels at the first three moments after the begin.

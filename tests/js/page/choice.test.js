@@ -2,10 +2,10 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Choice } from "../../../src/rightofway/viz/page/assets/choice.js";
-import { Clock } from "../../../src/rightofway/viz/page/assets/clock.js";
-import { Motion } from "../../../src/rightofway/viz/page/assets/motion.js";
-import { Use } from "../../../src/rightofway/viz/page/assets/use.js";
+import { Choice } from "../../../src/rightofway/viz/page/assets/player/choice.js";
+import { Clock } from "../../../src/rightofway/viz/page/assets/player/clock.js";
+import { Motion } from "../../../src/rightofway/viz/page/assets/plan/motion.js";
+import { Use } from "../../../src/rightofway/viz/page/assets/plan/use.js";
 import { planOf } from "../made.js";
 
 test("a choice shows the plan or the floor and writes nothing into the plan", () => {

@@ -2,9 +2,9 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Choice } from "../../../src/rightofway/viz/page/assets/choice.js";
-import { Clock } from "../../../src/rightofway/viz/page/assets/clock.js";
-import { Plan } from "../../../src/rightofway/viz/page/assets/plan.js";
+import { Choice } from "../../../src/rightofway/viz/page/assets/player/choice.js";
+import { Clock } from "../../../src/rightofway/viz/page/assets/player/clock.js";
+import { Plan } from "../../../src/rightofway/viz/page/assets/plan/plan.js";
 import { made, planOf } from "../made.js";
 
 /** The clock of the counter, which comes again after 10 from 6 on, in that loop. */

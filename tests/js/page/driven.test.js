@@ -2,8 +2,8 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Driven } from "../../../src/rightofway/viz/page/assets/driven.js";
-import { Plan } from "../../../src/rightofway/viz/page/assets/plan.js";
+import { Driven } from "../../../src/rightofway/viz/page/assets/live/driven.js";
+import { Plan } from "../../../src/rightofway/viz/page/assets/plan/plan.js";
 import { made } from "../made.js";
 
 /** @import { DrivenRow } from "../../../src/rightofway/viz/page/assets/payload.d.ts" */

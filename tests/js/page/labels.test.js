@@ -1,10 +1,14 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { matches } from "../../../src/rightofway/viz/page/assets/find.js";
-import { LabelBoard, boxBeside, cut } from "../../../src/rightofway/viz/page/assets/label_board.js";
-import { completed } from "../../../src/rightofway/viz/page/assets/language.js";
-import { blend } from "../../../src/rightofway/viz/page/assets/theme.js";
-import { joined, several } from "../../../src/rightofway/viz/page/assets/words.js";
+import { matches } from "../../../src/rightofway/viz/page/assets/lists/find.js";
+import {
+  LabelBoard,
+  boxBeside,
+  cut,
+} from "../../../src/rightofway/viz/page/assets/drawing/label_board.js";
+import { completed } from "../../../src/rightofway/viz/page/assets/language/language.js";
+import { blend } from "../../../src/rightofway/viz/page/assets/drawing/theme.js";
+import { joined, several } from "../../../src/rightofway/viz/page/assets/language/words.js";
 
 test("a label is free where nothing is, inside the canvas", () => {
   const board = new LabelBoard();

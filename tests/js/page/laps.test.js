@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Plan } from "../../../src/rightofway/viz/page/assets/plan.js";
+import { Plan } from "../../../src/rightofway/viz/page/assets/plan/plan.js";
 import { made } from "../made.js";
 
 /** The plan of the counter, perhaps with other groups of robots. */

@@ -1,10 +1,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { MapSizes } from "../../../src/rightofway/viz/page/assets/map_sizes.js";
+import { MapSizes } from "../../../src/rightofway/viz/page/assets/map/map_sizes.js";
 
-/** @import { Robot } from "../../../src/rightofway/viz/page/assets/robot.js" */
-/** @import { Site } from "../../../src/rightofway/viz/page/assets/site.js" */
-/** @import { Viewport } from "../../../src/rightofway/viz/page/assets/viewport.js" */
+/** @import { Robot } from "../../../src/rightofway/viz/page/assets/plan/robot.js" */
+/** @import { Site } from "../../../src/rightofway/viz/page/assets/plan/site.js" */
+/** @import { Viewport } from "../../../src/rightofway/viz/page/assets/drawing/viewport.js" */
 
 /**
  * Half the side of a home on a grid of 161 by 63 cells, and the radius of a robot [pixels].

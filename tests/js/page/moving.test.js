@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Motion } from "../../../src/rightofway/viz/page/assets/motion.js";
+import { Motion } from "../../../src/rightofway/viz/page/assets/plan/motion.js";
 import {
   DONE,
   DRIVE,
@@ -10,13 +10,13 @@ import {
   TURN,
   WAIT,
   WORK,
-} from "../../../src/rightofway/viz/page/assets/phases.js";
-import { Plan } from "../../../src/rightofway/viz/page/assets/plan.js";
+} from "../../../src/rightofway/viz/page/assets/plan/phases.js";
+import { Plan } from "../../../src/rightofway/viz/page/assets/plan/plan.js";
 import { made, planOf, positions } from "../made.js";
 
 const ACTIVITIES = ["drive", "wait", "work", "turn", "done"];
 
-/** @import { Robot } from "../../../src/rightofway/viz/page/assets/robot.js" */
+/** @import { Robot } from "../../../src/rightofway/viz/page/assets/plan/robot.js" */
 
 /**
  * When each phase begins, what it is, and in which visit.

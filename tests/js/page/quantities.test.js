@@ -5,10 +5,10 @@ import {
   Quantities,
   decimal,
   fraction,
-} from "../../../src/rightofway/viz/page/assets/quantities.js";
-import { figure, setLanguage } from "../../../src/rightofway/viz/page/assets/language.js";
-import { learn, said } from "../../../src/rightofway/viz/page/assets/library.js";
-import { roundLength } from "../../../src/rightofway/viz/page/assets/scale_bar.js";
+} from "../../../src/rightofway/viz/page/assets/language/quantities.js";
+import { figure, setLanguage } from "../../../src/rightofway/viz/page/assets/language/language.js";
+import { learn, said } from "../../../src/rightofway/viz/page/assets/language/library.js";
+import { roundLength } from "../../../src/rightofway/viz/page/assets/drawing/scale_bar.js";
 import { times } from "../made.js";
 
 /** Values and their texts; the package is tested with the same ones. */

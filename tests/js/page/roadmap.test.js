@@ -1,16 +1,16 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { DRIVE } from "../../../src/rightofway/viz/page/assets/phases.js";
-import { Corridor, shortestWay } from "../../../src/rightofway/viz/page/assets/corridor.js";
-import { Roadmap, pointAlong } from "../../../src/rightofway/viz/page/assets/roadmap.js";
-import { CorridorAxis } from "../../../src/rightofway/viz/page/assets/space_axis.js";
-import { roundLength } from "../../../src/rightofway/viz/page/assets/scale_bar.js";
+import { DRIVE } from "../../../src/rightofway/viz/page/assets/plan/phases.js";
+import { Corridor, shortestWay } from "../../../src/rightofway/viz/page/assets/plan/corridor.js";
+import { Roadmap, pointAlong } from "../../../src/rightofway/viz/page/assets/plan/roadmap.js";
+import { CorridorAxis } from "../../../src/rightofway/viz/page/assets/timetable/space_axis.js";
+import { roundLength } from "../../../src/rightofway/viz/page/assets/drawing/scale_bar.js";
 import { planOf } from "../made.js";
 
 const FRAME = { x: 10, y: 20, yUp: true, unit: 0.5 };
 
-/** @import { Area } from "../../../src/rightofway/viz/page/assets/axis.js" */
-/** @import { Curve } from "../../../src/rightofway/viz/page/assets/roadmap.js" */
+/** @import { Area } from "../../../src/rightofway/viz/page/assets/timetable/axis.js" */
+/** @import { Curve } from "../../../src/rightofway/viz/page/assets/plan/roadmap.js" */
 
 /** A and B with a lane both ways of 2, and one way on to C of 3; D is alone. */
 const NETWORK = new Roadmap(

@@ -1,9 +1,15 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Motion } from "../../../src/rightofway/viz/page/assets/motion.js";
-import { DONE, DRIVE, TURN, WAIT, WORK } from "../../../src/rightofway/viz/page/assets/phases.js";
-import { Roadmap } from "../../../src/rightofway/viz/page/assets/roadmap.js";
-import { FOLLOWS, Loss, Robot } from "../../../src/rightofway/viz/page/assets/robot.js";
+import { Motion } from "../../../src/rightofway/viz/page/assets/plan/motion.js";
+import {
+  DONE,
+  DRIVE,
+  TURN,
+  WAIT,
+  WORK,
+} from "../../../src/rightofway/viz/page/assets/plan/phases.js";
+import { Roadmap } from "../../../src/rightofway/viz/page/assets/plan/roadmap.js";
+import { FOLLOWS, Loss, Robot } from "../../../src/rightofway/viz/page/assets/plan/robot.js";
 
 /** Three cells in a row. */
 const CORRIDOR = new Roadmap({

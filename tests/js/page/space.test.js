@@ -2,9 +2,9 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { crossingOf } from "../../../src/rightofway/viz/page/assets/map_marks.js";
-import { Motion } from "../../../src/rightofway/viz/page/assets/motion.js";
-import { Space } from "../../../src/rightofway/viz/page/assets/space.js";
+import { crossingOf } from "../../../src/rightofway/viz/page/assets/map/map_marks.js";
+import { Motion } from "../../../src/rightofway/viz/page/assets/plan/motion.js";
+import { Space } from "../../../src/rightofway/viz/page/assets/plan/space.js";
 import { planOf } from "../made.js";
 
 /**

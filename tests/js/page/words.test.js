@@ -2,16 +2,20 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { LANGUAGES, setLanguage, texts } from "../../../src/rightofway/viz/page/assets/language.js";
-import { Phrases, learn, said } from "../../../src/rightofway/viz/page/assets/library.js";
+import {
+  LANGUAGES,
+  setLanguage,
+  texts,
+} from "../../../src/rightofway/viz/page/assets/language/language.js";
+import { Phrases, learn, said } from "../../../src/rightofway/viz/page/assets/language/library.js";
 import { ENGLISH } from "../../../src/rightofway/viz/page/assets/texts/en.js";
-import { Plan } from "../../../src/rightofway/viz/page/assets/plan.js";
-import { Words } from "../../../src/rightofway/viz/page/assets/words.js";
-import { Use } from "../../../src/rightofway/viz/page/assets/use.js";
+import { Plan } from "../../../src/rightofway/viz/page/assets/plan/plan.js";
+import { Words } from "../../../src/rightofway/viz/page/assets/language/words.js";
+import { Use } from "../../../src/rightofway/viz/page/assets/plan/use.js";
 import { made, planOf } from "../made.js";
 
 /** @import { Texts } from "../../../src/rightofway/viz/page/assets/texts/en.js" */
-/** @import { Theme } from "../../../src/rightofway/viz/page/assets/theme.js" */
+/** @import { Theme } from "../../../src/rightofway/viz/page/assets/drawing/theme.js" */
 
 const MEASURED = made("measured");
 

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { setLanguage } from "../../../src/rightofway/viz/page/assets/language.js";
+import { setLanguage } from "../../../src/rightofway/viz/page/assets/language/language.js";
 import { cellsOfBox, cellsOfLine } from "../../../src/rightofway/studio/assets/draw/ground.js";
 import {
   numberOf,

@@ -1,6 +1,6 @@
 /** Whether the server answers. While it does not, nothing is saved, and it is asked again and again. */
 
-import { Observable } from "../../viz/page/assets/observable.js";
+import { Observable } from "../../viz/page/assets/common/observable.js";
 
 const EVERY = 1000; // pause between two questions [ms]
 

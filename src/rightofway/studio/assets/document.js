@@ -1,6 +1,6 @@
 /** The scenario that is edited: plain data, undo and redo, a draft, and what the library says about it. */
 
-import { Observable } from "../../viz/page/assets/observable.js";
+import { Observable } from "../../viz/page/assets/common/observable.js";
 import { UNREACHABLE, get, inAddress, post, put, remove } from "./api.js";
 import { connection } from "./connection.js";
 import { Latest } from "./latest.js";

@@ -1,7 +1,7 @@
 /** Faults and findings of the map that is drawn, in the library's words; each lights its places. */
 
 import { html, useState } from "./vendor/htm-preact.js";
-import { languageOf, said } from "../../viz/page/assets/library.js";
+import { languageOf, said } from "../../viz/page/assets/language/library.js";
 import { nameOf } from "./fault_place.js";
 import { words } from "./words.js";
 /** @import { SiteFinding } from "./api_types.js" */

@@ -2,7 +2,7 @@
 
 import { UNREACHABLE, get, inAddress } from "./api.js";
 import { html, useEffect, useRef, useState } from "./vendor/htm-preact.js";
-import { figure } from "../../viz/page/assets/language.js";
+import { figure } from "../../viz/page/assets/language/language.js";
 import { language, words } from "./words.js";
 import { present } from "./given.js";
 /** @import { Glance } from "./api_types.js" */

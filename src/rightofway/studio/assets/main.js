@@ -18,7 +18,7 @@ import { Start } from "./start.js";
 import { Status } from "./status.js";
 import { Studio, TABS } from "./studio.js";
 import { words } from "./words.js";
-import { learn } from "../../viz/page/assets/library.js";
+import { learn } from "../../viz/page/assets/language/library.js";
 /** @import { Props, Tab } from "./types.js" */
 
 /** @type {Record<string, number>} */

@@ -1,7 +1,7 @@
 /** A line that comes and goes: what was done, and a press that takes it back. */
 
 import { html, useEffect } from "./vendor/htm-preact.js";
-import { Observable } from "../../viz/page/assets/observable.js";
+import { Observable } from "../../viz/page/assets/common/observable.js";
 import { words } from "./words.js";
 /** @import { ScenarioStore } from "./document.js" */
 /** @import { ScenarioDocument } from "./types.js" */

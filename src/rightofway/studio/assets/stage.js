@@ -5,22 +5,22 @@ import { later } from "./given.js";
 import { RULER } from "./draw/readout.js";
 import { beginWork, endWork } from "./busy.js";
 import { Player } from "./runs/player.js";
-import { fitCanvas } from "../../viz/page/assets/canvas.js";
-import { Choice } from "../../viz/page/assets/choice.js";
-import { Clock } from "../../viz/page/assets/clock.js";
-import { FrameLoop } from "../../viz/page/assets/frame_loop.js";
-import { MapView } from "../../viz/page/assets/map_view.js";
-import { LEGENDS } from "../../viz/page/assets/markup.js";
-import { Motion } from "../../viz/page/assets/motion.js";
-import { Observable } from "../../viz/page/assets/observable.js";
-import { Plan } from "../../viz/page/assets/plan.js";
-import { Root } from "../../viz/page/assets/root.js";
-import { Site } from "../../viz/page/assets/site.js";
-import { Theme } from "../../viz/page/assets/theme.js";
-import { Words } from "../../viz/page/assets/words.js";
+import { fitCanvas } from "../../viz/page/assets/drawing/canvas.js";
+import { Choice } from "../../viz/page/assets/player/choice.js";
+import { Clock } from "../../viz/page/assets/player/clock.js";
+import { FrameLoop } from "../../viz/page/assets/player/frame_loop.js";
+import { MapView } from "../../viz/page/assets/map/map_view.js";
+import { LEGENDS } from "../../viz/page/assets/player/markup.js";
+import { Motion } from "../../viz/page/assets/plan/motion.js";
+import { Observable } from "../../viz/page/assets/common/observable.js";
+import { Plan } from "../../viz/page/assets/plan/plan.js";
+import { Root } from "../../viz/page/assets/common/root.js";
+import { Site } from "../../viz/page/assets/plan/site.js";
+import { Theme } from "../../viz/page/assets/drawing/theme.js";
+import { Words } from "../../viz/page/assets/language/words.js";
 import { words as texts } from "./words.js";
-/** @import { Roadmap } from "../../viz/page/assets/roadmap.js" */
-/** @import { Viewport } from "../../viz/page/assets/viewport.js" */
+/** @import { Roadmap } from "../../viz/page/assets/plan/roadmap.js" */
+/** @import { Viewport } from "../../viz/page/assets/drawing/viewport.js" */
 /** @import { SitePayload, StageElements } from "./types.js" */
 
 const LEAST_IN_SIGHT = 0.2; // of a map, to keep the view of another one

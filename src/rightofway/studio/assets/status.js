@@ -6,7 +6,7 @@ import { nameOf } from "./fault_place.js";
 import { robotsOf } from "./robots/fleet.js";
 import { Change } from "./runs/change.js";
 import { doNotRun } from "./runs/faults.js";
-import { said } from "../../viz/page/assets/library.js";
+import { said } from "../../viz/page/assets/language/library.js";
 import { words } from "./words.js";
 import { present } from "./given.js";
 /** @import { Editor } from "./draw/editor.js" */

@@ -15,7 +15,7 @@ import { RunStore } from "./runs/run_store.js";
 import { lossOn } from "./runs/waits.js";
 import { Shelf } from "./shelf.js";
 import { Stage } from "./stage.js";
-import { Observable } from "../../viz/page/assets/observable.js";
+import { Observable } from "../../viz/page/assets/common/observable.js";
 import { setLanguage, words } from "./words.js";
 import { present } from "./given.js";
 /** @import { Refusal } from "./api.js" */

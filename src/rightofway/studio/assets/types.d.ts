@@ -6,9 +6,9 @@ import type {
   Payload,
   RobotData as PlayedRobot,
 } from "../../viz/page/assets/payload.js";
-import type { Fraction } from "../../viz/page/assets/quantities.js";
-import type { Roadmap } from "../../viz/page/assets/roadmap.js";
-import type { Theme } from "../../viz/page/assets/theme.js";
+import type { Fraction } from "../../viz/page/assets/language/quantities.js";
+import type { Roadmap } from "../../viz/page/assets/plan/roadmap.js";
+import type { Theme } from "../../viz/page/assets/drawing/theme.js";
 import type { Events, DocumentFault, NewPlan, RunData } from "./api_types.js";
 import type { PickTool } from "./draw/backdrop.js";
 import type { SelectTool } from "./draw/select_tool.js";

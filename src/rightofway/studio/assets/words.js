@@ -5,7 +5,7 @@
  */
 
 import { later } from "./given.js";
-import * as viewer from "../../viz/page/assets/language.js";
+import * as viewer from "../../viz/page/assets/language/language.js";
 import { GERMAN } from "./words/de.js";
 import { ENGLISH } from "./words/en.js";
 

@@ -5,7 +5,7 @@ import { cellOf, obstaclesOf, withObstacles } from "./ground.js";
 import { endsOf, lanesOf, mapVertices, positionOf, roadmapOf } from "./network.js";
 import { numberOf, placeOf, rounded, toDrawing } from "./places.js";
 import { present } from "../given.js";
-/** @import { Roadmap } from "../../../viz/page/assets/roadmap.js" */
+/** @import { Roadmap } from "../../../viz/page/assets/plan/roadmap.js" */
 /** @import { Cell, Ground, Piece, Point, PointMap, Rect, ScenarioDocument, Turn } from "../types.js" */
 /** @import { Editor } from "./editor.js" */
 

@@ -1,13 +1,13 @@
 /** The picture below the map: chosen, laid by presses on it, and kept in the scenario. */
 
 import { get, inAddress, upload } from "../api.js";
-import { Observable } from "../../../viz/page/assets/observable.js";
+import { Observable } from "../../../viz/page/assets/common/observable.js";
 import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
 import { isNetwork, withoutKey } from "./network.js";
 import { numberOf, rounded, toDrawing } from "./places.js";
 import { present } from "../given.js";
-/** @import { Theme } from "../../../viz/page/assets/theme.js" */
+/** @import { Theme } from "../../../viz/page/assets/drawing/theme.js" */
 /** @import { ScenarioStore } from "../document.js" */
 /** @import { Stage } from "../stage.js" */
 /** @import { DrawingPoint, PictureData, Point, Props } from "../types.js" */

@@ -6,7 +6,7 @@ import { AXES } from "./places.js";
 import { lengthText } from "./readout.js";
 import { guidesOfCell, paintGuides } from "./snapping.js";
 import { present } from "../given.js";
-/** @import { Theme } from "../../../viz/page/assets/theme.js" */
+/** @import { Theme } from "../../../viz/page/assets/drawing/theme.js" */
 /** @import { Cell, DrawingPoint, Ground, ScenarioDocument } from "../types.js" */
 /** @import { Editor } from "./editor.js" */
 

@@ -1,14 +1,14 @@
 /** Closed places and lanes: found, closed for a while or for ever, opened again. */
 
 import { html } from "../vendor/htm-preact.js";
-import { figure } from "../../../viz/page/assets/language.js";
+import { figure } from "../../../viz/page/assets/language/language.js";
 import { Field } from "../field.js";
 import { written } from "../robots/columns.js";
 import { withKey } from "../robots/fleet.js";
 import { words } from "../words.js";
 import { endsOf, lanesOf, withoutKey } from "./network.js";
 import { placeOf, textOfPlace, vertexOf } from "./places.js";
-/** @import { Roadmap } from "../../../viz/page/assets/roadmap.js" */
+/** @import { Roadmap } from "../../../viz/page/assets/plan/roadmap.js" */
 /** @import { ClosureData, Complaint, DrawingPoint, Props, ScenarioDocument, TimeKey } from "../types.js" */
 /** @import { PageEvent } from "../vendor/htm-preact.js" */
 /** @import { Editor } from "./editor.js" */

@@ -1,7 +1,7 @@
 /** Drawing on the map: the tool in hand, pointer and keys, what is selected. Every change goes through the store. */
 
-import { figure, texts } from "../../../viz/page/assets/language.js";
-import { Observable } from "../../../viz/page/assets/observable.js";
+import { figure, texts } from "../../../viz/page/assets/language/language.js";
+import { Observable } from "../../../viz/page/assets/common/observable.js";
 import { RobotTool } from "../robots/tool.js";
 import { PickTool } from "./backdrop.js";
 import { groundOf } from "./ground.js";

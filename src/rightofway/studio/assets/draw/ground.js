@@ -2,7 +2,7 @@
 
 import { numberOf, rounded, toDrawing } from "./places.js";
 import { present } from "../given.js";
-/** @import { Roadmap } from "../../../viz/page/assets/roadmap.js" */
+/** @import { Roadmap } from "../../../viz/page/assets/plan/roadmap.js" */
 /** @import { Cell, MapData, ObstacleData, Point, Rect, ScenarioDocument } from "../types.js" */
 
 const STANDARD_STEP = 0.25; // length units; where a floor has no cells of one size

@@ -12,7 +12,7 @@ import {
 } from "./network.js";
 import { AXES, toDrawing } from "./places.js";
 import { present } from "../given.js";
-/** @import { Theme } from "../../../viz/page/assets/theme.js" */
+/** @import { Theme } from "../../../viz/page/assets/drawing/theme.js" */
 /** @import { DrawingPoint, HandledLane, Point } from "../types.js" */
 /** @import { Editor } from "./editor.js" */
 

@@ -1,7 +1,7 @@
 /** What is where on the map, by the document: robots' homes and stops, obstacles, vertices, lanes. */
 
 import { robotsOf, stopsOf } from "../robots/fleet.js";
-import { nearest } from "../../../viz/page/assets/arrays.js";
+import { nearest } from "../../../viz/page/assets/common/arrays.js";
 import { GridGround, cellsOfBox } from "./ground.js";
 import {
   bezierAt,
@@ -13,7 +13,7 @@ import {
   roadmapOf,
 } from "./network.js";
 import { numberOf, toDrawing, vertexOf } from "./places.js";
-/** @import { Roadmap } from "../../../viz/page/assets/roadmap.js" */
+/** @import { Roadmap } from "../../../viz/page/assets/plan/roadmap.js" */
 /** @import { Cell, Item, LaneData, LaneLine, Numeral, Point, Rect, RobotHit, ScenarioDocument } from "../types.js" */
 
 const REACH = 12; // pixels round a point that is small

@@ -1,8 +1,8 @@
 /** The distance between two places, from vertices and ends of walls where they are near. */
 
-import { nearest } from "../../../viz/page/assets/arrays.js";
+import { nearest } from "../../../viz/page/assets/common/arrays.js";
 import { wayText } from "./readout.js";
-/** @import { Theme } from "../../../viz/page/assets/theme.js" */
+/** @import { Theme } from "../../../viz/page/assets/drawing/theme.js" */
 /** @import { DrawingPoint } from "../types.js" */
 /** @import { Editor } from "./editor.js" */
 

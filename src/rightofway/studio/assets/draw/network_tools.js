@@ -1,6 +1,6 @@
 /** Tools for roadmaps: vertices, lanes from one vertex to the next, marks of what a vertex is for. */
 
-import { ring } from "../../../viz/page/assets/shapes.js";
+import { ring } from "../../../viz/page/assets/drawing/shapes.js";
 import { words } from "../words.js";
 import {
   addLane,
@@ -16,7 +16,7 @@ import { toDrawing } from "./places.js";
 import { wayText } from "./readout.js";
 import { paintGuides, snapped } from "./snapping.js";
 import { present } from "../given.js";
-/** @import { Theme } from "../../../viz/page/assets/theme.js" */
+/** @import { Theme } from "../../../viz/page/assets/drawing/theme.js" */
 /** @import { DrawingPoint, Guide, Point } from "../types.js" */
 /** @import { Editor } from "./editor.js" */
 

@@ -1,11 +1,11 @@
 /** What an editor shows above the map: what is selected, and what the library says about places. */
 
-import { ring } from "../../../viz/page/assets/shapes.js";
+import { ring } from "../../../viz/page/assets/drawing/shapes.js";
 import { itemOf } from "../fault_place.js";
 import { cellOf } from "./ground.js";
 import { present } from "../given.js";
-/** @import { Roadmap } from "../../../viz/page/assets/roadmap.js" */
-/** @import { Theme } from "../../../viz/page/assets/theme.js" */
+/** @import { Roadmap } from "../../../viz/page/assets/plan/roadmap.js" */
+/** @import { Theme } from "../../../viz/page/assets/drawing/theme.js" */
 /** @import { Point, RobotHit } from "../types.js" */
 /** @import { Editor } from "./editor.js" */
 

@@ -17,7 +17,7 @@ import {
 } from "./network.js";
 import { AXES, placeOf, rounded, toDrawing, vertexOf } from "./places.js";
 import { present } from "../given.js";
-/** @import { Roadmap } from "../../../viz/page/assets/roadmap.js" */
+/** @import { Roadmap } from "../../../viz/page/assets/plan/roadmap.js" */
 /** @import { Item, LaneData, Piece, Place, Point, PointMap, RobotData, ScenarioDocument } from "../types.js" */
 /** @import { Editor } from "./editor.js" */
 

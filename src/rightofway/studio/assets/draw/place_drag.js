@@ -1,7 +1,7 @@
 /** Home and stops of the robot that is chosen on a plan, dragged to other places of the map. */
 
 import { changeRobots, robotsOf, withKey, withStopAt } from "../robots/fleet.js";
-import { ring } from "../../../viz/page/assets/shapes.js";
+import { ring } from "../../../viz/page/assets/drawing/shapes.js";
 import { words } from "../words.js";
 import { paintTrip, radiusAt } from "./overlay.js";
 import { placeOf, rounded } from "./places.js";

@@ -1,7 +1,7 @@
 /** Places of a document, vertices of the map, and points of its drawing. */
 
-import { figure, texts } from "../../../viz/page/assets/language.js";
-/** @import { Roadmap } from "../../../viz/page/assets/roadmap.js" */
+import { figure, texts } from "../../../viz/page/assets/language/language.js";
+/** @import { Roadmap } from "../../../viz/page/assets/plan/roadmap.js" */
 /** @import { MapData, Numeral, Place, Point, ScenarioDocument } from "../types.js" */
 
 /**

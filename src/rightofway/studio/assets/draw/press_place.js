@@ -1,7 +1,7 @@
 /** A place or a lane that somebody presses on the map that is shown, a plan's too. */
 
 import { placeOf } from "./places.js";
-/** @import { Roadmap } from "../../../viz/page/assets/roadmap.js" */
+/** @import { Roadmap } from "../../../viz/page/assets/plan/roadmap.js" */
 /** @import { Stage } from "../stage.js" */
 /** @import { Studio } from "../studio.js" */
 /** @import { Place } from "../types.js" */

@@ -1,6 +1,6 @@
 /** Numbers at the pointer and rulers along the map, in the length unit of the scenario. */
 
-import { figure } from "../../../viz/page/assets/language.js";
+import { figure } from "../../../viz/page/assets/language/language.js";
 import { rounded } from "./places.js";
 /** @import { Stage } from "../stage.js" */
 /** @import { Point } from "../types.js" */

@@ -1,7 +1,7 @@
 /** Select, move, copy and delete what is on the map: one thing, several with Shift, all in a box. */
 
 import { changeRobots, removeRobots, robotsOf, stopsOf, withStops } from "../robots/fleet.js";
-import { ring } from "../../../viz/page/assets/shapes.js";
+import { ring } from "../../../viz/page/assets/drawing/shapes.js";
 import { words } from "../words.js";
 import { arranged, boundsOf, movedCells, turnOf } from "./arrange.js";
 import { cellOf, obstaclesOf, withObstacles } from "./ground.js";
@@ -13,7 +13,7 @@ import { toDrawing } from "./places.js";
 import { lengthText, wayText } from "./readout.js";
 import { blockShift, paintGuides, roundStep, snapped } from "./snapping.js";
 import { present } from "../given.js";
-/** @import { Theme } from "../../../viz/page/assets/theme.js" */
+/** @import { Theme } from "../../../viz/page/assets/drawing/theme.js" */
 /** @import { DrawingPoint, Item, Piece, Point, PointMap, Rect, ScenarioDocument, Shift, Turn } from "../types.js" */
 /** @import { Editor } from "./editor.js" */
 

@@ -3,7 +3,7 @@
 import { positionOf, roadmapOf } from "./network.js";
 import { rounded, toDrawing } from "./places.js";
 import { present } from "../given.js";
-/** @import { Roadmap } from "../../../viz/page/assets/roadmap.js" */
+/** @import { Roadmap } from "../../../viz/page/assets/plan/roadmap.js" */
 /** @import { Cell, DrawingPoint, Guide, Point, Rect, ScenarioDocument, Shift } from "../types.js" */
 /** @import { Editor } from "./editor.js" */
 

@@ -1,6 +1,6 @@
 /** The robots of a document, as edits of it. */
 
-import { figure } from "../../../viz/page/assets/language.js";
+import { figure } from "../../../viz/page/assets/language/language.js";
 import { textOfPlace } from "../draw/places.js";
 import { present } from "../given.js";
 /** @import { Column, Place, RobotData, ScenarioDocument, Stop } from "../types.js" */

@@ -2,10 +2,10 @@
 
 import { placeOf } from "../draw/places.js";
 import { paintTrip, radiusAt } from "../draw/overlay.js";
-import { ring } from "../../../viz/page/assets/shapes.js";
+import { ring } from "../../../viz/page/assets/drawing/shapes.js";
 import { words } from "../words.js";
 import { addRobots, robotsOf, withStops, writtenIn } from "./fleet.js";
-/** @import { Theme } from "../../../viz/page/assets/theme.js" */
+/** @import { Theme } from "../../../viz/page/assets/drawing/theme.js" */
 /** @import { Editor } from "../draw/editor.js" */
 /** @import { DrawingPoint, Place, Point } from "../types.js" */
 

@@ -1,11 +1,11 @@
 /** Causes of delay as fields: each has a sentence with places for numbers, and its notation for the command. */
 
 import { html } from "../vendor/htm-preact.js";
-import { figure } from "../../../viz/page/assets/language.js";
-import { decimal, fraction } from "../../../viz/page/assets/quantities.js";
+import { figure } from "../../../viz/page/assets/language/language.js";
+import { decimal, fraction } from "../../../viz/page/assets/language/quantities.js";
 import { words } from "../words.js";
 import { over } from "./parameter_curve.js";
-/** @import { Fraction } from "../../../viz/page/assets/quantities.js" */
+/** @import { Fraction } from "../../../viz/page/assets/language/quantities.js" */
 /** @import { Cause } from "../types.js" */
 
 /** @type {Fraction} */

@@ -1,9 +1,9 @@
 /** A plan beside the one before it: what was changed, both sums, who gains and who loses. */
 
 import { html, useEffect } from "../vendor/htm-preact.js";
-import { figure } from "../../../viz/page/assets/language.js";
-import { Quantities } from "../../../viz/page/assets/quantities.js";
-import { changeInWords } from "../../../viz/page/assets/compared_table.js";
+import { figure } from "../../../viz/page/assets/language/language.js";
+import { Quantities } from "../../../viz/page/assets/language/quantities.js";
+import { changeInWords } from "../../../viz/page/assets/figures/compared_table.js";
 import { words } from "../words.js";
 import { doNotRun, faultsOf } from "./faults.js";
 import { Term } from "./term.js";

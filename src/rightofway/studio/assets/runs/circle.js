@@ -1,13 +1,13 @@
 /** A critical circle: what each robot on it does until the next one can go on, with its share of the period. */
 
 import { html, useState } from "../vendor/htm-preact.js";
-import { said } from "../../../viz/page/assets/library.js";
-import { fraction } from "../../../viz/page/assets/quantities.js";
+import { said } from "../../../viz/page/assets/language/library.js";
+import { fraction } from "../../../viz/page/assets/language/quantities.js";
 import { words } from "../words.js";
 import { number } from "./parameter_curve.js";
-/** @import { Robot } from "../../../viz/page/assets/robot.js" */
+/** @import { Robot } from "../../../viz/page/assets/plan/robot.js" */
 /** @import { CirclePiece } from "../api_types.js" */
-/** @import { Fraction } from "../../../viz/page/assets/quantities.js" */
+/** @import { Fraction } from "../../../viz/page/assets/language/quantities.js" */
 /** @import { Props } from "../types.js" */
 
 const MOST = 10; // steps that are listed at first

@@ -2,11 +2,11 @@
 
 import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
 import { address } from "../api.js";
-import { Compared } from "../../../viz/page/assets/compared.js";
-import { ComparedRobots } from "../../../viz/page/assets/compared_robots.js";
-import { ComparedTable } from "../../../viz/page/assets/compared_table.js";
+import { Compared } from "../../../viz/page/assets/figures/compared.js";
+import { ComparedRobots } from "../../../viz/page/assets/figures/compared_robots.js";
+import { ComparedTable } from "../../../viz/page/assets/figures/compared_table.js";
 import { language, words } from "../words.js";
-/** @import { Robot } from "../../../viz/page/assets/robot.js" */
+/** @import { Robot } from "../../../viz/page/assets/plan/robot.js" */
 /** @import { Studio } from "../studio.js" */
 /** @import { Props } from "../types.js" */
 

@@ -2,8 +2,8 @@
 
 import { html, useEffect, useState } from "../vendor/htm-preact.js";
 import { connection } from "../connection.js";
-import { figure } from "../../../viz/page/assets/language.js";
-import { Quantities } from "../../../viz/page/assets/quantities.js";
+import { figure } from "../../../viz/page/assets/language/language.js";
+import { Quantities } from "../../../viz/page/assets/language/quantities.js";
 import { words } from "../words.js";
 import { secondsOf } from "./list.js";
 import { faultsOf } from "./faults.js";

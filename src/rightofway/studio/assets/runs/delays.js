@@ -1,10 +1,10 @@
 /** What becomes of a plan with delays: how late over all runs, any of them to replay, who suffers, where. */
 
 import { html, useEffect, useState } from "../vendor/htm-preact.js";
-import { fraction, Quantities } from "../../../viz/page/assets/quantities.js";
+import { fraction, Quantities } from "../../../viz/page/assets/language/quantities.js";
 import { words } from "../words.js";
-/** @import { Plan } from "../../../viz/page/assets/plan.js" */
-/** @import { Robot } from "../../../viz/page/assets/robot.js" */
+/** @import { Plan } from "../../../viz/page/assets/plan/plan.js" */
+/** @import { Robot } from "../../../viz/page/assets/plan/robot.js" */
 /** @import { DelaysReport, SpreadData } from "../api_types.js" */
 /** @import { Props } from "../types.js" */
 /** @import { PageEvent } from "../vendor/htm-preact.js" */

@@ -1,9 +1,9 @@
 /** What is wrong with the plan that is shown, before all else: how many faults, and each with its place and time. */
 
 import { html } from "../vendor/htm-preact.js";
-import { texts } from "../../../viz/page/assets/language.js";
+import { texts } from "../../../viz/page/assets/language/language.js";
 import { words } from "../words.js";
-/** @import { Plan } from "../../../viz/page/assets/plan.js" */
+/** @import { Plan } from "../../../viz/page/assets/plan/plan.js" */
 /** @import { RunData } from "../api_types.js" */
 /** @import { Props } from "../types.js" */
 

@@ -1,9 +1,9 @@
 /** The way that the chosen robot had in the plan that is compared: a dashed line above the map. */
 
 import { toDrawing } from "../draw/places.js";
-import { Plan } from "../../../viz/page/assets/plan.js";
+import { Plan } from "../../../viz/page/assets/plan/plan.js";
 import { present } from "../given.js";
-/** @import { Robot } from "../../../viz/page/assets/robot.js" */
+/** @import { Robot } from "../../../viz/page/assets/plan/robot.js" */
 /** @import { Stage } from "../stage.js" */
 /** @import { Point, SitePayload } from "../types.js" */
 /** @import { RunStore } from "./run_store.js" */

@@ -2,7 +2,7 @@
 
 import { html, useState } from "../vendor/htm-preact.js";
 import { get } from "../api.js";
-import { said } from "../../../viz/page/assets/library.js";
+import { said } from "../../../viz/page/assets/language/library.js";
 import { present } from "../given.js";
 import { words } from "../words.js";
 /** @import { GroupRow, MovementGroups } from "../api_types.js" */

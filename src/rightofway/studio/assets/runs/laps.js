@@ -3,10 +3,10 @@
 import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
 import { post } from "../api.js";
 import { changeRobots, robotsOf, stopsOf, withStops, writtenIn } from "../robots/fleet.js";
-import { figure } from "../../../viz/page/assets/language.js";
-import { decimal, fraction, Quantities } from "../../../viz/page/assets/quantities.js";
-import { said as phraseText } from "../../../viz/page/assets/library.js";
-import { several } from "../../../viz/page/assets/words.js";
+import { figure } from "../../../viz/page/assets/language/language.js";
+import { decimal, fraction, Quantities } from "../../../viz/page/assets/language/quantities.js";
+import { said as phraseText } from "../../../viz/page/assets/language/library.js";
+import { several } from "../../../viz/page/assets/language/words.js";
 import { words } from "../words.js";
 import { Circle } from "./circle.js";
 import { withHeadway } from "./rules.js";
@@ -23,7 +23,7 @@ import {
 import { later, present } from "../given.js";
 /** @import { LapGroup, LapsAnswer, LapsReport, UnitNames } from "../api_types.js" */
 /** @import { Studio } from "../studio.js" */
-/** @import { Fraction } from "../../../viz/page/assets/quantities.js" */
+/** @import { Fraction } from "../../../viz/page/assets/language/quantities.js" */
 /** @import { Moved, OtherOrder, Props, RobotData } from "../types.js" */
 
 /** @type {Record<string, Fraction>} */

@@ -2,8 +2,8 @@
 
 import { html, useEffect, useState } from "../vendor/htm-preact.js";
 import { Field } from "../field.js";
-import { figure } from "../../../viz/page/assets/language.js";
-import { Quantities } from "../../../viz/page/assets/quantities.js";
+import { figure } from "../../../viz/page/assets/language/language.js";
+import { Quantities } from "../../../viz/page/assets/language/quantities.js";
 import { words } from "../words.js";
 import { doNotRun, faultsOf, inShort } from "./faults.js";
 import { canBeShown, isOver, isWithoutPlan, stateOf } from "./run_store.js";

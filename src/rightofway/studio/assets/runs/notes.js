@@ -1,7 +1,7 @@
 /** What is new in each run beside the one before it, in words. */
 
 import { get } from "../api.js";
-import { changeInWords } from "../../../viz/page/assets/compared_table.js";
+import { changeInWords } from "../../../viz/page/assets/figures/compared_table.js";
 import { words } from "../words.js";
 /** @import { RunData } from "../api_types.js" */
 /** @import { RunStore } from "./run_store.js" */

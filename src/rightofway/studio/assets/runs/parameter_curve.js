@@ -1,7 +1,7 @@
 /** The period as a function of a speed, a work time or the headway: exact, from the pieces of the report. */
 
-import { decimal, fraction } from "../../../viz/page/assets/quantities.js";
-/** @import { Fraction } from "../../../viz/page/assets/quantities.js" */
+import { decimal, fraction } from "../../../viz/page/assets/language/quantities.js";
+/** @import { Fraction } from "../../../viz/page/assets/language/quantities.js" */
 /** @import { CurveData } from "../api_types.js" */
 /** @import { Numeral, ParameterPiece } from "../types.js" */
 

@@ -1,21 +1,21 @@
 /** Everything below a map on which a plan is played: signs, buttons, slider, diagram; and the card beside it. */
 
-import { Bottleneck } from "../../../viz/page/assets/bottleneck.js";
-import { Card } from "../../../viz/page/assets/card.js";
-import { Diagram } from "../../../viz/page/assets/diagram.js";
-import { writeMarkup } from "../../../viz/page/assets/language.js";
+import { Bottleneck } from "../../../viz/page/assets/timetable/bottleneck.js";
+import { Card } from "../../../viz/page/assets/lists/card.js";
+import { Diagram } from "../../../viz/page/assets/timetable/diagram.js";
+import { writeMarkup } from "../../../viz/page/assets/language/language.js";
 import {
   DIAGRAM,
   READOUT,
   STATES,
   TRANSPORT,
   toolButtons,
-} from "../../../viz/page/assets/markup.js";
-import { States } from "../../../viz/page/assets/states.js";
-import { Transport } from "../../../viz/page/assets/transport.js";
-import { Use } from "../../../viz/page/assets/use.js";
+} from "../../../viz/page/assets/player/markup.js";
+import { States } from "../../../viz/page/assets/lists/states.js";
+import { Transport } from "../../../viz/page/assets/player/transport.js";
+import { Use } from "../../../viz/page/assets/plan/use.js";
 import { later } from "../given.js";
-/** @import { MapView } from "../../../viz/page/assets/map_view.js" */
+/** @import { MapView } from "../../../viz/page/assets/map/map_view.js" */
 /** @import { Stage } from "../stage.js" */
 
 const BELOW = `${STATES}<div class="tools" role="toolbar" data-label="mapView">${toolButtons(["bottleneck", "space", "heat"])}</div>`;

@@ -1,6 +1,6 @@
 /** The runs of this studio: begun, heard, shown, compared; and what a plan says about waits. */
 
-import { Observable } from "../../../viz/page/assets/observable.js";
+import { Observable } from "../../../viz/page/assets/common/observable.js";
 import { get, patch, post, remove } from "../api.js";
 import { connection } from "../connection.js";
 import { listen, listenToAll } from "../events.js";

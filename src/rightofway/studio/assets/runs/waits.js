@@ -1,10 +1,10 @@
 /** Why robots wait: each wait in a sentence, the decisions behind it, and what if the other went first. */
 
 import { html } from "../vendor/htm-preact.js";
-import { said } from "../../../viz/page/assets/library.js";
+import { said } from "../../../viz/page/assets/language/library.js";
 import { words } from "../words.js";
 import { Groups } from "./groups.js";
-/** @import { Robot } from "../../../viz/page/assets/robot.js" */
+/** @import { Robot } from "../../../viz/page/assets/plan/robot.js" */
 /** @import { LossData } from "../api_types.js" */
 /** @import { Stage } from "../stage.js" */
 /** @import { Props } from "../types.js" */

@@ -1,4 +1,4 @@
-import { createInspection } from "./inspection.js";
-import { payloadOf } from "./dom.js";
+import { createInspection } from "./player/inspection.js";
+import { payloadOf } from "./common/dom.js";
 
 createInspection(document.body, payloadOf(document));

@@ -1,4 +1,4 @@
-import { payloadOf } from "./dom.js";
-import { createPlayer } from "./player.js";
+import { payloadOf } from "./common/dom.js";
+import { createPlayer } from "./player/player.js";
 
 createPlayer(document.body, payloadOf(document));

@@ -1,5 +1,5 @@
-import { payloadOf } from "./dom.js";
-import { createPlayer } from "./player.js";
-import { WATCHING } from "./watching.js";
+import { payloadOf } from "./common/dom.js";
+import { createPlayer } from "./player/player.js";
+import { WATCHING } from "./live/watching.js";
 
 createPlayer(document.body, payloadOf(document), WATCHING);

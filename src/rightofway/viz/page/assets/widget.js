@@ -1,6 +1,6 @@
-import { createPlayer } from "./player.js";
+import { createPlayer } from "./player/player.js";
 
-/** @import { PlayerHandle } from "./player.js" */
+/** @import { PlayerHandle } from "./player/player.js" */
 
 /**
  * Put the page of a plan into an element of a notebook, in a tree of its own that no style of the notebook reaches.

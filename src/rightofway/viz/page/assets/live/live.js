@@ -1,0 +1,247 @@
+import { Orders } from "./orders.js";
+import { element, goTo } from "../common/dom.js";
+import { listenToFeed } from "./feed.js";
+import { language, texts } from "../language/language.js";
+import { languageOf, said } from "../language/library.js";
+import { TwoLineList, chooseAt } from "../lists/two_line_list.js";
+
+/** @import { Choice } from "../player/choice.js" */
+/** @import { Clock } from "../player/clock.js" */
+/** @import { Driven, Told } from "./driven.js" */
+/** @import { DrivenFrame } from "../payload.d.ts" */
+/** @import { Plan } from "../plan/plan.js" */
+/** @import { Root } from "../common/root.js" */
+/** @import { TwoLines } from "../lists/two_line_list.js" */
+/** @import { Words } from "../language/words.js" */
+
+const MOST_TOLD = 2000; // sentences in the log, the latest ones
+const NOT_MOVING = "still"; // the kind of alarm of a robot that may drive and does not move
+const MARGIN = 1.25; // by how much the axis of time is longer than what has happened
+
+/** What a page has of a fleet that is driven beside its map and diagram: whether it is live, trouble, the log, orders. */
+export class Live {
+  #lit = "";
+  #isConnected = true;
+  #hasBegun = false;
+
+  /**
+   * @param {Root} root
+   * @param {Plan} plan
+   * @param {Driven} driven
+   * @param {Clock} clock
+   * @param {Choice} choice
+   * @param {Words} words
+   */
+  constructor(root, plan, driven, clock, choice, words) {
+    this.root = root;
+    this.plan = plan;
+    this.driven = driven;
+    this.clock = clock;
+    this.choice = choice;
+    this.words = words;
+    this.feed = /** @type {NonNullable<Plan["feed"]>} */ (plan.feed);
+    this.button = root.part("live");
+    this.state = root.part("live-state");
+    this.box = root.part("alarms");
+    this.count = root.all("#" + root.part("tab-log").id + " b", HTMLElement)[0];
+    this.log = new TwoLineList(root, "told", choice, [], {
+      none: texts.driven.nothingTold,
+      isLong: true,
+    });
+    this.orders = new Orders(root, driven, choice, this.feed.orders ?? "");
+    choice.alarmed = () =>
+      driven.raw.map((_, robot) => robot).filter((robot) => this.isInTrouble(robot));
+    root.part("live-box").hidden = false;
+    this.button.hidden = !this.feed.stream;
+    this.button.addEventListener("click", () => clock.follow());
+    clock.on("playing", () => this.refresh());
+    choice.on("choice", () => this.refresh());
+    this.#lengthen();
+    if (this.feed.stream) clock.live = () => driven.now;
+    root.atEnd(
+      listenToFeed(this.feed, {
+        take: (frame) => this.take(frame),
+        connect: (isConnected) => {
+          if (isConnected !== this.#isConnected) {
+            this.#isConnected = isConnected;
+            this.choice.tell("fleet"); // what robots do is not known any more, or again
+          }
+          this.refresh();
+        },
+      }),
+    );
+    this.#showStory();
+  }
+
+  /** @param {DrivenFrame} frame */
+  take(frame) {
+    const { driven, clock, plan } = this;
+    const sentences = driven.story.length;
+    driven.take(frame);
+    plan.robots = plan.happened = driven.robots;
+    this.#lengthen();
+    if (!this.#hasBegun) {
+      this.#hasBegun = true;
+      if (driven.runs) {
+        clock.seek(driven.now);
+        clock.follow();
+      }
+    }
+    if (frame.begins || driven.story.length !== sentences) this.#showStory();
+    this.choice.tell("fleet");
+    this.refresh();
+  }
+
+  /** Have the axis of time as long as the plan and all that has happened. */
+  #lengthen() {
+    const { driven, plan, clock } = this;
+    const least = Math.max(driven.now, 1);
+    const planned = Math.max(...this.plan.planned.map(({ completion }) => completion), 1);
+    const isLong = clock.end < least;
+    if (driven.runs && !isLong && clock.end >= planned) return;
+    plan.end = driven.runs ? Math.max(planned, least * MARGIN) : Math.max(least, 1);
+    clock.lengthen(plan.end);
+  }
+
+  /** Write again what depends on the moment that is shown. */
+  refresh() {
+    this.#showState();
+    this.#showAlarms();
+    this.orders.refresh(this.clock.tick, this.#isConnected);
+  }
+
+  #showState() {
+    const { clock, driven } = this;
+    const isLive = clock.following && driven.runs && this.#isConnected;
+    this.button.setAttribute("aria-pressed", String(isLive));
+    this.button.classList.toggle("on", isLive);
+    this.root.part("live-box").classList.toggle("follows", isLive);
+    const { driven: words } = texts;
+    const state = !this.feed.stream
+      ? words.recorded
+      : !this.#isConnected
+        ? words.disconnected
+        : !driven.runs
+          ? words.ended
+          : isLive
+            ? words.isLive
+            : words.lookingBack;
+    if (this.state.textContent !== state) this.state.textContent = state;
+    this.root.part("lost").hidden = this.#isConnected || !this.feed.stream || !driven.runs;
+  }
+
+  #showAlarms() {
+    const alarms = this.driven.alarmsAt(this.clock.tick);
+    const key = JSON.stringify(alarms.map(({ from, robot, kind }) => [from, robot, kind]));
+    if (key === this.#lit) return;
+    this.#lit = key;
+    this.box.hidden = !alarms.length;
+    const list = this.root.part("alarm-list");
+    list.replaceChildren(
+      ...alarms
+        .slice(-20)
+        .reverse()
+        .map(({ from, robot, text }) => {
+          const line = goTo(this.words.time(from), said(text), () =>
+            chooseAt(this.clock, from, () => this.choice.chooseRobot(robot)),
+          );
+          line.lang = languageOf(text);
+          return line;
+        }),
+    );
+  }
+
+  #showStory() {
+    const { story } = this.driven;
+    this.count.textContent = String(story.length);
+    this.log.setItems(
+      story
+        .slice(-MOST_TOLD)
+        .reverse()
+        .map((told) => this.#item(told)),
+    );
+  }
+
+  /**
+   * @param {Told} told
+   * @returns {TwoLines}
+   */
+  #item({ tick, robot, kind, text }) {
+    return {
+      head: said(text),
+      detail: this.words.time(tick),
+      isEnglish: languageOf(text) !== language,
+      isAlarm: kind === "alarm",
+      isChosen: () => false,
+      choose: () => chooseAt(this.clock, tick, () => robot >= 0 && this.choice.chooseRobot(robot)),
+    };
+  }
+
+  /**
+   * What a robot does, where that is more than what it does by itself: it is in trouble, waits for others, is held, is off.
+   *
+   * @param {number} robot
+   */
+  doing(robot) {
+    const { driven, clock, words } = this;
+    const tick = clock.tick;
+    if (driven.isOff(robot, tick)) return texts.driven.off;
+    if (!this.#isConnected && driven.runs && tick >= driven.now) return texts.driven.unknown;
+    const alarms = this.#alarmsOf(robot);
+    if (alarms.some(({ kind }) => kind === NOT_MOVING)) return texts.driven.still;
+    if (alarms.length) return texts.driven.alarmed;
+    const wait = driven.waitAt(robot, tick);
+    const names = wait?.others.map((other) => words.robot(other)).join(", ");
+    if (names) return texts.driven.waitsFor(names);
+    return driven.isHeld(robot, tick) ? texts.driven.held : "";
+  }
+
+  /**
+   * Whether there is an alarm of a robot at the moment shown.
+   *
+   * @param {number} robot
+   */
+  isInTrouble(robot) {
+    return this.#alarmsOf(robot).length > 0;
+  }
+
+  /** @param {number} robot */
+  #alarmsOf(robot) {
+    const { driven, clock } = this;
+    if (driven.isOff(robot, clock.tick)) return [];
+    return driven.alarmsAt(clock.tick).filter((alarm) => alarm.robot === robot);
+  }
+
+  /**
+   * What is known of a robot at the moment shown, as terms.
+   *
+   * @param {number} robot
+   * @returns {[string, string | Node][]}
+   */
+  facts(robot) {
+    const { driven, clock, words } = this;
+    const { base, horizon } = driven.way(robot, clock.tick);
+    const { driven: own } = texts;
+    const wait = driven.waitAt(robot, clock.tick);
+    /** @param {number[]} vertices */
+    const places = (vertices) => {
+      const shown = vertices.slice(0, 6).map((vertex) => words.short(vertex));
+      return shown.join(", ") + (vertices.length > 6 ? ", …" : "");
+    };
+    /** @type {[string, string | Node][]} */
+    const terms = [
+      [own.waiting, wait ? element("span", { lang: languageOf(wait.text) }, said(wait.text)) : ""],
+      [own.since, wait ? words.moment(wait.since) : ""],
+      [own.releasedTerm, base.length > 1 ? places(base.slice(1)) : own.nothing],
+      [own.horizon, horizon.length > 1 ? places(horizon.slice(1)) : own.nothing],
+      [own.operator, driven.isHeld(robot, clock.tick) ? own.held : ""],
+    ];
+    for (const { text, robot: other } of driven.alarmsAt(clock.tick))
+      if (other === robot)
+        terms.push([
+          own.alarm,
+          element("span", { className: "wrong", lang: languageOf(text) }, said(text)),
+        ]);
+    return terms;
+  }
+}

@@ -1,0 +1,6 @@
+import { Driven } from "./driven.js";
+import { Live } from "./live.js";
+import { MapReleased } from "../map/map_released.js";
+
+/** What a player needs to show a fleet that is driven; pages of plans do without. */
+export const WATCHING = { Driven, Live, MapReleased };

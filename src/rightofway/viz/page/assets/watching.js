@@ -1,6 +1,0 @@
-import { Driven } from "./driven.js";
-import { Live } from "./live.js";
-import { MapReleased } from "./map_released.js";
-
-/** What a player needs to show a fleet that is driven; pages of plans do without. */
-export const WATCHING = { Driven, Live, MapReleased };
