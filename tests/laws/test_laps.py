@@ -186,7 +186,8 @@ def test_laps_that_are_late_keep_their_rights_of_way_without_contact(
         plan = planned(replace(scenario, rules=replace(scenario.rules, laps=3)))
     outcome = rightofway.simulate(plan, "exponential:0.5", runs=20, seed=seed)
     assert (outcome.collisions, outcome.deadlocks, outcome.stranded) == (0, 0, 0)
-    assert check(replace(plan, tracks=outcome.trace(3).tracks)).ok
+    late = check(replace(plan, tracks=outcome.trace(3).tracks))
+    assert set(late.counts) <= {"stop at pass"}  # a late drive makes a visit longer there
     replanned = rightofway.simulate(plan, "chance:0.05x20", runs=2, seed=seed, replan=True)
     assert (replanned.collisions, replanned.deadlocks, replanned.stranded) == (0, 0, 0)
 

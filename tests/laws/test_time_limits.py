@@ -145,6 +145,13 @@ def lacam(scenario: Scenario, limit: float) -> None:
             plan_by_lacam(problem, time_limit=limit)
 
 
+def overlaps(_: Scenario, limit: float) -> None:
+    """Ten thousand robots are at one vertex at one time: fifty million pairs."""
+    robots = np.arange(10_000, dtype=np.int32)
+    starts = np.zeros(len(robots), np.int64)
+    _core.find_overlaps(np.zeros_like(robots), robots, starts, starts + 1, 2**31 - 1, limit)
+
+
 def event_graph() -> TimedEventGraph:
     timetable = random_timetable(1, robots=5, headway=0, books_ahead=False)
     return TimedEventGraph(timetable, rules=BookingRules())
@@ -197,6 +204,7 @@ CALLS: dict[str, Callable[[Scenario, float], object]] = {
     ),
     "earliest_track": track,
     "fewest_actions": act_less,
+    "find_overlaps": overlaps,
     "plan_by_lacam": lacam,
 }
 

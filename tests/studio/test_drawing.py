@@ -236,7 +236,7 @@ def test_two_pages_on_one_draft_lose_nothing(floor: StudioPage) -> None:
     other.drag((1.25, 3.25), (3.25, 3.25))
     other.settle()  # and the draft is kept
     floor.drag((1.25, 5.25), (3.25, 5.25))
-    choice = floor.page.get_by_role("alert")
+    choice = floor.page.get_by_role("alert").filter(has=floor.button("Keep mine as a copy"))
     choice.wait_for()
     floor.button("Keep mine as a copy").click()
     choice.wait_for(state="detached")

@@ -34,6 +34,7 @@ from rightofway.metrics import inspect, measure
 from rightofway.model import Plan, Scenario
 from rightofway.phrases import to_parts
 from rightofway.report.facts import write_note, write_notes
+from rightofway.report.inspection import export_finding
 from rightofway.studio.messages import Blobs, Emit, as_fault_data
 from rightofway.viz.verdict import give_verdict
 
@@ -127,16 +128,14 @@ def inspect_document(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) 
     """Return what will hurt on the floor of a document, as `rightofway inspect --json` has it."""
     loaded = load_document(document, folder)
     sites = make_sites(loaded.scenario, loaded.notes)
-    results = [(site, inspect(site)) for _, site in sites.sites]
-    (result,) = (inspected for _, inspected in results)
+    [(_, site)] = sites.sites
+    result = inspect(site)
     return (
         {
             "what": write_note(sites.description),
             "notes": to_parts(write_notes(sites.notes)),
-            **{key: value for key, value in asdict(result).items() if key != "findings"},
-            "findings": [
-                {**asdict(finding), "sentence": str(finding)} for finding in result.findings
-            ],
+            **asdict(replace(result, findings=())),
+            "findings": [export_finding(site, finding) for finding in result.findings],
         },
     )
 
