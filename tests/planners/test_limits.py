@@ -85,12 +85,13 @@ def test_a_circle_of_one_way_lanes_does_not_keep_a_call_for_ever() -> None:
     """The walk along the circle looked for its first vertex, which no lane leads back to."""
     script = (
         "import sys, rightofway as rw\n"
-        "try: rw.solve(rw.load(sys.argv[1]), time_limit=0.12, seed=169, iterations=30)\n"
+        "try: print(rw.solve(rw.load(sys.argv[1]), time_limit=0.12, seed=169, iterations=30))\n"
         "except rw.GaveUp as error: print(error)\n"
     )
     call = [sys.executable, "-c", script, str(HARD / "one-way-circle.json")]
     done = subprocess.run(call, capture_output=True, text=True, timeout=30, check=True)
-    assert not done.stdout or "(give a longer time limit" in done.stdout  # a quick machine plans
+    is_planned = done.stdout.startswith("Plan(")  # a quick machine ends before the limit
+    assert is_planned or "(give a longer time limit" in done.stdout
 
 
 def test_reports_use_what_planning_computed(scenario: Scenario) -> None:
