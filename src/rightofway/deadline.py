@@ -16,6 +16,7 @@ from functools import partial
 from typing import TypeVar
 
 from rightofway.errors import GaveUp
+from rightofway.facts import Fact
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,16 +44,21 @@ class Deadline:
         """Return how long it is until then [s], never negative; None for no limit."""
         return None if self.at is None else max(self.at - time.monotonic(), 0.0)
 
-    def check(self, doing: str) -> None:
+    def check(self, doing: Fact | str) -> None:
         """Raise `GaveUp` if the moment has come.
+
+        Parameters
+        ----------
+        doing
+            The work, for the error; English text in planners of other packages.
 
         Raises
         ------
         GaveUp
-            Saying what was being done.
+            With the work that took the time.
         """
         if self.at is not None and time.monotonic() >= self.at:
-            raise GaveUp(f"time ran out while {doing} (give a longer time limit)")
+            raise GaveUp(Fact("time over", doing=doing))
 
 
 NO_DEADLINE = Deadline()
@@ -60,8 +66,8 @@ NO_DEADLINE = Deadline()
 
 _deadline: ContextVar[Deadline] = ContextVar("deadline of the work", default=NO_DEADLINE)
 
-READING, DERIVING = "reading the map", "working out how long robots drive"
-"""What takes the time, for messages."""
+READING, DERIVING = Fact("reading the map"), Fact("deriving times of drives")
+"""Work on files and scenarios, for errors."""
 
 STEPS_BETWEEN_LOOKS = 256
 """Items of a long loop between two looks at the clock."""
@@ -79,7 +85,7 @@ def limit_work(deadline: Deadline) -> Iterator[None]:
         _deadline.reset(token)
 
 
-def check_work(doing: str) -> None:
+def check_work(doing: Fact) -> None:
     """Raise `GaveUp` if the time for such work is over; to be called in long loops."""
     _deadline.get().check(doing)
 
@@ -89,7 +95,7 @@ def measure_work_left() -> float | None:
     return _deadline.get().measure_seconds_left()
 
 
-def make_check(doing: str) -> Callable[[], None]:
+def make_check(doing: Fact) -> Callable[[], None]:
     """Return a function that raises `GaveUp` if the time is over, for threads of a pool, too.
 
     A thread has no context: its `check_work` knows no deadline.
@@ -97,7 +103,7 @@ def make_check(doing: str) -> Callable[[], None]:
     return partial(_deadline.get().check, doing)
 
 
-def limit_loop(items: Iterable[T], doing: str, steps: int = STEPS_BETWEEN_LOOKS) -> Iterator[T]:
+def limit_loop(items: Iterable[T], doing: Fact, steps: int = STEPS_BETWEEN_LOOKS) -> Iterator[T]:
     """Yield items of a long loop; raise `GaveUp` between two of them if the time is over.
 
     The clock is looked at each ``steps`` items: fewer where an item takes long.

@@ -15,12 +15,21 @@ import pytest
 from rightofway import check, solve
 from rightofway.cli import planning
 from rightofway.cli.main import run
-from rightofway.deadline import Deadline, check_work, limit_loop, limit_work
+from rightofway.deadline import (
+    DERIVING,
+    READING,
+    Deadline,
+    check_work,
+    limit_loop,
+    limit_work,
+)
 from rightofway.errors import GaveUp
+from rightofway.facts import Fact
 from rightofway.io import load
 from rightofway.model.resources import bind_resources
 from rightofway.native import bind_lists
 from rightofway.site import Edge, make_roadmap
+from rightofway.site.spacing import SPLITTING
 from tests.cli.conftest import EXAMPLES
 
 
@@ -60,16 +69,16 @@ class Counted(Deadline):
 
     def __init__(self, most: int) -> None:
         super().__init__()
-        object.__setattr__(self, "asked", list[str]())
+        object.__setattr__(self, "asked", list[Fact | str]())
         object.__setattr__(self, "most", most)
 
-    asked: list[str]
+    asked: list[Fact | str]
     most: int
 
-    def check(self, doing: str) -> None:
+    def check(self, doing: Fact | str) -> None:
         self.asked.append(doing)
         if len(self.asked) > self.most:
-            raise GaveUp(f"time ran out while {doing}")
+            raise GaveUp(Fact("time over", doing=doing))
 
 
 def graphml_of(dense: Path) -> Path:
@@ -88,11 +97,6 @@ def graphml_of(dense: Path) -> Path:
     return path
 
 
-READING = "reading the map"
-SPLITTING = "splitting lanes into pieces"
-DERIVING = "working out how long robots drive"
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "stages"),
@@ -102,7 +106,7 @@ DERIVING = "working out how long robots drive"
     ],
 )
 def test_each_stage_asks_for_the_time_and_ends_when_it_is_over(
-    dense: Path, kind: str, stages: list[str]
+    dense: Path, kind: str, stages: list[Fact]
 ) -> None:
     """No stage is longer than some hundred lanes between two questions."""
     path = dense if kind == "roadmap" else graphml_of(dense)
@@ -161,15 +165,18 @@ def test_a_place_more_costs_no_look_at_all_others() -> None:
     assert time.process_time() - began < 3
 
 
+TESTING = Fact("giving right of way")
+
+
 def test_work_is_limited_inside_and_nowhere_else() -> None:
-    with limit_work(Deadline.after(0)), pytest.raises(GaveUp, match="while testing"):
-        check_work("testing")
+    with limit_work(Deadline.after(0)), pytest.raises(GaveUp, match="while giving right of way"):
+        check_work(TESTING)
     with limit_work(Deadline.after(60)):
-        check_work("testing")
-    check_work("testing")  # no limit
+        check_work(TESTING)
+    check_work(TESTING)  # no limit
     with limit_work(Counted(0)), pytest.raises(GaveUp):
-        list(limit_loop(range(9), "testing"))
+        list(limit_loop(range(9), TESTING))
     counted = Counted(9)
     with limit_work(counted):
-        assert list(limit_loop(range(600), "testing")) == list(range(600))
+        assert list(limit_loop(range(600), TESTING)) == list(range(600))
     assert len(counted.asked) == 3, "before items 0, 256 and 512"

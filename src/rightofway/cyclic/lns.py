@@ -36,6 +36,8 @@ from rightofway.model import Tick
 from rightofway.precedence import CyclicSchedule, unroll_schedule
 from rightofway.search import PeriodicBookings
 
+PLACING = Fact("placing every robot")
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InsertionParams:
@@ -76,7 +78,7 @@ def _placed(
     for _ in range(params.placements_per_robot * len(problem)):
         if not queue:
             break
-        problem.deadline.check("finding every robot a place")
+        problem.deadline.check(PLACING)
         robot = queue.popleft()
         cycle = problem.place(bookings, robot, 1)
         while cycle is None:

@@ -22,9 +22,12 @@ from rightofway.cyclic.backjumping import LapDecision, RightOfWaySearch
 from rightofway.cyclic.route import GroupContext
 from rightofway.cyclic.simulator import DEFAULT, Deadlock, HorizonParams, choose_pacemaker
 from rightofway.cyclic.window import FrozenPrefix, TooShort, Window, WindowRule
+from rightofway.facts import Fact
 from rightofway.planners import Deadline
 from rightofway.planners.two_level import plan_by_two_levels
 from rightofway.precedence import Meeting, Segment
+
+SIMULATING, GIVING = Fact("waiting for a state again"), Fact("giving right of way")
 
 
 def two_level(window: Window, meeting: Meeting, segment: Segment) -> Literal[0, 1]:
@@ -92,7 +95,7 @@ class RollingHorizon:
         """
         self._deadline = deadline
         while True:
-            deadline.check("waiting for a state to come again")
+            deadline.check(SIMULATING)
             in_trouble = self._prefix.tick < self._trouble
             if not in_trouble:
                 self._lag, self._taken_back = self._least_lag, 1
@@ -160,7 +163,7 @@ class RollingHorizon:
     def _resolve_all(self, window: Window, search: RightOfWaySearch) -> None:
         graph, end = window.graph, window.compute_ends().min()
         while True:
-            self._deadline.check("giving right of way")
+            self._deadline.check(GIVING)
             meeting = graph.find_next_meeting()
             if graph.enter(self._home_in(window)) > self._params.patience * self._longest:
                 self._replace_pacemaker(window)

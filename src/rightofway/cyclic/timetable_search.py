@@ -40,7 +40,7 @@ from rightofway.precedence import unroll_schedule
 from rightofway.search import Distances, RoundTrip
 from rightofway.values import list_of, read_at, read_number
 
-CLOSING = "closing a stretch of a simulation"
+CLOSING = Fact("closing a stretch")
 """What may take the time, for messages."""
 
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from rightofway.arguments import checks_arguments, require_one_for_each
 from rightofway.deadline import check_work, limit_loop, measure_work_left
 from rightofway.errors import InputError
+from rightofway.facts import Fact
 from rightofway.model import NEVER, Plan, Scenario, Stays, Tick, Track, find_stays
 from rightofway.model.resources import Resources
 from rightofway.model.sorting import order_by
@@ -36,8 +37,7 @@ class BookedPlaces:
 MOST_MEETINGS = 10_000_000
 """Collisions and swaps of a fleet that are found, at most; half a gigabyte."""
 
-FINDING = "finding collisions"
-"""What takes the time, for messages."""
+FINDING = Fact("finding collisions")
 
 ROWS_AT_ONCE = 4096
 """Rows of a list of collisions that are made objects at once."""

@@ -9,6 +9,7 @@ from itertools import chain, product
 from rightofway.arguments import checks_arguments
 from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp
+from rightofway.facts import Fact
 from rightofway.metrics.collisions import find_collisions, find_near_misses, find_swaps
 from rightofway.model import (
     Objective,
@@ -28,6 +29,8 @@ from rightofway.search import (
     find_earliest_track,
 )
 from rightofway.site import VertexId
+
+DRIVING = Fact("driving each robot alone")
 
 MOST_PAIRS = 200
 """Pairs that are solved, those first that meet first."""
@@ -220,7 +223,7 @@ def _alone(scenario: Scenario, deadline: Deadline) -> list[Track] | None:
     distances = Distances(scenario.roadmap)
     try:
         for robot in range(len(scenario.robots)):
-            deadline.check("driving each robot alone")
+            deadline.check(DRIVING)
             left = deadline.measure_seconds_left()
             track = find_earliest_track(robot, bookings, distances, time_limit=left)
             if track is None:

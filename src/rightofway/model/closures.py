@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from rightofway.deadline import check_work
 from rightofway.errors import InputFault
+from rightofway.facts import Fact
 from rightofway.model.units import NEVER, Clock, Tick
 from rightofway.site import Point, Roadmap, VertexId, measure_squared_distance
 from rightofway.values import allow_none, coerce_fields, read_number, read_vertex
@@ -27,6 +28,8 @@ Ends = tuple[VertexId, VertexId]
 
 Segment = tuple[Point, Point]
 """Both ends of a straight line; of a point, the point twice."""
+
+FINDING = Fact("finding closed places")
 
 LEEWAY = 1e-9
 """Relative error allowed in floating-point distances before exact ones decide [roadmap sizes]."""
@@ -177,7 +180,7 @@ def book_closures(
         start = Tick(closure.from_ // clock.tick)
         end = NEVER if closure.until is None else clock.count_ticks(closure.until)
         for size, radius in enumerate(sizes):
-            check_work("finding what closures close")
+            check_work(FINDING)
             reach = None if closure.radius is None else radius + closure.radius + clearance
             bookings += [
                 _Closed(size * n_rows + resource, start, end)
@@ -236,7 +239,7 @@ class _Plane:
             if place not in ends and _nearer((at[place], at[place]), segments, reach):
                 yield place
         for edge in _boxed(self.drawn[self.tails], self.drawn[heads], segments, reach):
-            check_work("finding what closures close")
+            check_work(FINDING)
             tail, head = int(self.tails[edge]), int(heads[edge])
             if not {tail, head} & set(ends) and _nearer((at[tail], at[head]), segments, reach):
                 yield self.roadmap.n_vertices + edge

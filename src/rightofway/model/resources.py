@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 
 from rightofway.deadline import check_work
 from rightofway.errors import InputError, quote
+from rightofway.facts import Fact
 from rightofway.site import Roadmap, measure_squared_distance
 from rightofway.site.nearness import Lines, PointGrid
 from rightofway.site.zones import Zone, ZoneGuard
@@ -49,7 +50,7 @@ MOST_PAIRS_IN_ZONES = 2_000_000
 LARGEST_FAST = 2**30
 """Below this number, products of two differences of coordinates fit 64 bits."""
 
-FINDING = "finding vertices and lanes that two robots may not book at once"
+FINDING = Fact("finding incompatible bookings")
 
 Ints = NDArray[np.int64]
 Pairs = tuple[Ints, Ints]
@@ -347,7 +348,7 @@ class _Drawing:
         pairs = ClosePairs(vertices=[], beside=[], crossings=[])
         for done, part in enumerate(self.find_candidates(distance)):
             (left, right), (vertex, lane), (first, other) = part
-            check_work(f"{FINDING}, {done} of {self.n_parts} parts of the roadmap done")
+            check_work(Fact("part done", doing=FINDING, done=done, parts=self.n_parts))
             near = self._square(left, right) < limit
             beside = self._passes(vertex, lane, limit)
             crossing = self._crosses(first, other)

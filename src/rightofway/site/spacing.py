@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from rightofway.deadline import limit_loop
 from rightofway.errors import InputError, quote
+from rightofway.facts import Fact
 from rightofway.quantities import format_decimal
 from rightofway.site.edges import Edge, EdgeTable, tabulate_edges
 from rightofway.site.geometry import (
@@ -43,7 +44,7 @@ MOST_PIECES, MOST_CUTS = 8, 50_000
 """Pieces that a lane, and all lanes together, are split into where a map does not say how, at most:
 else pieces are longer. The eighth part of a lane is booked for an eighth of the time."""
 
-SPLITTING = "splitting lanes into pieces"
+SPLITTING = Fact("splitting lanes")
 
 MOST_WINDING = 10
 """How many times as long as its drawing a lane may be that is split. Half a circle is 1.6 times as
