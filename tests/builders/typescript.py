@@ -14,6 +14,7 @@ from typing import Any
 
 from pydantic import TypeAdapter
 
+from rightofway.facts import Fact
 from rightofway.model.robot import ROBOT_ATTRIBUTES
 from rightofway.values import format_number
 from rightofway.viz.page.schema import InspectionPayload, Payload
@@ -38,13 +39,15 @@ def robot_attributes() -> str:
     rows = []
     for it in ROBOT_ATTRIBUTES:
         usual = str(format_number(it.default)) if it.default else "\N{EN DASH}"
-        parts = {"isText": it.is_text, "title": it.title, "hint": it.hint, "usual": usual}
+        words = {part: str(Fact(f"{part} of {it.key}")) for part in ("title", "hint")}
+        parts = {"isText": it.is_text, **words, "usual": usual}
         lines = (
             f"    {key}: {json.dumps(value, ensure_ascii=False)},\n" for key, value in parts.items()
         )
         rows.append(f"  {it.key}: {{\n{''.join(lines)}  }},\n")
     return (
-        "// Generated from model/robot.py: change it there, then run `just types-refresh`.\n\n"
+        "// Generated from model/robot.py and texts/en.json: change it there, then run "
+        "`just types-refresh`.\n\n"
         "/** What a robot has beside its name and its trip, by its key in files. */\n"
         f"export const ATTRIBUTES = /** @type {{const}} */ ({{\n{''.join(rows)}}});\n"
     )

@@ -6,10 +6,10 @@ from pathlib import Path
 import openpyxl  # type: ignore[import-untyped]
 
 from rightofway import FleetBuilder
+from rightofway.facts import Fact
 from rightofway.io import parse_scenario
 from rightofway.io.workbook import write_template
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
-from rightofway.phrases import Phrase
 
 
 def test_the_builder_takes_every_attribute_of_a_robot() -> None:
@@ -18,10 +18,10 @@ def test_the_builder_takes_every_attribute_of_a_robot() -> None:
 
 
 def test_every_attribute_of_a_robot_has_a_title_and_a_hint_for_tables() -> None:
-    """These are phrases, of which each has its German; the studio makes its columns of them."""
+    """The studio makes its columns of them."""
     for it in ROBOT_ATTRIBUTES:
-        assert isinstance(it.title, Phrase), it.key
-        assert isinstance(it.hint, Phrase), it.key
+        assert str(Fact(f"title of {it.key}")), it.key
+        assert str(Fact(f"hint of {it.key}")), it.key
 
 
 def test_a_workbook_has_a_hint_for_every_attribute(tmp_path: Path) -> None:

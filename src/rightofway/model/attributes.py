@@ -56,8 +56,6 @@ class Attribute:
         What reports say for None.
     is_always_written
         Whether files have it although it has its default.
-    title, hint
-        What a table of robots calls it, and what to give there, for people; empty in rules.
     """
 
     name: str
@@ -68,8 +66,6 @@ class Attribute:
     measure: Literal["speed", "length", "time", ""]
     unset: str
     is_always_written: bool
-    title: str
-    hint: str
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -90,13 +86,10 @@ def make_attribute(
     measure: Literal["speed", "length", "time", ""] = "",
     unset: str = "as the rules say",
     always: bool = False,
-    title: str = "",
-    hint: str = "",
 ) -> dict[str, Any]:
     """Return the metadata of a dataclass's field that is an `Attribute`."""
     known = {"kind": kind, "description": description, "measure": measure, "unset": unset}
-    texts = {"title": title, "hint": hint}
-    return {"attribute": known | texts | {"key": key, "is_always_written": always}}
+    return {"attribute": known | {"key": key, "is_always_written": always}}
 
 
 @cache

@@ -8,7 +8,6 @@ from typing import Literal
 
 from rightofway.errors import quote
 from rightofway.model.attributes import list_attributes, list_readers, make_attribute
-from rightofway.phrases import Phrase
 from rightofway.site import VertexId
 from rightofway.values import coerce_fields, read_label, read_number, read_vertex
 
@@ -100,8 +99,6 @@ class Robot:
             "length units per time unit, above 0; 1 by default",
             measure="speed",
             always=True,
-            title=Phrase("Speed"),
-            hint=Phrase("Length units per time unit"),
         ),
     )
     radius: Fraction = field(
@@ -110,8 +107,6 @@ class Robot:
             "not negative",
             "radius of the circle that it needs [length unit]",
             measure="length",
-            title=Phrase("Radius"),
-            hint=Phrase("Radius of the circle that it needs"),
         ),
     )
     type: str | None = field(
@@ -120,8 +115,6 @@ class Robot:
             "name",
             "the name of its type, for edges and vertices that are barred for types",
             unset="none",
-            title=Phrase("Type"),
-            hint=Phrase("Name of its type; lanes may be barred for types"),
         ),
     )
     turn: Turn | None = field(
@@ -130,8 +123,6 @@ class Robot:
             "turning",
             TURNING,
             measure="time",
-            title=Phrase("Turn"),
-            hint=Phrase("Time to turn at a stop, or cell"),
         ),
     )
     ends: TripEnd | None = field(
@@ -140,8 +131,6 @@ class Robot:
             TripEnd,
             RETURN,
             key="return",
-            title=Phrase("Return"),
-            hint=Phrase("home, or none: it stays at its last stop"),
         ),
     )
     laps: int | None = field(
@@ -149,8 +138,6 @@ class Robot:
         metadata=make_attribute(
             "count",
             "how often it makes its round trip, 1 or more",
-            title=Phrase("Laps"),
-            hint=Phrase("How often it makes its round trip"),
         ),
     )
     turn_rate: Fraction | None = field(
@@ -158,8 +145,6 @@ class Robot:
         metadata=make_attribute(
             "positive",
             "how fast it turns on the spot [degrees per time unit]; by default in no time",
-            title=Phrase("Turn rate"),
-            hint=Phrase("How fast it turns on the spot, in degrees per time unit"),
         ),
     )
     weight: Fraction = field(
@@ -167,8 +152,6 @@ class Robot:
         metadata=make_attribute(
             "positive",
             "how much its completion time counts beside the others', above 0",
-            title=Phrase("Weight"),
-            hint=Phrase("How much its completion time counts beside the others"),
         ),
     )
 

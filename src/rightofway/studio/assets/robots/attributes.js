@@ -1,4 +1,4 @@
-// Generated from model/robot.py: change it there, then run `just types-refresh`.
+// Generated from model/robot.py and texts/en.json: change it there, then run `just types-refresh`.
 
 /** What a robot has beside its name and its trip, by its key in files. */
 export const ATTRIBUTES = /** @type {const} */ ({
