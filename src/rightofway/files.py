@@ -100,7 +100,7 @@ def write_whole(path: str | os.PathLike[str], content: bytes | str) -> None:
         else:
             _replace(target.resolve(), data)
     except (OSError, ValueError, RuntimeError) as error:  # a loop of links is a RuntimeError
-        raise InputError.at("", _why_unwritable(error, target), str(target)) from None
+        raise InputError.at("", _explain_unwritable(error, target), str(target)) from None
 
 
 def take_lock(descriptor: int) -> bool:
@@ -153,14 +153,14 @@ def _replace(target: Path, content: bytes) -> None:
             os.fsync(file.fileno())  # or a machine that goes down could leave an empty file
         beside.replace(target)
         with suppress(OSError):  # some systems cannot open a directory, or need not
-            _synchronize(target.parent)
+            _flush_directory(target.parent)
     except BaseException:
         with suppress(OSError):
             beside.unlink()
         raise
 
 
-def _synchronize(directory: Path) -> None:
+def _flush_directory(directory: Path) -> None:
     """Wait until the names in a directory are on the disk."""
     opened = os.open(directory, os.O_RDONLY)
     try:
@@ -169,7 +169,7 @@ def _synchronize(directory: Path) -> None:
         os.close(opened)
 
 
-def _why_unwritable(error: Exception, target: Path) -> str:
+def _explain_unwritable(error: Exception, target: Path) -> str:
     if isinstance(error, IsADirectoryError):
         return "this is a directory (give a file name in it)"
     if isinstance(error, FileNotFoundError):

@@ -88,7 +88,9 @@ def test_a_file_without_faults_is_read_once(
 ) -> None:
     path = tmp_path / "fleet.yaml"
     path.write_text(HEAD + GOOD, encoding="utf-8")
-    monkeypatch.setattr("rightofway.io.locations._root", lambda _: pytest.fail("looked for lines"))
+    monkeypatch.setattr(
+        "rightofway.io.locations._read_root", lambda _: pytest.fail("looked for lines")
+    )
     assert load(path).robots[0].name == "R1"
     with pytest.raises(pytest.fail.Exception):
         load_plan(path)

@@ -369,7 +369,7 @@ def test_a_stream_that_nobody_reads_is_ended(
 ) -> None:
     monkeypatch.setattr("rightofway.studio.guard.UNREAD", 0.2)
     monkeypatch.setattr("rightofway.studio.events.HEARTBEAT", 0.1)
-    monkeypatch.setattr("rightofway.studio.routes.runs._line", lambda _: "x" * 10**7)
+    monkeypatch.setattr("rightofway.studio.routes.runs._write_line", lambda _: "x" * 10**7)
     host = f"{client.base_url.host}:{client.base_url.port}"
     with socket.create_connection((client.base_url.host, client.base_url.port), 10) as connection:
         connection.sendall(f"GET /api/v1/events HTTP/1.1\r\nHost: {host}\r\n\r\n".encode())

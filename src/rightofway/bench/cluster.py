@@ -60,7 +60,7 @@ def run_on_cluster(
     try:
         if not client.nthreads():
             report(f"{address} has no workers yet; waiting for some")
-        yield from _rows(distributed, client, iter(cases))
+        yield from _yield_rows(distributed, client, iter(cases))
     except InputError as error:
         raise InputError(error.faults, address) from None
     except Exception as error:
@@ -73,7 +73,7 @@ def run_on_cluster(
         client.close(timeout=PATIENCE)
 
 
-def _rows(distributed: Any, client: Any, cases: Iterator[Case]) -> Iterator[Row]:
+def _yield_rows(distributed: Any, client: Any, cases: Iterator[Case]) -> Iterator[Row]:
     run, waiting = uuid.uuid4().hex, dict[Any, Case]()
 
     def submit(case: Case) -> Any:

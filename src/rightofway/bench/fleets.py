@@ -17,7 +17,7 @@ Cell = tuple[int, int]
 
 def draw_grid(*, width: int, height: int, walls: float, seed: int) -> list[str]:
     """Return the rows of a grid in which each cell is blocked with probability ``walls``."""
-    draw = _generator("walls", seed)
+    draw = _make_generator("walls", seed)
     return [
         "".join("@" if draw.random() < walls else "." for _ in range(width)) for _ in range(height)
     ]
@@ -58,12 +58,12 @@ def make_scenario_document(
     if "random" in problem:
         lines = draw_grid(**problem["random"])
         places = find_largest_part(lines)
-        homes, targets = _shuffled(places, "homes", seed), _shuffled(places, "targets", seed)
+        homes, targets = _shuffle(places, "homes", seed), _shuffle(places, "targets", seed)
         ends = list(zip(homes, targets, strict=True))[:robots]
     else:
         lines, ends = list(problem["grid"]), problem["ends"]
     speeds, (least, most) = fleet["speeds"], fleet["work"]
-    draw_speed, draw_work = _generator("speeds", seed), _generator("work", seed)
+    draw_speed, draw_work = _make_generator("speeds", seed), _make_generator("work", seed)
     documents = []
     for index, (home, target) in enumerate(ends):
         drawn = int(draw_speed.random() * len(speeds))
@@ -83,11 +83,11 @@ def make_scenario_document(
     }
 
 
-def _shuffled(places: Sequence[Cell], purpose: str, seed: int) -> list[Cell]:
-    draw = _generator(purpose, seed)
+def _shuffle(places: Sequence[Cell], purpose: str, seed: int) -> list[Cell]:
+    draw = _make_generator(purpose, seed)
     return sorted(places, key=lambda _: draw.random())
 
 
-def _generator(purpose: str, seed: int) -> random.Random:
+def _make_generator(purpose: str, seed: int) -> random.Random:
     """Return a generator of its own for each thing drawn, so that none depends on another."""
     return random.Random(f"{purpose} {seed}")  # noqa: S311 (no secret depends on it)

@@ -74,7 +74,7 @@ class Processes:
 
     def run(self, case: Case) -> Row:
         """Return the row of a case, however its process ends; `Interrupted` after `end`."""
-        with tempfile.TemporaryFile() as stderr, self._started(stderr) as process:
+        with tempfile.TemporaryFile() as stderr, self._start(stderr) as process:
             allowed = 3 * float(case.limit) + GRACE
             overran = False
             assert process.stdin is not None, "it is a pipe"
@@ -87,7 +87,7 @@ class Processes:
                 process.wait(allowed)
             except subprocess.TimeoutExpired:
                 overran = True
-                _kill(process)
+                _stop_process(process)
                 process.wait()
             outcome = process.stdout.read()
             with self._lock:
@@ -95,15 +95,15 @@ class Processes:
                 if self._is_over:
                     raise Interrupted
             if process.returncode == 0 and outcome:
-                return _row(case, json.loads(outcome))
+                return _make_row(case, json.loads(outcome))
             if overran:
-                return _failed(case, "overran", f"it was ended after {allowed:g} s")
+                return _make_failed_row(case, "overran", f"it was ended after {allowed:g} s")
             stderr.seek(0)
             lines = stderr.read().decode("utf-8", "replace").split("\n")
             last = next((line for line in reversed(lines) if line.strip()), "")
-            return _failed(case, *_death(process.returncode, last))
+            return _make_failed_row(case, *_explain_death(process.returncode, last))
 
-    def _started(self, stderr: IO[bytes]) -> subprocess.Popen[bytes]:
+    def _start(self, stderr: IO[bytes]) -> subprocess.Popen[bytes]:
         with self._lock:
             if self._is_over:
                 raise Interrupted
@@ -123,15 +123,15 @@ class Processes:
         with self._lock:
             self._is_over = True
             for process in self._running:
-                _kill(process)
+                _stop_process(process)
 
 
-def _kill(process: subprocess.Popen[bytes]) -> None:
+def _stop_process(process: subprocess.Popen[bytes]) -> None:
     with contextlib.suppress(ProcessLookupError):
         os.killpg(process.pid, signal.SIGKILL)
 
 
-def _death(code: int, words: str) -> tuple[str, str]:
+def _explain_death(code: int, words: str) -> tuple[str, str]:
     """Return status and message of a case whose process died without an outcome."""
     if code >= 0:
         return "defect", f"its process ended with code {code}. {words}"
@@ -147,14 +147,14 @@ def run_on_worker(case: Case) -> Row:
 
 def make_lost_row(case: Case, message: str) -> Row:
     """Return the row of a case whose worker died each time it was tried."""
-    return _failed(case, "killed", message)
+    return _make_failed_row(case, "killed", message)
 
 
-def _failed(case: Case, status: str, message: str) -> Row:
-    return _row(case, {"solved": False, "status": status, "message": message})
+def _make_failed_row(case: Case, status: str, message: str) -> Row:
+    return _make_row(case, {"solved": False, "status": status, "message": message})
 
 
-def _row(case: Case, outcome: dict[str, Any]) -> Row:
+def _make_row(case: Case, outcome: dict[str, Any]) -> Row:
     """Return a row with a value, or None, for every column."""
     row = {column.name: None for column in COLUMNS} | case.labels | describe_machine() | outcome
     row["message"] = " ".join(str(row["message"]).split())[:LONGEST]
@@ -166,9 +166,9 @@ def _row(case: Case, outcome: dict[str, Any]) -> Row:
 def describe_machine() -> dict[str, Any]:
     """Return commit, versions and hardware, as rows have them."""
     return {
-        "commit": _commit(),
+        "commit": _find_commit(),
         "version": rightofway.__version__,
-        "cpu": _cpu(),
+        "cpu": _describe_cpu(),
         "cores": count_cores(),
         "compiler": name_compiler(),
         "python": platform.python_version(),
@@ -181,19 +181,19 @@ def count_cores() -> int:
     return len(affinity(0)) if affinity else os.cpu_count() or 1
 
 
-def _commit() -> str:
+def _find_commit() -> str:
     """Return the commit of the package's sources, ``-dirty`` if changed; empty if unknown.
 
     An installed package may lie in a repository that has nothing to do with it, so git must know
     its files.
     """
     package = Path(rightofway.__file__)
-    if not _git(package, "ls-files", "--error-unmatch", package.name):
+    if not _ask_git(package, "ls-files", "--error-unmatch", package.name):
         return ""
-    return _git(package, "describe", "--always", "--dirty", "--abbrev=12", "--exclude=*")
+    return _ask_git(package, "describe", "--always", "--dirty", "--abbrev=12", "--exclude=*")
 
 
-def _git(package: Path, *args: str) -> str:
+def _ask_git(package: Path, *args: str) -> str:
     command = ["git", "-C", str(package.parent), *args]
     try:
         ended = subprocess.run(command, capture_output=True, check=True, text=True)  # noqa: S603
@@ -202,7 +202,7 @@ def _git(package: Path, *args: str) -> str:
     return ended.stdout.strip()
 
 
-def _cpu() -> str:
+def _describe_cpu() -> str:
     """Return the model of the processor; the architecture where the system does not name it."""
     try:
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()

@@ -93,10 +93,15 @@ def write_report(rows: Sequence[Row], path: Path | str, title: str) -> None:
     if not rows:
         raise InputError.at("", "there is no row to report on (run some cases)", str(path))
     is_page = path.suffix.lower() != ".md"
-    table, paragraph = (_html_table, _html_paragraph) if is_page else (make_markdown_table, str)
-    parts = [table(_planners(rows))]
-    for name, draw, words in (("cactus", _cactus, CACTUS), ("ratio", _ratios, RATIOS)):
-        alt, picture = words.partition(":")[0], _picture(rows, draw, "svg" if is_page else "png")
+    table, paragraph = (
+        (_make_html_table, _make_html_paragraph) if is_page else (make_markdown_table, str)
+    )
+    parts = [table(_make_planner_table(rows))]
+    for name, draw, words in (("cactus", _draw_cactus, CACTUS), ("ratio", _draw_ratios, RATIOS)):
+        alt, picture = (
+            words.partition(":")[0],
+            _draw_picture(rows, draw, "svg" if is_page else "png"),
+        )
         if is_page:
             # Each an image of its own, so that the pictures share no names.
             source = f"data:image/svg+xml;base64,{base64.b64encode(picture).decode()}"
@@ -106,7 +111,7 @@ def write_report(rows: Sequence[Row], path: Path | str, title: str) -> None:
             file = f"{path.stem}-{name}.png"
             write_whole(path.with_name(file), picture)
             parts += [f"![{alt}]({file})", words]
-    parts += [table(_details(rows)), *map(paragraph, _machines(rows))]
+    parts += [table(_make_detail_table(rows)), *map(paragraph, _list_machines(rows))]
     if is_page:
         content = PAGE.format(title=html.escape(title), body="\n".join(parts))
     else:
@@ -117,21 +122,21 @@ def write_report(rows: Sequence[Row], path: Path | str, title: str) -> None:
 FIGURES = ("solved", "flowtime / bound", "first plan [s]", "memory [MB]")
 
 
-def _planners(rows: Sequence[Row]) -> Table:
+def _make_planner_table(rows: Sequence[Row]) -> Table:
     table: Table = [["planner", *FIGURES, "not solved"]]
     for name, planner_rows in group_by_planner(rows).items():
         group = Group.of(planner_rows)
         ends = [f"{n} {status}" for status, n in group.statuses.items() if status != "solved"]
-        table.append([name, *_figures(group), ", ".join(ends)])
+        table.append([name, *_list_figures(group), ", ".join(ends)])
     return table
 
 
-def _details(rows: Sequence[Row]) -> Table:
+def _make_detail_table(rows: Sequence[Row]) -> Table:
     names = name_planners(rows)
     return [
         ["map", "fleet", "robots", "planner", *FIGURES],
         *(
-            [*place, str(robots), planner, *_figures(group)]
+            [*place, str(robots), planner, *_list_figures(group)]
             for place, part in group_rows(rows, "map", "fleet").items()
             for planner, planner_rows in group_by_planner(part, names).items()
             for robots, group in group_by_robots(planner_rows).items()
@@ -139,7 +144,7 @@ def _details(rows: Sequence[Row]) -> Table:
     ]
 
 
-def _figures(group: Group) -> Iterator[str]:
+def _list_figures(group: Group) -> Iterator[str]:
     def spread(values: Quartiles | None, form: str) -> str:
         if values is None:
             return ""
@@ -153,7 +158,7 @@ def _figures(group: Group) -> Iterator[str]:
     yield "" if group.memory is None else f"{group.memory:.0f}"
 
 
-def _html_table(table: Table) -> str:
+def _make_html_table(table: Table) -> str:
     lines = [
         "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in line)
         for tag, line in zip(["th", *["td"] * len(table)], table, strict=False)
@@ -161,7 +166,7 @@ def _html_table(table: Table) -> str:
     return "<table>\n" + "".join(f"<tr>{line}</tr>\n" for line in lines) + "</table>"
 
 
-def _html_paragraph(sentence: str) -> str:
+def _make_html_paragraph(sentence: str) -> str:
     return f"<p>{html.escape(sentence)}</p>"
 
 
@@ -174,7 +179,7 @@ def make_markdown_table(table: Table) -> str:
     )
 
 
-def _machines(rows: Iterable[Row]) -> Iterator[str]:
+def _list_machines(rows: Iterable[Row]) -> Iterator[str]:
     keys = ("version", "commit", "cpu", "cores", "compiler", "python")
     for (version, commit, cpu, cores, compiler, python), machine_rows in group_rows(
         rows, *keys
@@ -184,7 +189,9 @@ def _machines(rows: Iterable[Row]) -> Iterator[str]:
         yield f"{cases} by {versions} on {cpu}, {cores} cores, {compiler}, Python {python}."
 
 
-def _picture(rows: Sequence[Row], draw: Callable[[Sequence[Row], Any], None], form: str) -> bytes:
+def _draw_picture(
+    rows: Sequence[Row], draw: Callable[[Sequence[Row], Any], None], form: str
+) -> bytes:
     """Return a picture as svg or png."""
     content = io.BytesIO()
     with load_library("matplotlib", "a report").rc_context(STYLE):
@@ -195,7 +202,7 @@ def _picture(rows: Sequence[Row], draw: Callable[[Sequence[Row], Any], None], fo
     return content.getvalue()
 
 
-def _cactus(rows: Sequence[Row], figure: Any) -> None:
+def _draw_cactus(rows: Sequence[Row], figure: Any) -> None:
     """Draw how many cases each planner has solved after how many seconds."""
     figure.set_size_inches(7, 4.2)
     axes, planners = figure.add_subplot(), group_by_planner(rows)
@@ -223,7 +230,7 @@ def _cactus(rows: Sequence[Row], figure: Any) -> None:
     axes.legend(loc="lower right")
 
 
-def _ratios(rows: Sequence[Row], figure: Any) -> None:
+def _draw_ratios(rows: Sequence[Row], figure: Any) -> None:
     """Draw flowtime / lower bound by number of robots: medians and quartiles, a part for each map.
 
     Medians are of solved cases; where others are not solved the marker is hollow.

@@ -92,9 +92,9 @@ class Results:
             self._file = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o666)
         except OSError as error:
             message = f"cannot be opened: {error.strerror} (check the path and its permissions)"
-            raise self._fault(message) from None
+            raise self._make_fault(message) from None
         try:
-            for row in self._mended_rows():
+            for row in self._read_mended_rows():
                 self.rows.setdefault(row["key"], row)
         except BaseException:
             os.close(self._file)
@@ -104,7 +104,7 @@ class Results:
         """Write a row; one whose key is there already is left out."""
         if row["key"] not in self.rows:
             self.rows[row["key"]] = dict(row)
-            self._write(_line([_text(row[name]) for name in HEADER]))
+            self._write(_write_line([_write_text(row[name]) for name in HEADER]))
 
     def close(self) -> None:
         """Finish the file."""
@@ -116,14 +116,14 @@ class Results:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def _mended_rows(self) -> Iterator[Row]:
+    def _read_mended_rows(self) -> Iterator[Row]:
         """Lock the file; begin it, or cut off a line that was being written; yield its rows."""
         if not take_lock(self._file):
             message = "another run is writing to it (wait for its end, or give another file)"
-            raise self._fault(message)
-        content, header = self.path.read_bytes(), _line(HEADER)
+            raise self._make_fault(message)
+        content, header = self.path.read_bytes(), _write_line(HEADER)
         if not content.startswith(header) and not header.startswith(content):
-            raise self._fault(NOT_RESULTS, Location(line=1))
+            raise self._make_fault(NOT_RESULTS, Location(line=1))
         whole = content.rfind(b"\n") + 1
         if whole < len(content):
             os.truncate(self._file, whole)
@@ -133,12 +133,12 @@ class Results:
         for number, [cells] in enumerate((csv.reader([line]) for line in lines), start=2):
             try:
                 yield {
-                    column.name: _value(cell, column.kind)
+                    column.name: _read_value(cell, column.kind)
                     for column, cell in zip(COLUMNS, cells, strict=True)
                 }
             except ValueError as error:
                 message = f"this is no row of results: {error} (take the line out)"
-                raise self._fault(message, Location(line=number)) from None
+                raise self._make_fault(message, Location(line=number)) from None
 
     def _write(self, line: bytes) -> None:
         try:
@@ -147,26 +147,26 @@ class Results:
             os.fsync(self._file)
         except OSError as error:
             message = f"cannot be written: {error.strerror} (the next run goes on from here)"
-            raise self._fault(message) from None
+            raise self._make_fault(message) from None
 
-    def _fault(self, message: str, where: Where = "") -> InputError:
+    def _make_fault(self, message: str, where: Where = "") -> InputError:
         return InputError.at(where, message, str(self.path))
 
 
-def _line(cells: list[str]) -> bytes:
+def _write_line(cells: list[str]) -> bytes:
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerow(cells)
     return text.getvalue().encode()
 
 
-def _text(value: Any) -> str:
+def _write_text(value: Any) -> str:
     """Return a value as a cell; without line ends, so that a row is a line."""
     if isinstance(value, bool):
         return "yes" if value else "no"
     return "" if value is None else " ".join(str(value).split())
 
 
-def _value(cell: str, kind: Kind) -> Any:
+def _read_value(cell: str, kind: Kind) -> Any:
     if kind == "text":
         return cell
     if cell == "":

@@ -44,7 +44,7 @@ def run(case: Case) -> dict[str, Any]:
         scenario = case.make_scenario()
         if case.planner == LAPS:
             clock = _Clock()
-            return {**_laps(case, scenario), **clock.measure()}
+            return {**_run_laps(case, scenario), **clock.measure()}
         find(case.planner).load()  # importing it is not planning
         clock = _Clock()
         plan = solve(
@@ -52,27 +52,27 @@ def run(case: Case) -> dict[str, Any]:
             time_limit=float(case.limit), seed=case.seed, options=case.options,
         )  # fmt: skip
         spent = clock.measure()
-        return {**_judged(plan), **spent}
+        return {**_judge(plan), **spent}
     except Exception as error:  # noqa: BLE001 (a planner may raise anything, and the next case runs)
         status = next((name for kind, name in ENDINGS.items() if isinstance(error, kind)), "defect")
         words = f"{type(error).__name__}: {error}" if status == "defect" else str(error)
         valid = False if status == "invalid plan" else None
-        return {**_ended(status, words, valid=valid), **clock.measure()}
+        return {**_make_end(status, words, valid=valid), **clock.measure()}
 
 
-def _ended(status: str, message: str, *, valid: bool | None) -> dict[str, Any]:
+def _make_end(status: str, message: str, *, valid: bool | None) -> dict[str, Any]:
     return {"solved": status == "solved", "valid": valid, "status": status, "message": message}
 
 
-def _judged(plan: Plan) -> dict[str, Any]:
+def _judge(plan: Plan) -> dict[str, Any]:
     report = check(plan)
     if not report.ok:
-        return _ended("invalid plan", report.summary, valid=False)
+        return _make_end("invalid plan", report.summary, valid=False)
     metrics, first = measure(plan), plan.run.first_plan_seconds
     levels = Counter(decision.level for decision in plan.run.decisions)
     figures = {"decisions": dict(levels), "rerouted": len(plan.run.reroutes)}
     return {
-        **_ended("solved", str(plan.run.status), valid=True),
+        **_make_end("solved", str(plan.run.status), valid=True),
         "flowtime": int(metrics.flowtime),
         "makespan": int(metrics.makespan),
         "lower_bound": int(metrics.flowtime_alone),
@@ -83,7 +83,7 @@ def _judged(plan: Plan) -> dict[str, Any]:
     }
 
 
-def _laps(case: Case, scenario: Scenario) -> dict[str, Any]:
+def _run_laps(case: Case, scenario: Scenario) -> dict[str, Any]:
     """Let a fleet repeat its work; it is solved if the pattern of each group is known."""
     from rightofway.cyclic import TIMETABLE, find_best_timetable, run_laps
 
@@ -98,7 +98,7 @@ def _laps(case: Case, scenario: Scenario) -> dict[str, Any]:
     count = ", ".join(f"{number} {end}" for end, number in sorted(ends.items()))
     figures = {"throughput": float(result.compute_throughput()), "groups": groups}
     return {
-        **_ended(status, f"groups: {count}", valid=None),
+        **_make_end(status, f"groups: {count}", valid=None),
         "tick": str(scenario.problem.clock.tick),
         "figures": json.dumps(figures),
     }
@@ -138,23 +138,23 @@ class _Clock:
     """The time and memory that this process spends from now on."""
 
     def __init__(self) -> None:
-        self._wall, self._cpu = time.perf_counter(), _cpu_seconds()
+        self._wall, self._cpu = time.perf_counter(), _measure_cpu_seconds()
 
     def measure(self) -> dict[str, float]:
         return {
             "wall_seconds": round(time.perf_counter() - self._wall, 6),
-            "cpu_seconds": round(_cpu_seconds() - self._cpu, 6),
-            "peak_memory": round(_peak_memory() / 1e6, 1),
+            "cpu_seconds": round(_measure_cpu_seconds() - self._cpu, 6),
+            "peak_memory": round(_measure_peak_memory() / 1e6, 1),
         }
 
 
-def _cpu_seconds() -> float:
+def _measure_cpu_seconds() -> float:
     """Return the CPU time of this process and of those it started and waited for [s]."""
     spent = os.times()
     return time.process_time() + spent.children_user + spent.children_system
 
 
-def _peak_memory() -> int:
+def _measure_peak_memory() -> int:
     """Return the most memory that this process held [bytes].
 
     On Linux from ``/proc``: ``getrusage`` includes the process that started this one.

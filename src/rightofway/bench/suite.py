@@ -147,7 +147,7 @@ def read_suite(path: Path | str) -> tuple[Case, ...]:
             message = f'a suite is TOML (begin it with format = "{SUITE_FORMAT}")'
             raise InputError.at("", message)
         data = check_format(parse_toml(read_text(path)), SUITE_FORMAT)
-        combined = list(_combinations(validate(SuiteDocument, data), path.parent))
+        combined = list(_combine(validate(SuiteDocument, data), path.parent))
     cases: dict[str, Case] = {}
     for case in combined:
         twin = cases.setdefault(case.key, case)
@@ -157,20 +157,20 @@ def read_suite(path: Path | str) -> tuple[Case, ...]:
     return tuple(cases.values())
 
 
-def _combinations(document: SuiteDocument, base: Path) -> Iterator[Case]:
+def _combine(document: SuiteDocument, base: Path) -> Iterator[Case]:
     from rightofway.io.suite import SuiteFleetDocument
 
     faults = Faults()
     maps = [
-        faults.attempt(("maps", index), _maps, group, document.counts, base)
+        faults.attempt(("maps", index), _read_maps, group, document.counts, base)
         for index, group in enumerate(document.maps)
     ]
     planners = [
-        faults.attempt(("planners", index), _planner, group)
+        faults.attempt(("planners", index), _read_planner, group)
         for index, group in enumerate(document.planners)
     ]
     fleets = [
-        faults.attempt(("fleets", index), _fleet, group)
+        faults.attempt(("fleets", index), _read_fleet, group)
         for index, group in enumerate(document.fleets or [SuiteFleetDocument(name="default")])
     ]
     _note_twins(faults, "maps", [group[0].name if group else None for group in maps])
@@ -204,7 +204,9 @@ def _note_twins(faults: Faults, key: str, names: Sequence[str | None]) -> None:
             faults.note((key, index, "name"), message, (key, first))
 
 
-def _maps(document: MapCasesDocument, counts: Sequence[int] | None, base: Path) -> tuple[_Map, ...]:
+def _read_maps(
+    document: MapCasesDocument, counts: Sequence[int] | None, base: Path
+) -> tuple[_Map, ...]:
     """Read a map of a suite with each of its files; places of faults are relative to the map."""
     if document.scenario is not None:
         with locate_faults("scenario"):
@@ -227,14 +229,16 @@ def _maps(document: MapCasesDocument, counts: Sequence[int] | None, base: Path) 
         return (_Map(name=name, counts=counts, data={"random": recipe}),)
     faults = Faults()
     specs = [
-        faults.attempt("", _with_rows, document, index, counts, base)
+        faults.attempt("", _read_map_with_rows, document, index, counts, base)
         for index in range(len(document.scens))
     ]
     faults.stop()
     return tuple(spec for spec in specs if spec)
 
 
-def _with_rows(document: MapCasesDocument, index: int, counts: tuple[int, ...], base: Path) -> _Map:
+def _read_map_with_rows(
+    document: MapCasesDocument, index: int, counts: tuple[int, ...], base: Path
+) -> _Map:
     """Read a map and rows as the scenario that they are, so that its reader finds the faults."""
     scen = document.scens[index]
     whole = {
@@ -265,7 +269,7 @@ def _with_rows(document: MapCasesDocument, index: int, counts: tuple[int, ...], 
     )
 
 
-def _fleet(document: SuiteFleetDocument) -> _Fleet:
+def _read_fleet(document: SuiteFleetDocument) -> _Fleet:
     """Return the name and the data of a fleet."""
     given = document.get_own_attributes(Rules)
     rules = {
@@ -302,7 +306,7 @@ def _try_out(speeds: Sequence[Fraction], rules: Mapping[str, Any]) -> None:
         raise InputError.at(where, first.message) from None
 
 
-def _planner(document: SuitePlannerDocument) -> tuple[str, Mapping[str, Any]]:
+def _read_planner(document: SuitePlannerDocument) -> tuple[str, Mapping[str, Any]]:
     """Return the name of a planner and a value for each of its options."""
     # Options come as on a command line: no True, but true.
     options = {
@@ -310,7 +314,7 @@ def _planner(document: SuitePlannerDocument) -> tuple[str, Mapping[str, Any]]:
         for name, value in document.options.items()
     }
     if document.name == LAPS:
-        return LAPS, _laps_options(options)
+        return LAPS, _read_laps_options(options)
     try:
         spec = find(document.name)
     except InputError as error:
@@ -318,7 +322,7 @@ def _planner(document: SuitePlannerDocument) -> tuple[str, Mapping[str, Any]]:
     return spec.name, spec.settle(options)
 
 
-def _laps_options(given: Mapping[str, Any]) -> dict[str, Any]:
+def _read_laps_options(given: Mapping[str, Any]) -> dict[str, Any]:
     from rightofway.cyclic import ROUTES, RULES, TIMETABLE
 
     choices = {"rule": (*RULES, TIMETABLE), "routes": ROUTES}

@@ -59,7 +59,7 @@ def judge_closures(
     """
     if not plan.scenario.closures:
         return
-    tick, booked = plan.scenario.problem.clock.tick, _bookings(plan, visits)
+    tick, booked = plan.scenario.problem.clock.tick, _list_bookings(plan, visits)
     reaches = [robot.radius + plan.scenario.rules.clearance for robot in plan.scenario.robots]
     sizes = sorted(set(reaches))
     size = np.array([sizes.index(reach) for reach in reaches])[booked.robot]
@@ -83,7 +83,7 @@ def judge_closures(
         for k in at_once[is_shut[kind[at_once]]].tolist():
             first, second = booked.places[k].tolist()
             moment = max(int(booked.start[k]), begin)
-            collector.add(_fault(int(booked.robot[k]), (first, second), moment, end, scenario))
+            collector.add(_make_fault(int(booked.robot[k]), (first, second), moment, end, scenario))
 
 
 class _Booked(NamedTuple):
@@ -95,7 +95,7 @@ class _Booked(NamedTuple):
     end: NDArray[Any]
 
 
-def _bookings(plan: Plan, visits: Visits) -> _Booked:
+def _list_bookings(plan: Plan, visits: Visits) -> _Booked:
     """Return what robots book: vertices, and edges while they drive along them."""
     headway = plan.scenario.problem.booking_rules.headway
     never = max(visits.leave.max(), NEVER) + headway
@@ -117,9 +117,9 @@ class _Shut:
     def __init__(self, closure: Closure, roadmap: Roadmap) -> None:
         self.closure, self.roadmap = closure, roadmap
         self.ends = frozenset(closure.edge or ())
-        self.ways = list(self._ways())
+        self.ways = list(self._list_ways())
 
-    def _ways(self) -> Iterator[list[int]]:
+    def _list_ways(self) -> Iterator[list[int]]:
         """Yield the vertices along each drawing of the closed lane, or the closed vertex."""
         if self.closure.edge is None:
             assert self.closure.at is not None, "the scenario has refused this"
@@ -159,20 +159,21 @@ class _Shut:
         if not self.ends.isdisjoint(place):
             return False
         limit = (self.closure.radius + reach) ** 2
-        start, other = (self._at(vertex) for vertex in place)
+        start, other = (self._place_of(vertex) for vertex in place)
         lines = (
             ends for path in self.ways for ends in (pairwise(path) if len(path) > 1 else [path * 2])
         )
         return any(
-            _square_between(start, other, self._at(begin), self._at(end)) < limit
+            _measure_square_between(start, other, self._place_of(begin), self._place_of(end))
+            < limit
             for begin, end in lines
         )
 
-    def _at(self, vertex: int) -> Vector:
+    def _place_of(self, vertex: int) -> Vector:
         return self.roadmap.get_position(vertex)
 
 
-def _square_between(p: Vector, q: Vector, r: Vector, s: Vector) -> Fraction:
+def _measure_square_between(p: Vector, q: Vector, r: Vector, s: Vector) -> Fraction:
     """Return the square of the distance of two straight lines, p to q and r to s."""
 
     def cross(o: Vector, a: Vector, b: Vector) -> Fraction:
@@ -192,7 +193,9 @@ def _square_between(p: Vector, q: Vector, r: Vector, s: Vector) -> Fraction:
     return min(from_point(p, r, s), from_point(q, r, s), from_point(r, p, q), from_point(s, p, q))
 
 
-def _fault(robot: int, place: Place, moment: int, end: int | None, scenario: Scenario) -> Fault:
+def _make_fault(
+    robot: int, place: Place, moment: int, end: int | None, scenario: Scenario
+) -> Fault:
     return Fault(
         kind="closed",
         robots=(robot,),

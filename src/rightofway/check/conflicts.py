@@ -25,7 +25,7 @@ CHUNK = 2**20
 """About how many pairs are made together."""
 
 
-def _pairs(first: Indices, after: Indices) -> Iterator[tuple[Indices, Indices]]:
+def _list_pairs(first: Indices, after: Indices) -> Iterator[tuple[Indices, Indices]]:
     """Yield all (i, j) with ``first[i] <= j < after[i]``, some at a time."""
     counts = np.maximum(after - first, 0)
     totals = np.cumsum(counts)
@@ -45,7 +45,7 @@ def judge_bookings(
 ) -> None:
     """Find vertex conflicts, and those that only the headway makes."""
     headway = plan.scenario.problem.booking_rules.headway
-    crowded = _crowded(visits.vertex, visits.vertex_start, visits.vertex_end + headway)
+    crowded = _find_crowded(visits.vertex, visits.vertex_start, visits.vertex_end + headway)
     robot, vertex, last = visits.robot[crowded], visits.vertex[crowded], visits.last[crowded]
     start, leave = visits.vertex_start[crowded], visits.vertex_end[crowded]
 
@@ -85,8 +85,8 @@ def judge_bookings(
         robots = np.minimum(*ends), np.maximum(*ends)
         collector.add_all(kind, start[second], robots, fault)
 
-    after = _begun(vertex, start, leave + headway)
-    for first, second in _pairs(np.arange(len(start)) + 1, after):
+    after = _count_begun(vertex, start, leave + headway)
+    for first, second in _list_pairs(np.arange(len(start)) + 1, after):
         strangers = robot[first] != robot[second]
         at_once = start[second] < leave[first]
         conflicts, too_soons = strangers & at_once, strangers & ~at_once
@@ -94,7 +94,7 @@ def judge_bookings(
         report("headway", first[too_soons], second[too_soons], describe_headway)
 
 
-def _crowded(vertex: Indices, start: NDArray[Any], end: NDArray[Any]) -> Indices:
+def _find_crowded(vertex: Indices, start: NDArray[Any], end: NDArray[Any]) -> Indices:
     """Return the bookings of vertices where any overlap, by vertex and start.
 
     Two neighbours in that order overlap then. A booking of no duration overlaps none.
@@ -106,7 +106,7 @@ def _crowded(vertex: Indices, start: NDArray[Any], end: NDArray[Any]) -> Indices
     return order[np.isin(vertex, vertex[1:][overlap])]
 
 
-def _begun(vertex: Indices, start: NDArray[Any], end: NDArray[Any]) -> Indices:
+def _count_begun(vertex: Indices, start: NDArray[Any], end: NDArray[Any]) -> Indices:
     """Return, for each booking, the index after the last one that starts before it ends."""
     count = len(start)
     # At one tick, ends come before starts.
@@ -130,8 +130,8 @@ def judge_swaps(visits: Visits, scenario: Scenario, collector: FaultCollector) -
             scenario=scenario,
         )
 
-    move, begin, after = _opposite(visits)
-    for i, j in _pairs(begin, after):
+    move, begin, after = _find_opposite(visits)
+    for i, j in _list_pairs(begin, after):
         # Moves are numbered robot by robot, so that the smaller one has the smaller robot.
         first, second = np.minimum(move[i], move[j]), np.maximum(move[i], move[j])
         strangers = visits.robot[first] != visits.robot[second]
@@ -142,30 +142,30 @@ def judge_swaps(visits: Visits, scenario: Scenario, collector: FaultCollector) -
         )
 
 
-def _moves(visits: Visits) -> Indices:
+def _find_moves(visits: Visits) -> Indices:
     """Return the visits that end by moving from one vertex of the roadmap to another."""
     head = np.roll(visits.vertex, -1)
     known = visits.known & np.roll(visits.known, -1)
     return np.flatnonzero(~visits.last & known & (visits.vertex != head))
 
 
-def _opposite(visits: Visits) -> tuple[Indices, Indices, Indices]:
+def _find_opposite(visits: Visits) -> tuple[Indices, Indices, Indices]:
     """Return moves in an order in which the moves opposite to move i are begin[i] to after[i].
 
     Each pair comes up once: moves to a smaller vertex have an empty range. Nearly all moves are
     alone between their vertices at their instant; these are left out. Moves are sorted by few
     columns before the exact order is made of the rest.
     """
-    move = _moves(visits)
+    move = _find_moves(visits)
     low = np.minimum(visits.vertex[move], visits.vertex[move + 1])
     order = order_by(low, visits.leave[move])
     move, low = move[order], low[order]
-    maybe, _ = _alike(low, visits.leave[move])
+    maybe, _ = _mark_alike(low, visits.leave[move])
     move, low = move[maybe], low[maybe]
     tail, head, leave = visits.vertex[move], visits.vertex[move + 1], visits.leave[move]
     columns = (low, np.maximum(tail, head), leave)
     order = order_by(*columns, tail < head)  # in a group, moves to a smaller vertex come first
-    shared, begins = _alike(*(column[order] for column in columns))
+    shared, begins = _mark_alike(*(column[order] for column in columns))
     upwards = (tail < head)[order][shared]
     group = np.cumsum(begins[shared]) - 1
     begin = np.flatnonzero(begins[shared])
@@ -173,7 +173,7 @@ def _opposite(visits: Visits) -> tuple[Indices, Indices, Indices]:
     return move[order][shared], begin[group], np.where(upwards, after[group], begin[group])
 
 
-def _alike(*columns: NDArray[Any]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+def _mark_alike(*columns: NDArray[Any]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Return which rows equal a neighbour, and which rows begin a group of equal rows."""
     as_before = np.zeros(len(columns[0]) + 1, bool)
     as_before[1:-1] = np.logical_and.reduce([column[1:] == column[:-1] for column in columns])
@@ -187,13 +187,13 @@ def judge_rotations(visits: Visits, scenario: Scenario, collector: FaultCollecto
     """
     heads: dict[Tick, dict[int, int]] = defaultdict(dict)
     robots: dict[tuple[Tick, int], int] = {}  # the one that leaves a vertex at a tick
-    for visit in _moves(visits).tolist():
+    for visit in _find_moves(visits).tolist():
         tail, head = int(visits.vertex[visit]), int(visits.vertex[visit + 1])
         tick = Tick(int(visits.leave[visit]))
         heads[tick].setdefault(tail, head)
         robots.setdefault((tick, tail), int(visits.robot[visit]))
     for tick, head_of in heads.items():
-        for circle in _circles(head_of):
+        for circle in _find_circles(head_of):
             moving = [robots[tick, vertex] for vertex in circle]
             fault = Fault(
                 kind="rotation",
@@ -206,7 +206,7 @@ def judge_rotations(visits: Visits, scenario: Scenario, collector: FaultCollecto
             collector.add(fault)
 
 
-def _circles(head_of: Mapping[int, int]) -> Iterator[list[int]]:
+def _find_circles(head_of: Mapping[int, int]) -> Iterator[list[int]]:
     """Yield the circles of three or more vertices, each from the first vertex found of it."""
     reached: dict[int, int] = {}  # the start of the walk that reached a vertex first
     for start in head_of:

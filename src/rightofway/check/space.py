@@ -89,7 +89,7 @@ class _Shapes:
         self.of_drive[drives] = n + lane
         self.one = np.concatenate((np.arange(n), lanes // n))
         self.other = np.concatenate((np.arange(n), lanes % n))
-        axes, sizes = _coordinates(roadmap), set(radii)
+        axes, sizes = _collect_coordinates(roadmap), set(radii)
         numbers = (*axes[0][0], *axes[1][0], *sizes, clearance)
         self._scale = lcm(*(value.denominator for value in numbers))
         self.x, self.y = (
@@ -101,14 +101,14 @@ class _Shapes:
         self._clearance = int(clearance * self._scale)
         is_used = np.zeros(len(self.one), bool)
         is_used[visits.vertex[visits.known]] = is_used[n:] = True
-        first, second = self._nearby(np.flatnonzero(is_used))
-        self.near = self._lists(first, second)
+        first, second = self._find_nearby(np.flatnonzero(is_used))
+        self.near = self._list_near(first, second)
         ends = self.one[first], self.other[first]
         meet = [end == far[second] for end in ends for far in (self.one, self.other)]
         without = ~np.logical_or.reduce(meet)
-        self.near_without_common_vertex = self._lists(first[without], second[without])
+        self.near_without_common_vertex = self._list_near(first[without], second[without])
 
-    def _lists(self, first: Indices, second: Indices) -> _Near:
+    def _list_near(self, first: Indices, second: Indices) -> _Near:
         """Return pairs of shapes, sorted by the first, as a list for each shape."""
         return _Near(np.searchsorted(first, np.arange(len(self.one) + 1)), second)
 
@@ -134,12 +134,14 @@ class _Shapes:
         while begin < len(counts):
             before = ends[begin] - counts[begin]
             stop = max(int(np.searchsorted(ends, before + CHUNK)), begin + 1)
-            left_shape, place = _spread(near.first[times.shape[begin:stop]], counts[begin:stop])
+            left_shape, place = _expand_ranges(
+                near.first[times.shape[begin:stop]], counts[begin:stop]
+            )
             left_shape += begin
             near_times = near.shapes[place] * len(moments)
             first = np.searchsorted(keys, near_times + start[left_shape])
             after = np.searchsorted(keys, near_times + end[left_shape])
-            which, place = _spread(first, np.maximum(after - first, 0))
+            which, place = _expand_ranges(first, np.maximum(after - first, 0))
             left, right = left_shape[which], place
             is_first = (start[left] < start[right]) | (left < right)
             wanted = is_first & (times.robot[left] != times.robot[right])
@@ -152,8 +154,8 @@ class _Shapes:
         apart = (a != c) & (a != d) & (b != c) & (b != d) & (limit > 0)
         excluded = np.zeros(len(first), bool)
         a, b, c, d, square = a[apart], b[apart], c[apart], d[apart], limit[apart] ** 2
-        near = self._within(a, c, d, square) | self._within(b, c, d, square)
-        near |= self._within(c, a, b, square) | self._within(d, a, b, square)
+        near = self._is_within(a, c, d, square) | self._is_within(b, c, d, square)
+        near |= self._is_within(c, a, b, square) | self._is_within(d, a, b, square)
         near |= (self._turn(a, b, c) * self._turn(a, b, d) < 0) & (
             self._turn(c, d, a) * self._turn(c, d, b) < 0
         )
@@ -166,7 +168,7 @@ class _Shapes:
         turns: Exact = (x[q] - x[p]) * (y[r] - y[p]) - (y[q] - y[p]) * (x[r] - x[p])
         return turns
 
-    def _within(self, p: Indices, a: Indices, b: Indices, square: Exact) -> NDArray[np.bool_]:
+    def _is_within(self, p: Indices, a: Indices, b: Indices, square: Exact) -> NDArray[np.bool_]:
         """Return whether a point is nearer to a straight line than the root of a number."""
         x, y = self.x, self.y
         run, rise = x[b] - x[a], y[b] - y[a]
@@ -177,7 +179,7 @@ class _Shapes:
         beside = (along > 0) & (along < whole) & (self._turn(a, b, p) ** 2 < square * whole)
         return np.array(to_a | to_b | beside, bool)
 
-    def _nearby(self, used: Indices) -> tuple[Indices, Indices]:
+    def _find_nearby(self, used: Indices) -> tuple[Indices, Indices]:
         """Return pairs of shapes, sorted, that robots may be too near on; each with itself, too."""
         x = np.array([value / self._scale for value in self.x - self.x.min()], float)
         y = np.array([value / self._scale for value in self.y - self.y.min()], float)
@@ -187,19 +189,19 @@ class _Shapes:
         size = np.hypot(*(q - p).T)
         cell = max(reach, float(np.median(size[size > 0], keepdims=False)) if size.any() else 0.0)
         pieces = np.maximum(np.ceil(size / cell).astype(np.int64), 1)
-        owner, piece = _spread(np.zeros(len(used), np.int64), pieces)
+        owner, piece = _expand_ranges(np.zeros(len(used), np.int64), pieces)
         step = ((q - p) / pieces[:, None])[owner]
         begin = p[owner] + step * piece[:, None]
         low = np.floor((np.minimum(begin, begin + step) - reach / 2) / cell).astype(np.int64)
         high = np.floor((np.maximum(begin, begin + step) + reach / 2) / cell).astype(np.int64)
         width, height = (high - low + 1).T
-        which, square = _spread(np.zeros(len(owner), np.int64), width * height)
+        which, square = _expand_ranges(np.zeros(len(owner), np.int64), width * height)
         column, row = low[which, 0] + square % width[which], low[which, 1] + square // width[which]
         order = order_by(row, column)
         which, column, row = which[order], column[order], row[order]
         begins = np.flatnonzero(np.append(True, (np.diff(row) != 0) | (np.diff(column) != 0)))
         counts = np.diff(np.append(begins, len(order)))
-        left, right = _spread(np.repeat(begins, counts), np.repeat(counts, counts))
+        left, right = _expand_ranges(np.repeat(begins, counts), np.repeat(counts, counts))
         # Two pieces share several cells; they are compared in the one of greatest low corners.
         i, j = which[left], which[right]
         corner = (column[left] == np.maximum(low[i, 0], low[j, 0])) & (
@@ -208,11 +210,11 @@ class _Shapes:
         pairs = np.sort(owner[i[corner]] * len(used) + owner[j[corner]])
         pairs = pairs[np.append(True, np.diff(pairs) != 0)]
         first, second = np.divmod(pairs, len(used))
-        near = _distances(p[first], q[first], p[second], q[second]) <= reach
+        near = _estimate_distances(p[first], q[first], p[second], q[second]) <= reach
         return used[first[near]], used[second[near]]
 
 
-def _coordinates(roadmap: Roadmap) -> list[tuple[list[Fraction], Indices]]:
+def _collect_coordinates(roadmap: Roadmap) -> list[tuple[list[Fraction], Indices]]:
     """Return numbers, and which of them is x of each vertex; the same for y.
 
     The numbers are exact.
@@ -226,14 +228,14 @@ def _coordinates(roadmap: Roadmap) -> list[tuple[list[Fraction], Indices]]:
     return [(list(axis), np.arange(len(axis))) for axis in axes]
 
 
-def _spread(first: Indices, counts: Indices) -> tuple[Indices, Indices]:
+def _expand_ranges(first: Indices, counts: Indices) -> tuple[Indices, Indices]:
     """Return (k, first[k]), (k, first[k] + 1), … : for each k as many as counts[k]."""
     owner = np.repeat(np.arange(len(counts)), counts)
     rank = np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts)
     return owner, first[owner] + rank
 
 
-def _distances(
+def _estimate_distances(
     a: NDArray[np.float64],
     b: NDArray[np.float64],
     c: NDArray[np.float64],
@@ -261,7 +263,9 @@ def _distances(
     return distances
 
 
-def _first_of_each(times: _Times, first: Indices, second: Indices, worth: Exact) -> Iterator[int]:
+def _find_first_of_each(
+    times: _Times, first: Indices, second: Indices, worth: Exact
+) -> Iterator[int]:
     """Yield of each meeting of two robots the pair of least worth; its parts overlap in time."""
     i, j = times.robot[first], times.robot[second]
     start = np.maximum(times.start[first], times.start[second])
@@ -300,7 +304,7 @@ def _judge_bookings(
         pairs.append((first[excluded], second[excluded]))
     first, second = (np.concatenate(part) for part in zip(*pairs, strict=True))
     start = np.maximum(bookings.start[first], bookings.start[second])
-    for k in _first_of_each(bookings, first, second, start):
+    for k in _find_first_of_each(bookings, first, second, start):
         pair = sorted((int(first[k]), int(second[k])), key=lambda entry: int(bookings.robot[entry]))
         robots = tuple(int(bookings.robot[entry]) for entry in pair)
         places = [_list_ends(visits, bookings, entry, scenario) for entry in pair]
@@ -343,11 +347,11 @@ def _judge_discs(
         end=np.concatenate((begun[stays], visits.leave[drives])),
     ).sort()
     parts = [
-        _encounters(visits, shapes, motions, *pair)
+        _find_encounters(visits, shapes, motions, *pair)
         for pair in shapes.together(motions, shapes.near)
     ]
     first, second, square, when = (np.concatenate(part) for part in zip(*parts, strict=True))
-    for k in _first_of_each(motions, first, second, square):
+    for k in _find_first_of_each(motions, first, second, square):
         pair = sorted((int(first[k]), int(second[k])), key=lambda entry: int(motions.robot[entry]))
         robots = tuple(int(motions.robot[entry]) for entry in pair)
         places = [_list_ends(visits, motions, entry, scenario) for entry in pair]
@@ -373,7 +377,7 @@ def _judge_discs(
         )
 
 
-def _encounters(
+def _find_encounters(
     visits: Visits, shapes: _Shapes, motions: _Times, first: Indices, second: Indices
 ) -> tuple[Indices, Indices, Exact, Exact]:
     """Return the pairs of motions that come too near: the least squared distance, and when.
@@ -385,8 +389,8 @@ def _encounters(
     limit = shapes.compute_least_distances(motions.robot[first], motions.robot[second])
     sized = np.array(limit > 0, bool)
     first, second, limit = first[sized], second[sized], limit[sized]
-    x1, y1, u1, v1, whole1 = _line(visits, shapes, motions, first)
-    x2, y2, u2, v2, whole2 = _line(visits, shapes, motions, second)
+    x1, y1, u1, v1, whole1 = _trace_line(visits, shapes, motions, first)
+    x2, y2, u2, v2, whole2 = _trace_line(visits, shapes, motions, second)
     start = np.maximum(motions.start[first], motions.start[second]).astype(object)
     end = np.minimum(motions.end[first], motions.end[second]).astype(object)
     u, v = u1 * whole2 - u2 * whole1, v1 * whole2 - v2 * whole1
@@ -412,7 +416,7 @@ def _encounters(
     return first[near], second[near], squares, moments
 
 
-def _line(
+def _trace_line(
     visits: Visits, shapes: _Shapes, motions: _Times, entry: Indices
 ) -> tuple[Exact, Exact, Exact, Exact, Exact]:
     """Return a motion as ((x, y) + (u, v) * time) / whole, all whole numbers."""

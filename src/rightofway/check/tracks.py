@@ -145,17 +145,17 @@ class _Trip:
     too_short: dict[Stage, list[tuple[int, int]]] = field(default_factory=dict)
 
     def find_faults(self) -> Iterator[Fault]:
-        yield from self._ends()
-        yield from self._work()
+        yield from self._check_ends()
+        yield from self._check_work()
 
-    def _ends(self) -> Iterator[Fault]:
+    def _check_ends(self) -> Iterator[Fault]:
         home, last = self.itinerary.home, self.itinerary.stages[-1].vertex
         if self.vertices[0] != home or self.enter[0] != 0:
-            yield self._fault("wrong home", self.vertices[0], self.enter[0], home=int(home))
+            yield self._make_fault("wrong home", self.vertices[0], self.enter[0], home=int(home))
         if self.vertices[-1] != last:
-            yield self._fault("wrong end", self.vertices[-1], self.enter[-1], end=int(last))
+            yield self._make_fault("wrong end", self.vertices[-1], self.enter[-1], end=int(last))
 
-    def _work(self) -> Iterator[Fault]:
+    def _check_work(self) -> Iterator[Fault]:
         stages = self.itinerary.stages
         if self.vertices[-1] != stages[-1].vertex:
             stages = stages[:-1]  # a wrong end is reported already
@@ -165,7 +165,7 @@ class _Trip:
             visit_served = None if stage in hopeless else self._serve(stage, visit)
             if visit_served is None:
                 hopeless.add(stage)
-                yield self._unserved(stage, visit)
+                yield self._make_unserved(stage, visit)
             else:
                 visit = visit_served
 
@@ -184,16 +184,16 @@ class _Trip:
             heappush(self.too_short.setdefault(stage, []), (-self.spare[visit], visit))
             visit += 1
 
-    def _unserved(self, stage: Stage, visit: int) -> Fault:
+    def _make_unserved(self, stage: Stage, visit: int) -> Fault:
         too_short = self.too_short.get(stage)
         if too_short:
             minus_spare, visit = heappop(too_short)
             return self._cut_short(stage, -minus_spare, self.enter[visit])
-        return self._fault("stop missed", stage.vertex, self.enter[visit])
+        return self._make_fault("stop missed", stage.vertex, self.enter[visit])
 
     def _cut_short(self, stage: Stage, spare: int, enter: int) -> Fault:
         missing = stage.work + stage.turn - spare
-        return self._fault(
+        return self._make_fault(
             "work cut short",
             stage.vertex,
             enter,
@@ -203,7 +203,7 @@ class _Trip:
             missing=missing,
         )
 
-    def _fault(self, kind: FaultKind, vertex: int, tick: int, **numbers: int) -> Fault:
+    def _make_fault(self, kind: FaultKind, vertex: int, tick: int, **numbers: int) -> Fault:
         return Fault(
             kind=kind,
             robots=(self.robot,),

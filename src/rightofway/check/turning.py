@@ -43,7 +43,9 @@ def compute_turns(
     visit = np.flatnonzero(is_corner) + 1
     corners = edge[visit - 1] * max(plan.scenario.roadmap.n_edges, 1) + edge[visit]
     _, first, which = np.unique(corners, return_index=True, return_inverse=True)
-    angles = list(_angles(plan.scenario.roadmap, [vertex[at - 1 : at + 2] for at in visit[first]]))
+    angles = list(
+        _measure_angles(plan.scenario.roadmap, [vertex[at - 1 : at + 2] for at in visit[first]])
+    )
     angle[visit] = np.array(angles, np.int64)[which.reshape(-1)]
     of_rate = {rate: number for number, rate in enumerate(dict.fromkeys(rates))}
     number = np.array([of_rate[rate] for rate in rates])[robot[visit]]
@@ -59,18 +61,18 @@ def compute_turns(
     return angle, ticks
 
 
-def _angles(roadmap: Roadmap, corners: Iterable[NDArray[np.int64]]) -> Iterator[int]:
+def _measure_angles(roadmap: Roadmap, corners: Iterable[NDArray[np.int64]]) -> Iterator[int]:
     """Yield the angle between the drives along three vertices, the shorter way [1e-6 degrees]."""
     known: dict[tuple[Fraction | int, ...], int] = {}
     for corner in corners:
         (x, y), (at_x, at_y), (to_x, to_y) = (_place(roadmap, vertex) for vertex in corner.tolist())
         drives = (at_x - x, at_y - y, to_x - at_x, to_y - at_y)
         if drives not in known:
-            known[drives] = _angle(*(Fraction(drive) for drive in drives))
+            known[drives] = _measure_angle(*(Fraction(drive) for drive in drives))
         yield known[drives]
 
 
-def _angle(in_x: Fraction, in_y: Fraction, out_x: Fraction, out_y: Fraction) -> int:
+def _measure_angle(in_x: Fraction, in_y: Fraction, out_x: Fraction, out_y: Fraction) -> int:
     if in_x == in_y == 0 or out_x == out_y == 0:
         return 0
     along, across = in_x * out_x + in_y * out_y, in_x * out_y - in_y * out_x

@@ -50,13 +50,13 @@ def lay_out_visits(plan: Plan) -> Visits:
     lengths = np.array([len(track) for track in plan.tracks])
     vertex = np.concatenate([track.vertices for track in plan.tracks]).astype(np.int64)
     enter = np.concatenate([track.enter for track in plan.tracks])
-    enter = enter.astype(_integers(plan, enter))
+    enter = enter.astype(_choose_integers(plan, enter))
     last = np.zeros(len(vertex), bool)
     last[np.cumsum(lengths) - 1] = True
     robot = np.repeat(np.arange(len(lengths)), lengths)
     roadmap = plan.scenario.roadmap
-    edge = _edges(roadmap, vertex, np.where(last, -1, np.roll(vertex, -1)))
-    drive = _drives(plan, robot, edge, enter.dtype)
+    edge = _find_edges(roadmap, vertex, np.where(last, -1, np.roll(vertex, -1)))
+    drive = _measure_drives(plan, robot, edge, enter.dtype)
     angle, turn = compute_turns(plan, robot, vertex, edge)
     known = (vertex >= 0) & (vertex < roadmap.n_vertices)
     passed = np.zeros(len(vertex), bool)
@@ -117,7 +117,7 @@ def _book(
     return [starts, ends, edge_starts, edge_ends]
 
 
-def _integers(plan: Plan, enter: NDArray[np.int64]) -> np.dtype[Any]:
+def _choose_integers(plan: Plan, enter: NDArray[np.int64]) -> np.dtype[Any]:
     problem = plan.scenario.problem
     edge_ticks: Iterable[int] = chain.from_iterable(
         {itinerary.edge_ticks for itinerary in problem.itineraries}
@@ -126,7 +126,7 @@ def _integers(plan: Plan, enter: NDArray[np.int64]) -> np.dtype[Any]:
     return np.dtype(np.int64 if largest < SAFE else object)
 
 
-def _edges(
+def _find_edges(
     roadmap: Roadmap, tails: NDArray[np.int64], heads: NDArray[np.int64]
 ) -> NDArray[np.int64]:
     """Return the edge from each tail to its head, -1 where there is none."""
@@ -142,7 +142,7 @@ def _edges(
     return edges
 
 
-def _drives(
+def _measure_drives(
     plan: Plan, robot: NDArray[np.int64], edge: NDArray[np.int64], integers: np.dtype[Any]
 ) -> NDArray[Any]:
     """Return the ticks of each edge for its robot, 0 where there is none, -1 where it is barred."""

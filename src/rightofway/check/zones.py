@@ -30,18 +30,18 @@ def judge_zones(plan: Plan, visits: Visits, scenario: Scenario, collector: Fault
     for zone in plan.scenario.roadmap.zones:
         inside: list[tuple[int, int, _Stay]] = []  # a heap by end, without what is over
         known: set[tuple[int, int, int]] = set()
-        for stay in sorted(_stays(plan, visits, zone)):
+        for stay in sorted(_list_stays(plan, visits, zone)):
             while inside and inside[0][0] <= stay.start:
                 heappop(inside)
             for _, _, other in inside:
                 pair = (min(stay.robot, other.robot), max(stay.robot, other.robot), other.end)
                 if other.robot != stay.robot and pair not in known:
                     known.add(pair)
-                    collector.add(_fault(zone, stay, other, scenario))
+                    collector.add(_make_fault(zone, stay, other, scenario))
             heappush(inside, (stay.end, len(inside), stay))
 
 
-def _stays(plan: Plan, visits: Visits, zone: Zone) -> Iterator[_Stay]:
+def _list_stays(plan: Plan, visits: Visits, zone: Zone) -> Iterator[_Stay]:
     headway = plan.scenario.problem.booking_rules.headway
     vertices, edges = set(zone.vertices), set(zone.edges)
     vertex, robot, last = visits.vertex.tolist(), visits.robot.tolist(), visits.last.tolist()
@@ -54,7 +54,7 @@ def _stays(plan: Plan, visits: Visits, zone: Zone) -> Iterator[_Stay]:
             yield _Stay(edge_start[k], edge_end[k], robot[k], at)
 
 
-def _fault(zone: Zone, stay: _Stay, other: _Stay, scenario: Scenario) -> Fault:
+def _make_fault(zone: Zone, stay: _Stay, other: _Stay, scenario: Scenario) -> Fault:
     first, second = sorted((stay, other), key=lambda booking: booking.robot)
     return Fault(
         kind="zone conflict",

@@ -82,7 +82,7 @@ class RightOfWaySearch:
         window, number = self.window, self.window.number
         segment = window.fleet.find_segment(meeting)
         if window.is_endless(meeting, segment):
-            raise self._deadlock(meeting, meeting.robots)
+            raise self._make_deadlock(meeting, meeting.robots)
         waits = rule(window, meeting, segment)
         rights, others = (
             tuple(
@@ -97,11 +97,11 @@ class RightOfWaySearch:
             decision = LapDecision(others, rights) if is_reversed else LapDecision(rights, others)
             if self._push(decision, is_reversed=is_reversed, culprits=culprits):
                 return
-            culprits |= self._culprits()
-        if not self._jump_back(culprits):
-            raise self._deadlock(meeting, self._circle)
+            culprits |= self._find_culprits()
+        if not self._reverse_latest(culprits):
+            raise self._make_deadlock(meeting, self._circle)
 
-    def _deadlock(self, meeting: Meeting, circle: Sequence[int]) -> Deadlock:
+    def _make_deadlock(self, meeting: Meeting, circle: Sequence[int]) -> Deadlock:
         vertex = self.window.graph.get_vertex(meeting.visits[0])
         tick = Tick(self.window.begins + meeting.tick)
         return Deadlock(meeting.robots, vertex, tick, circle)
@@ -117,7 +117,7 @@ class RightOfWaySearch:
         self._frames.append(_Frame(decision, mark, is_reversed, culprits))
         return True
 
-    def _jump_back(self, culprits: set[int]) -> bool:
+    def _reverse_latest(self, culprits: set[int]) -> bool:
         """Reverse the latest reversible culprit; return false if there is none."""
         while culprits:
             latest = max(culprits)
@@ -131,10 +131,10 @@ class RightOfWaySearch:
             decision = LapDecision(frame.decision.others, frame.decision.rights)
             if self._push(decision, is_reversed=True, culprits=culprits):
                 return True
-            culprits |= self._culprits()
+            culprits |= self._find_culprits()
         return False
 
-    def _culprits(self) -> set[int]:
+    def _find_culprits(self) -> set[int]:
         """Return the decisions on the cycle of the last refused right of way."""
         graph = self.window.graph
         self._circle = graph.list_deadlocked() or self._circle

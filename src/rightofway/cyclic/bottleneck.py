@@ -105,7 +105,7 @@ def trace_bottleneck(graph: TimedEventGraph, circuit: Sequence[int]) -> Bottlene
     return Bottleneck(
         cycle_time=Fraction(int(graph.arcs.length[arcs].sum()), periods),
         periods=periods,
-        pieces=tuple(_joined(_pieces(graph, arcs), homes)),
+        pieces=tuple(_join_pieces(_list_pieces(graph, arcs), homes)),
     )
 
 
@@ -124,7 +124,7 @@ def begin_with_longest_run(graph: TimedEventGraph, circuit: list[int]) -> list[i
     return circuit[longest:] + circuit[:longest]
 
 
-def _pieces(graph: TimedEventGraph, circuit: Sequence[int]) -> Iterator[Piece]:
+def _list_pieces(graph: TimedEventGraph, circuit: Sequence[int]) -> Iterator[Piece]:
     robots, arcs = graph.timetable.robots, graph.arcs
     for arc in circuit:
         tail, head = int(arcs.tail[arc]), int(arcs.head[arc])
@@ -143,7 +143,7 @@ def _pieces(graph: TimedEventGraph, circuit: Sequence[int]) -> Iterator[Piece]:
         yield Piece(kind="way", robot=robot, places=(start, goal), ticks=ticks)
 
 
-def _joined(pieces: Iterable[Piece], homes: Mapping[int, VertexId]) -> Iterator[Piece]:
+def _join_pieces(pieces: Iterable[Piece], homes: Mapping[int, VertexId]) -> Iterator[Piece]:
     """Join consecutive ways of a robot, each up to where it is home."""
     places: list[VertexId] = []
     ticks = 0
@@ -198,4 +198,4 @@ def list_pieces_of_plan(plan: Plan, steady: SteadyState) -> tuple[Piece, ...]:
             pieces.append(Piece(kind="work", robot=robot, places=(start,), ticks=dwell))
         pieces.append(Piece(kind="way", robot=robot, places=(start, goal), ticks=drive))
     homes = {robot: plan.scenario.robots[robot].home for robot in steady.robots}
-    return tuple(_joined(pieces, homes))
+    return tuple(_join_pieces(pieces, homes))

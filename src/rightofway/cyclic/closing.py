@@ -67,7 +67,7 @@ class Stretch:
     period: int
 
 
-def _first_lap(home: Enters, begins: int) -> int:
+def _find_first_lap(home: Enters, begins: int) -> int:
     """Return the first lap, except lap 0, that begins at or after a tick."""
     return max(int(np.searchsorted(home, begins)), 1)
 
@@ -120,7 +120,7 @@ class _WindowClosing:
         The first window has the largest value of laps per tick, the second the least waiting at
         home before the end of the window. Empty without an end at the required length.
         """
-        laps = [home[_first_lap(home, begins) :] for home in self.homes]
+        laps = [home[_find_first_lap(home, begins) :] for home in self.homes]
         ends_of = [(home[1:] - home[0])[home[1:] - home[0] <= most] for home in laps]
         every = max(int(part[0]) if len(part) else most + 1 for part in ends_of)
         ends, sizes = np.concatenate(ends_of), [len(part) for part in ends_of]
@@ -144,12 +144,12 @@ class _WindowClosing:
         problem, period, laps = self.problem, window.period, self.run.context.laps
         parts = []
         for lap, past, home in zip(laps, self.run.history, self.homes, strict=True):
-            first = _first_lap(home, window.begins)
+            first = _find_first_lap(home, window.begins)
             last = int(np.searchsorted(home, home[first] + period, side="right")) - 1
             visits = past[first * len(lap) : last * len(lap) + 1]
             parts.append((lap, np.array(visits, np.int64) - window.begins))
         for early in (True, False):
-            cycles = [_cycle(lap, enter, period, early=early) for lap, enter in parts]
+            cycles = [_make_cycle(lap, enter, period, early=early) for lap, enter in parts]
             in_order = problem.make_candidate_of_orders(problem.join_cycles(cycles, period))
             if in_order is not None:
                 return in_order
@@ -172,13 +172,13 @@ class _WindowClosing:
         for less in range(min(self.params.most_left_out + 1, len(enter) // n)):
             for head, early in product(range(less + 1), (True, False)):
                 part = enter[head * n : len(enter) - (less - head) * n]
-                cycle = _cycle(lap, part, period, early=early)
+                cycle = _make_cycle(lap, part, period, early=early)
                 if bookings.add_if_free(robot, lap, cycle.count, cycle.enter):
                     return cycle
         return None
 
 
-def _cycle(lap: Lap, enter: Enters, period: int, *, early: bool) -> RobotCycle:
+def _make_cycle(lap: Lap, enter: Enters, period: int, *, early: bool) -> RobotCycle:
     """Return a cycle; its stay at home begins with the last arrival, or else the first.
 
     Of a robot that makes no lap it is empty.
@@ -206,13 +206,13 @@ def find_stretches(
         least = max(int(params.shortest * most), int(2 * params.around * longest) + 1)
         if least <= most:
             periods = np.unique(np.linspace(least, most, params.stretch_ends).astype(np.int64))
-            values = _values(problem, run, homes, begins, periods)
+            values = _compute_values(problem, run, homes, begins, periods)
             best = int(np.argmax(values))
             candidates.append((float(values[best]), Stretch(begins, int(periods[best]))))
     return sorted((candidate for candidate in candidates if candidate[0] > 0), reverse=True)
 
 
-def _values(
+def _compute_values(
     problem: CyclicProblem,
     run: GroupResult,
     homes: Sequence[Enters],
@@ -222,7 +222,7 @@ def _values(
     """Return the value of laps per tick if each robot makes the most laps that fit."""
     worth = np.zeros(len(periods))
     for weight, lap, home in zip(problem.weights, run.context.laps, homes, strict=True):
-        first = _first_lap(home, begins)
+        first = _find_first_lap(home, begins)
         if first >= len(home):
             return worth * 0
         last = np.searchsorted(home, begins + periods, side="right") - 1
@@ -304,25 +304,25 @@ class _SeamClosing:
         homes, laps = find_homes(run.context.routes, run.history), run.context.laps
         for robot, (lap, past, home) in enumerate(zip(laps, run.history, homes, strict=True)):
             assert isinstance(past, VisitTimes), "native rules have these"
-            first = _first_lap(home, stretch.begins)
+            first = _find_first_lap(home, stretch.begins)
             last = int(np.searchsorted(home, seam, side="right")) - 1
             self._kept.append(_Kept(lap, past, home, stretch.period, first, last))
             self._book_kept(robot)
 
     def connect_all(self) -> bool:
         """Connect robots by waits at home, or else by laps; return whether all are connected."""
-        queue = deque(robot for robot in range(len(self._kept)) if not self._waits_at_home(robot))
+        queue = deque(robot for robot in range(len(self._kept)) if not self._wait_at_home(robot))
         most = self._params.searches * len(self._kept)
         while queue and self._searches < most and not self._problem.is_out_of_time:
             self._searches += 1  # counts also without choices
             robot = queue.popleft()
-            blocking = self._connect(robot, self._choices(robot))
+            blocking = self._connect(robot, self._list_choices(robot))
             if blocking is None:
                 continue
             for blocker in sorted(blocking):
                 self._book(blocker, replace(self._kept[blocker], through=None))
             queue.extend(sorted(blocking))
-            if self._connect(robot, self._choices(robot)) is not None:
+            if self._connect(robot, self._list_choices(robot)) is not None:
                 queue.append(robot)
         return not queue
 
@@ -334,7 +334,7 @@ class _SeamClosing:
             if self._problem.is_out_of_time:
                 break
             n_laps = self._kept[robot].n_kept + self._kept[robot].n_through
-            choices = self._choices(robot)
+            choices = self._list_choices(robot)
             self._connect(
                 robot, (choice for choice in choices if choice[0].n_kept + choice[1] > n_laps)
             )
@@ -344,11 +344,11 @@ class _SeamClosing:
         stretch, n = self._kept[robot], len(self._kept[robot].lap)
         assert stretch.through is not None, "all robots are connected"
         visits = stretch.past.enters(range(stretch.first * n, stretch.last * n))
-        return _cycle(
+        return _make_cycle(
             stretch.lap, np.concatenate((visits, stretch.through)), self._period, early=True
         )
 
-    def _waits_at_home(self, robot: int) -> bool:
+    def _wait_at_home(self, robot: int) -> bool:
         """Connect a robot by a wait at home; return whether its home stays free."""
         stretch = self._kept[robot]
         times = stretch.begins, stretch.until, stretch.leave
@@ -357,7 +357,7 @@ class _SeamClosing:
         self._book_through(robot)
         return through is not None
 
-    def _choices(self, robot: int) -> Iterator[tuple[_Kept, int]]:
+    def _list_choices(self, robot: int) -> Iterator[tuple[_Kept, int]]:
         """Yield kept laps of a robot and the number of laps at the seam, most laps first."""
         stretch, params = replace(self._kept[robot], through=None), self._params
         most = stretch.n_kept + (stretch.until - stretch.begins) // int(stretch.lap.duration)

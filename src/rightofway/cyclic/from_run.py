@@ -61,15 +61,15 @@ class SimulatedRun:
         left = problem.deadline.measure_seconds_left() or 0.0
         most, look = params.most_share * left, params.most_share * left / params.looks
         if rule != "first-come":
-            self._advance_laps(params.laps_dispersing, look, most)
+            self._run_laps(params.laps_dispersing, look, most)
             if self.result.ends == "open":
                 self._simulator.set_rule(rule)
         before, tried = self.known, params.least_share * left
         self.advance(tried)
-        tried += self._advance_laps(params.laps_tried, look, most - tried, since=before)
+        tried += self._run_laps(params.laps_tried, look, most - tried, since=before)
         self.pace = (self.known - before) / tried if tried else 0.0
 
-    def _advance_laps(self, laps: float, look: float, most: float, *, since: int = 0) -> float:
+    def _run_laps(self, laps: float, look: float, most: float, *, since: int = 0) -> float:
         """Continue until ``laps`` longest laps after a tick; return the time taken [s]."""
         until, seconds = since + laps * self.result.context.longest, 0.0
         while self.result.ends == "open" and self.known < until and seconds < most:

@@ -62,14 +62,14 @@ def insert_all(
     """
     period = max(period, *problem.alone)
     while period <= params.longest * sum(problem.alone):
-        placed = _placed(problem, period, params)
+        placed = _place_laps(problem, period, params)
         if placed is not None:
             return fill(filling, *placed)
         period = period * params.growth.numerator // params.growth.denominator + 1
     raise GaveUp(Fact("no timetable with all robots"))
 
 
-def _placed(
+def _place_laps(
     problem: CyclicProblem, period: int, params: InsertionParams
 ) -> tuple[PeriodicBookings, list[RobotCycle]] | None:
     """Place one lap of every robot in the period; None if the period is too short."""
@@ -111,14 +111,16 @@ def fill(problem: CyclicProblem, bookings: PeriodicBookings, cycles: list[RobotC
         if (before + 1) * alone > bookings.period:
             continue
         bookings.remove(robot)
-        cycles[robot] = cycle = _more_laps(problem, bookings, robot, cycles[robot]) or cycles[robot]
+        cycles[robot] = cycle = (
+            _place_more_laps(problem, bookings, robot, cycles[robot]) or cycles[robot]
+        )
         bookings.add(robot, cycle.lap, cycle.count, cycle.enter)
         if cycle.count > before:
             heappush(turns, (cycle.count * alone, robot))
     return problem.make_candidate(problem.join_cycles(cycles, int(bookings.period)))
 
 
-def _more_laps(
+def _place_more_laps(
     problem: CyclicProblem, bookings: PeriodicBookings, robot: int, cycle: RobotCycle
 ) -> RobotCycle | None:
     """Place 1.5 times as many laps, or one more lap; on the same lap, or on any lap."""
@@ -234,7 +236,7 @@ def _step(problem: CyclicProblem, candidate: Candidate, params: LnsParams) -> Ca
         removed = [robot]
     longest = problem.compute_worth(counts) / problem.compute_value(candidate)
     most = longest.numerator // longest.denominator  # longest period that keeps the objective
-    rest = _removed(problem, candidate, removed, most, params)
+    rest = _choose_removed(problem, candidate, removed, most, params)
     if rest is None:
         return None
     removed, least = rest
@@ -243,10 +245,10 @@ def _step(problem: CyclicProblem, candidate: Candidate, params: LnsParams) -> Ca
     period = max(period, least)
     if period > most or not problem.is_fair(counts, period):
         return None
-    return _reinserted(problem, candidate, counts, removed, period)
+    return _insert_removed(problem, candidate, counts, removed, period)
 
 
-def _removed(
+def _choose_removed(
     problem: CyclicProblem,
     candidate: Candidate,
     removed: list[int],
@@ -262,7 +264,7 @@ def _removed(
         left = [robot for robot in range(len(problem)) if robot not in removed]
         if not left:
             return removed, 1
-        graph = problem.build_graph(_part(candidate.timetable, left))
+        graph = problem.build_graph(_take_part(candidate.timetable, left))
         circuit = graph.find_critical_circuit()
         on = sorted({left[robot] for robot in graph.robot[graph.arcs.head[circuit.arcs]].tolist()})
         if removed and circuit.cycle_time <= most:
@@ -273,7 +275,7 @@ def _removed(
     return None
 
 
-def _part(timetable: CyclicSchedule, robots: Sequence[int]) -> CyclicSchedule:
+def _take_part(timetable: CyclicSchedule, robots: Sequence[int]) -> CyclicSchedule:
     """Return the timetable of some of the robots."""
     return replace(
         timetable,
@@ -284,7 +286,7 @@ def _part(timetable: CyclicSchedule, robots: Sequence[int]) -> CyclicSchedule:
     )
 
 
-def _reinserted(
+def _insert_removed(
     problem: CyclicProblem,
     candidate: Candidate,
     counts: Sequence[int],
@@ -295,7 +297,9 @@ def _reinserted(
     bookings, cycles = problem.empty_bookings(period), dict[int, RobotCycle]()
     left = [robot for robot in range(len(problem)) if robot not in removed]
     if left:
-        rest = problem.build_graph(_part(candidate.timetable, left)).compute_earliest(Tick(period))
+        rest = problem.build_graph(_take_part(candidate.timetable, left)).compute_earliest(
+            Tick(period)
+        )
         rows = zip(left, rest.laps, rest.counts, rest.enter, strict=True)
         cycles = {robot: RobotCycle(lap, n, enter) for robot, lap, n, enter in rows}
     for robot, cycle in cycles.items():

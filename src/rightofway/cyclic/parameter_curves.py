@@ -114,33 +114,35 @@ def compute_parameter_curves(
         If time ran out, or numbers become too large for the native core.
     """
     curves: list[ParameterCurve] = []
-    for curve in _curves(scenario, graph, time_limit):
+    for curve in _trace_curves(scenario, graph, time_limit):
         curves.append(curve)
         if (len(curves) + 1) * len(graph) > most_visits:
             break
     return tuple(curves)
 
 
-def _curves(
+def _trace_curves(
     scenario: Scenario, graph: TimedEventGraph, time_limit: float | None
 ) -> Iterator[ParameterCurve]:
     circuit = graph.find_critical_circuit(time_limit=time_limit).arcs
     critical = dict.fromkeys(graph.robot[graph.arcs.head[circuit]].tolist())
     for place in critical:
-        yield from _of_robot(scenario, graph, place, time_limit)
+        yield from _trace_robot(scenario, graph, place, time_limit)
     if len(graph.timetable.robots) > 1:
         is_kept = graph.rules == scenario.problem.booking_rules
         least = 0 if is_kept else graph.rules.end(0)  # without it robots would rotate
         is_right = graph.arcs.first >= 0
-        pieces = _of_time(scenario, graph, is_right, graph.rules.headway, time_limit, least=least)
+        pieces = _trace_time(
+            scenario, graph, is_right, graph.rules.headway, time_limit, least=least
+        )
         value = scenario.rules.headway
         yield ParameterCurve(kind="headway", robot=None, stop=None, value=value, pieces=pieces)
     for place in range(len(graph.timetable.robots)):
         if place not in critical:
-            yield from _of_robot(scenario, graph, place, time_limit)
+            yield from _trace_robot(scenario, graph, place, time_limit)
 
 
-def _of_robot(
+def _trace_robot(
     scenario: Scenario, graph: TimedEventGraph, place: int, time_limit: float | None
 ) -> Iterator[ParameterCurve]:
     """Yield the curves of the speed of a robot and of its work at each stop."""
@@ -176,11 +178,11 @@ def _of_robot(
                     robot=number,
                     stop=stop,
                     value=robot.stops[stop].work,
-                    pieces=_of_time(scenario, graph, works, stage.work, time_limit),
+                    pieces=_trace_time(scenario, graph, works, stage.work, time_limit),
                 )
 
 
-def _of_time(
+def _trace_time(
     scenario: Scenario,
     graph: TimedEventGraph,
     mask: NDArray[np.bool_],

@@ -102,7 +102,7 @@ class Pattern:
     def begins(self) -> int:
         """The tick at which periods begin: the first moving robot is home."""
         first = next(robot for robot, laps in enumerate(self.counts) if laps)
-        return self.enter(first, self._home(first, self.transient))
+        return self.enter(first, self._find_home(first, self.transient))
 
     @property
     def n_visits(self) -> int:
@@ -129,7 +129,7 @@ class Pattern:
 
     def list_visits(self, robot: int) -> range:
         """Return the numbers of a robot's visits in the first period, from home on."""
-        home = self._home(robot, self.begins)
+        home = self._find_home(robot, self.begins)
         return range(home, home + self.counts[robot] * self.lengths[robot])
 
     def make_timetable(self, context: GroupContext) -> CyclicSchedule | None:
@@ -147,7 +147,7 @@ class Pattern:
             ),
         )
 
-    def _home(self, robot: int, tick: int) -> int:
+    def _find_home(self, robot: int, tick: int) -> int:
         """Return the first regular visit home from a tick on."""
         visit = max(bisect_left(self.history[robot], tick), self.regular[robot])
         length = self.lengths[robot]
@@ -174,9 +174,9 @@ def find_pattern(history: History, lengths: Sequence[int], recurrence: tuple[int
         ):
             shifts, period = smaller, period // parts
             break
-    regular = [_regular(*row, period) for row in zip(pasts, shifts, strict=True)]
+    regular = [_find_regular(*row, period) for row in zip(pasts, shifts, strict=True)]
     irregular_until = [
-        _irregular_until(*row, period) for row in zip(pasts, shifts, regular, strict=True)
+        _find_irregular_end(*row, period) for row in zip(pasts, shifts, regular, strict=True)
     ]
     return Pattern(
         transient=Tick(max(irregular_until)),
@@ -188,7 +188,7 @@ def find_pattern(history: History, lengths: Sequence[int], recurrence: tuple[int
     )
 
 
-def _regular(enter: Enters, shift: int, period: int) -> int:
+def _find_regular(enter: Enters, shift: int, period: int) -> int:
     """Return the first visit from which on enters repeat after one period."""
     if not shift:
         return len(enter) - 1
@@ -196,7 +196,7 @@ def _regular(enter: Enters, shift: int, period: int) -> int:
     return int(others[-1]) + 1 if len(others) else 0
 
 
-def _irregular_until(enter: Enters, shift: int, regular: int, period: int) -> int:
+def _find_irregular_end(enter: Enters, shift: int, regular: int, period: int) -> int:
     """Return the tick from which on the robot's position repeats after one period."""
     if not shift:
         return int(enter[-1])

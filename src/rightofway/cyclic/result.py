@@ -226,7 +226,7 @@ def waits_in_first_laps(context: GroupContext, history: History) -> tuple[LapWai
     ]
     until = max(past[visits.stop] for past, visits in zip(history, first, strict=True))
     seen = [range(min(len(past) - 1, bisect_right(past, until))) for past in history]
-    return _waits(
+    return _list_waits(
         context,
         lambda robot, visits: np.array(history[robot][visits.start : visits.stop], np.int64),
         seen,
@@ -243,10 +243,10 @@ def waits_in_period(context: GroupContext, pattern: Pattern) -> tuple[LapWait, .
     # The second period: without first departures from home, which have no turn.
     visits = [range(first.stop, first.stop + len(first)) for first in firsts]
     when = {"begins": pattern.begins, "period": pattern.period}
-    return _waits(context, pattern.enters, visits, visits, **when)
+    return _list_waits(context, pattern.enters, visits, visits, **when)
 
 
-def _waits(
+def _list_waits(
     context: GroupContext,
     enters: Enters,
     seen: Sequence[range],

@@ -99,7 +99,7 @@ class RollingHorizon:
             in_trouble = self._prefix.tick < self._trouble
             if not in_trouble:
                 self._lag, self._taken_back = self._least_lag, 1
-            window = self._window(self._first_ahead(), self._decisions)
+            window = self._make_window(self._list_first_ahead(), self._decisions)
             beyond = (decision.keep_beyond(window) for decision in self._decisions)
             self._decisions = tuple(decision for decision in beyond if decision.rights)
             lengths = tuple(len(past) for past in self.history)
@@ -109,7 +109,7 @@ class RollingHorizon:
                 if earlier < self._prefix.tick:
                     return earlier, self._prefix.tick
             try:
-                self._advance_to_next_cut(window)
+                self._resolve_to_next_cut(window)
             except Deadlock:
                 if not self._take_back():
                     raise
@@ -118,13 +118,13 @@ class RollingHorizon:
         """Forget the states seen, so that `advance` continues after a recurrence."""
         self._seen.clear()
 
-    def _first_ahead(self) -> list[int]:
+    def _list_first_ahead(self) -> list[int]:
         return [self._params.window_lags * self._lag] * len(self.context)
 
-    def _window(self, ahead: Sequence[int], decisions: Iterable[LapDecision]) -> Window:
+    def _make_window(self, ahead: Sequence[int], decisions: Iterable[LapDecision]) -> Window:
         """Return a window with the next cut and all visits of the decisions."""
         stop = [0] * len(ahead)
-        stop[self._pacemaker] = self._next_home(self._pacemaker) + 1
+        stop[self._pacemaker] = self._find_next_home(self._pacemaker) + 1
         for decision in decisions:
             for robot, visit in chain.from_iterable(decision.rights + decision.others):
                 stop[robot] = max(stop[robot], visit + 1)
@@ -145,9 +145,9 @@ class RollingHorizon:
         self._seen = {s: tick for s, tick in self._seen.items() if tick <= cut}
         return True
 
-    def _advance_to_next_cut(self, window: Window) -> None:
+    def _resolve_to_next_cut(self, window: Window) -> None:
         """Resolve all meetings up to a lag after the next cut, extending the window as needed."""
-        ahead, decisions = self._first_ahead(), list(self._decisions)
+        ahead, decisions = self._list_first_ahead(), list(self._decisions)
         while True:
             search = RightOfWaySearch(window, decisions)
             try:
@@ -157,17 +157,17 @@ class RollingHorizon:
                 for robot in short.robots:
                     ahead[robot] *= 2
                 decisions = search.decisions
-                window = self._window(ahead, decisions)
-        self._freeze(window, search)
+                window = self._make_window(ahead, decisions)
+        self._fix_window(window, search)
 
     def _resolve_all(self, window: Window, search: RightOfWaySearch) -> None:
         graph, end = window.graph, window.compute_ends().min()
         while True:
             self._deadline.check(GIVING)
             meeting = graph.find_next_meeting()
-            if graph.enter(self._home_in(window)) > self._params.patience * self._longest:
+            if graph.enter(self._find_home_in(window)) > self._params.patience * self._longest:
                 self._replace_pacemaker(window)
-            limit = window.begins + graph.enter(self._home_in(window)) + self._lag
+            limit = window.begins + graph.enter(self._find_home_in(window)) + self._lag
             tick = limit if meeting is None else min(limit, window.begins + meeting.tick)
             if tick >= end:
                 ends = window.compute_ends()
@@ -181,18 +181,18 @@ class RollingHorizon:
     def _replace_pacemaker(self, window: Window) -> None:
         """Replace a pacemaker that seems to wait for ever by the robot that is home first."""
         enter = {
-            robot: window.graph.enter(window.get_node(robot, self._next_home(robot)))
+            robot: window.graph.enter(window.get_node(robot, self._find_next_home(robot)))
             for robot in range(len(self.context))
-            if self._next_home(robot) - window.starts[robot] < len(window.routes[robot]) - 1
+            if self._find_next_home(robot) - window.starts[robot] < len(window.routes[robot]) - 1
         }
         self._pacemaker = min(enter, key=lambda robot: (enter[robot], robot))
         self._seen.clear()
 
-    def _home_in(self, window: Window) -> int:
+    def _find_home_in(self, window: Window) -> int:
         """Return the node of the pacemaker's next visit home."""
-        return window.get_node(self._pacemaker, self._next_home(self._pacemaker))
+        return window.get_node(self._pacemaker, self._find_next_home(self._pacemaker))
 
-    def _next_home(self, robot: int) -> int:
+    def _find_next_home(self, robot: int) -> int:
         length = len(self.context.routes[robot])
         return -(-len(self.history[robot]) // length) * length
 
@@ -208,8 +208,8 @@ class RollingHorizon:
         )
         return window.describe_state(), decisions
 
-    def _freeze(self, window: Window, search: RightOfWaySearch) -> None:
-        tick = window.begins + window.graph.enter(self._home_in(window))
+    def _fix_window(self, window: Window, search: RightOfWaySearch) -> None:
+        tick = window.begins + window.graph.enter(self._find_home_in(window))
         for past, start, track in zip(
             self.history, window.starts, window.graph.build_tracks(), strict=True
         ):

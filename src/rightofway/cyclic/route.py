@@ -225,21 +225,21 @@ def make_cyclic_routes(scenario: Scenario, routes: str = "clear") -> list[Cyclic
     """
     if routes == "direct":
         return clear_and_direct(scenario)[1]
-    once, distances = _one_lap_each(scenario)
+    once, distances = _make_one_lap_each(scenario)
     if routes == "clear":
-        return _repeated(once, avoid_homes(once, clear_routes(once, distances)))
-    return _repeated(once, find_shortest_routes(once, distances))
+        return _repeat(once, avoid_homes(once, clear_routes(once, distances)))
+    return _repeat(once, find_shortest_routes(once, distances))
 
 
 def clear_and_direct(scenario: Scenario) -> tuple[list[CyclicRoute], list[CyclicRoute]]:
     """Choose a clear and a direct round trip for each robot; see `make_cyclic_routes`."""
-    once, distances = _one_lap_each(scenario)
+    once, distances = _make_one_lap_each(scenario)
     clear = avoid_homes(once, clear_routes(once, distances))
     direct = avoid_homes(once, find_direct_routes(once, distances, clear))
-    return _repeated(once, clear), _repeated(once, direct)
+    return _repeat(once, clear), _repeat(once, direct)
 
 
-def _one_lap_each(scenario: Scenario) -> tuple[Scenario, Distances]:
+def _make_one_lap_each(scenario: Scenario) -> tuple[Scenario, Distances]:
     """Return the scenario with one lap for each robot, and its distance tables."""
     scenario = take_out_closed_places(scenario)
     if scenario.rules.ends == "none" and all(robot.ends != "home" for robot in scenario.robots):
@@ -247,7 +247,7 @@ def _one_lap_each(scenario: Scenario) -> tuple[Scenario, Distances]:
     faults = [
         fault.nest(("robots", index))
         for index, robot in enumerate(scenario.robots)
-        for fault in _faults(robot, scenario)
+        for fault in _find_faults(robot, scenario)
     ]
     if faults:
         raise InputError(faults)
@@ -306,7 +306,7 @@ def take_out_closed_places(scenario: Scenario) -> Scenario:
     )
 
 
-def _faults(robot: Robot, scenario: Scenario) -> Iterator[InputFault]:
+def _find_faults(robot: Robot, scenario: Scenario) -> Iterator[InputFault]:
     if (robot.ends or scenario.rules.ends) == "none":
         yield InputFault("return", NOTHING_REPEATS)
     if all(stop.at == robot.home for stop in robot.stops):
@@ -314,7 +314,7 @@ def _faults(robot: Robot, scenario: Scenario) -> Iterator[InputFault]:
         yield InputFault("stops", f"all are at its home {home} (let it go somewhere)")
 
 
-def _repeated(once: Scenario, routes: Sequence[Route]) -> list[CyclicRoute]:
+def _repeat(once: Scenario, routes: Sequence[Route]) -> list[CyclicRoute]:
     itineraries = once.problem.itineraries
     return [
         CyclicRoute(

@@ -140,7 +140,7 @@ def advance(simulation: Simulation, deadline: Deadline) -> GroupResult:
         return GroupResult(
             context=context,
             ends="deadlock",
-            why=_explain(deadlock, context),
+            why=_describe_deadlock(deadlock, context),
             history=tuple(simulation.history),
         )
     except GaveUp:
@@ -154,7 +154,7 @@ def advance(simulation: Simulation, deadline: Deadline) -> GroupResult:
     return GroupResult(context=context, ends="repeats", history=pattern.history, pattern=pattern)
 
 
-def _explain(deadlock: Deadlock, context: GroupContext) -> Fact:
+def _describe_deadlock(deadlock: Deadlock, context: GroupContext) -> Fact:
     """Return the two robots that no waiting keeps apart, and the circle that a wait would close."""
     scenario, robots = context.scenario, context.robots
     first, second = (robots[position] for position in deadlock.robots)

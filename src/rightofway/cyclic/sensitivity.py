@@ -94,7 +94,7 @@ def compute_parameter_effects(
     """
     circuit = graph.find_critical_circuit(time_limit=time_limit).arcs
     tight = find_tight_arcs(graph, time_limit=time_limit)
-    growths = dict(_growths(scenario, graph, circuit))
+    growths = dict(_list_growths(scenario, graph, circuit))
     # The first entries of each growth are those of the arcs, in their order.
     weights = {
         key: Fraction(int(growth.slope[circuit].sum()), growth.parts)
@@ -119,7 +119,7 @@ def compute_parameter_effects(
     return tuple(sorted(effects, key=lambda effect: effect.ten_per_cent))
 
 
-def _growths(
+def _list_growths(
     scenario: Scenario, graph: TimedEventGraph, circuit: NDArray[np.int32]
 ) -> Iterator[tuple[_Key, Growth]]:
     """Yield the arcs as functions of each parameter of the robots on the circuit."""
@@ -159,7 +159,7 @@ def compute_growth_by_speed(scenario: Scenario, graph: TimedEventGraph, place: i
     """
     arcs, robot = graph.arcs, scenario.robots[graph.timetable.robots[place]]
     drive = np.where(graph.robot[arcs.head] == place, graph.drives, 0)
-    turns = _turns_by_speed(scenario, graph, place, robot)
+    turns = _measure_turns_by_speed(scenario, graph, place, robot)
     of, fixed = np.arange(len(arcs)), arcs.length - drive - turns
     limits = [kind.get_speed_limit(robot.type) for kind in scenario.roadmap.edge_classes]
     if not any(limits):
@@ -187,7 +187,7 @@ def compute_growth_by_speed(scenario: Scenario, graph: TimedEventGraph, place: i
     )
 
 
-def _turns_by_speed(
+def _measure_turns_by_speed(
     scenario: Scenario, graph: TimedEventGraph, place: int, robot: Robot
 ) -> NDArray[np.int64]:
     """Return the turning in each arc that a faster robot makes faster: by the cell [ticks]."""

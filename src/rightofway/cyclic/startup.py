@@ -55,7 +55,7 @@ def start(
     n_visits = sum(map(len, timetable.enter))
     n_periods = 1 if n_visits > most_visits else periods
     history = tuple(
-        _history(timetable, robot, begin, begin - min(begins), n_periods)
+        _make_history(timetable, robot, begin, begin - min(begins), n_periods)
         for robot, begin in enumerate(begins)
     )
     pattern = Pattern(
@@ -91,7 +91,7 @@ def find_start(scenario: Scenario, timetable: CyclicSchedule) -> list[int] | Non
         sorted((enter[:: len(lap)] % period).tolist())
         for lap, enter in zip(timetable.laps, timetable.enter, strict=True)
     ]
-    passes = _passes(scenario, timetable)
+    passes = _collect_passes(scenario, timetable)
     ticks = sorted(set().union(*homes))
     most = min(MOST_BEGINS, MOST_PASSES // (1 + sum(map(len, passes.values()))) + 1)
     starts = []
@@ -112,14 +112,14 @@ def _begin_from(
     tick: int, homes: Sequence[Sequence[int]], passes: Passes, period: int
 ) -> list[int] | None:
     """Return the least begins from a tick on; None if they rise too often."""
-    begins = [_next(own, tick, period) for own in homes]
+    begins = [_find_next(own, tick, period) for own in homes]
     waiting, raises = list(passes), 0
     while waiting:
         robot = waiting.pop()
         for other, times in passes[robot].items():
-            passed = _last_before(times, begins[robot], period)
+            passed = _find_last_before(times, begins[robot], period)
             if passed >= begins[other]:  # while the robot waits at home
-                begins[other] = _next(homes[other], passed + 1, period)
+                begins[other] = _find_next(homes[other], passed + 1, period)
                 raises += 1
                 if raises > RAISES_PER_ROBOT * len(homes):
                     return None
@@ -128,14 +128,14 @@ def _begin_from(
     return begins
 
 
-def _next(times: Sequence[int], tick: int, period: int) -> int:
+def _find_next(times: Sequence[int], tick: int, period: int) -> int:
     """Return the first tick from another one on that is in the times of some period."""
     periods, rest = divmod(tick, period)
     index = bisect_left(times, rest)
     return periods * period + (times[index] if index < len(times) else period + times[0])
 
 
-def _last_before(times: Sequence[int], tick: int, period: int) -> int:
+def _find_last_before(times: Sequence[int], tick: int, period: int) -> int:
     """Return the last tick before another one that is in the times of some period."""
     periods, rest = divmod(tick, period)
     return periods * period + (
@@ -143,7 +143,7 @@ def _last_before(times: Sequence[int], tick: int, period: int) -> int:
     )
 
 
-def _passes(scenario: Scenario, timetable: CyclicSchedule) -> Passes:
+def _collect_passes(scenario: Scenario, timetable: CyclicSchedule) -> Passes:
     """Return when robots exclude others from their homes: they enter a vertex, or drive off."""
     resources, period = scenario.problem.resources, int(timetable.period)
     rows = [
@@ -174,7 +174,7 @@ def _passes(scenario: Scenario, timetable: CyclicSchedule) -> Passes:
     }
 
 
-def _history(
+def _make_history(
     timetable: CyclicSchedule, robot: int, begin: int, later: int, periods: int
 ) -> array[int]:
     """Return the enters of a robot's visits, counted from the beginning of the start-up."""

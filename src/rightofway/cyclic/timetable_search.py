@@ -120,7 +120,7 @@ def find_best_timetable(
     """
     n_robots, seed = len(require_scenario(scenario).robots), require_seed(seed)
     require_functions(report=report)
-    weights = _checked_weights(weights, n_robots)
+    weights = _check_weights(weights, n_robots)
     least_fairness = read_at("least_fairness", read_number, least_fairness)
     if not 0 <= least_fairness <= 1:
         raise InputError.at("least_fairness", f"{least_fairness} is not from 0 to 1")
@@ -166,15 +166,15 @@ def _choose_all(
     )
     groups = split_groups(scenario, usual)
     try:
-        return _by_groups(fleet, groups, params, rounds=rounds, seed=seed, report=report)
+        return _choose_by_groups(fleet, groups, params, rounds=rounds, seed=seed, report=report)
     except GaveUp:
         if len(groups) == 1 or fleet.is_out_of_time:
             raise
     # With the vertices of other groups.
-    return _by_groups(fleet, [usual], params, rounds=rounds, seed=seed, report=report)
+    return _choose_by_groups(fleet, [usual], params, rounds=rounds, seed=seed, report=report)
 
 
-def _checked_weights(weights: Sequence[Fraction] | None, n_robots: int) -> tuple[Fraction, ...]:
+def _check_weights(weights: Sequence[Fraction] | None, n_robots: int) -> tuple[Fraction, ...]:
     """Return the weight of each robot; 1 by default."""
     if weights is None:
         return (Fraction(1),) * n_robots
@@ -187,7 +187,7 @@ def _checked_weights(weights: Sequence[Fraction] | None, n_robots: int) -> tuple
     return weights
 
 
-def _by_groups(
+def _choose_by_groups(
     fleet: CyclicProblem,
     groups: Sequence[Sequence[CyclicRoute]],
     params: ChoiceParams,
@@ -215,7 +215,7 @@ def _by_groups(
         uses.subtract(excluded[index])
         taken.difference_update(row for row in excluded[index] if not uses[row])
         draw = random.Random(f"{seed} {index}")  # noqa: S311 (no secret depends on it)
-        problem = _part(fleet, group, taken, draw, params).shorten(len(group) / left)
+        problem = _make_part(fleet, group, taken, draw, params).shorten(len(group) / left)
         left -= len(group)
         results[index] = _choose(problem, rounds, params)
         after = excluded_by(results[index].context.routes)
@@ -224,7 +224,7 @@ def _by_groups(
     return [results[index] for index in range(len(groups))]
 
 
-def _part(
+def _make_part(
     fleet: CyclicProblem,
     group: Sequence[CyclicRoute],
     taken: set[int],
@@ -289,39 +289,39 @@ def _choose(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) ->
         lap = min(problem.ways[0], key=lambda lap: lap.duration)
         enter = np.cumsum([0, *(lap.compute_least(visit) for visit in range(len(lap) - 1))])
         alone = Candidate.as_it_is(problem.join_cycles([RobotCycle(lap, 1, enter)], lap.duration))
-        return _started(problem, alone, "repeats", problem.compute_value(alone))
-    if len(problem) > params.large and (closed := _closed_run(problem)):
+        return _start_timetable(problem, alone, "repeats", problem.compute_value(alone))
+    if len(problem) > params.large and (closed := _close_run(problem)):
         return closed
     problem.deadline.check(CLOSING)
-    baseline = _simulated(problem, "first-come", params.baseline_share)
+    baseline = _simulate(problem, "first-come", params.baseline_share)
     if baseline.has_rotation():
         apart = replace(problem.context, is_apart=True)
         return _choose(replace(problem, context=apart), rounds, params)
-    ends, worth = _baseline(problem, baseline)
-    pattern = _fair_pattern(problem, baseline)
+    ends, worth = _measure_baseline(problem, baseline)
+    pattern = _find_fair_pattern(problem, baseline)
     candidates = [
-        *_by_other_rules(problem, params),
+        *_try_other_rules(problem, params),
         *_cut_out(problem, baseline, params),
-        *_built(problem, rounds, params),
+        *_build_timetables(problem, rounds, params),
     ]
     if pattern is not None:
         candidates.append(problem.make_candidate(pattern.timetable))
     starts = list(filter(problem.accepts, candidates))
     if not starts and pattern is not None:
-        return _compared(problem, baseline, pattern, ends, worth)
+        return _compare_run(problem, baseline, pattern, ends, worth)
     if not starts and (together := repeat_plan(problem)):
         problem = problem.add_ways(together.timetable.laps)
         starts = list(filter(problem.accepts, [together]))
     if not starts:
         kind = "no fair timetable" if problem.least_fairness else "no timetable"
         raise GaveUp(Fact(kind, robots=len(problem)))
-    whole = _whole(problem, _improved(problem, starts, rounds, params), params)
+    whole = _convert_to_whole(problem, _improve_timetables(problem, starts, rounds, params), params)
     if pattern is not None and worth > problem.compute_value(whole):
-        return _compared(problem, baseline, pattern, ends, worth)
-    return _started(problem, whole, ends, worth)
+        return _compare_run(problem, baseline, pattern, ends, worth)
+    return _start_timetable(problem, whole, ends, worth)
 
 
-def _closed_run(problem: CyclicProblem) -> GroupResult | None:
+def _close_run(problem: CyclicProblem) -> GroupResult | None:
     """Return the closing of a simulation, or the baseline's pattern if the pattern is better."""
     if problem.deadline.at is None:
         return None
@@ -330,27 +330,30 @@ def _closed_run(problem: CyclicProblem) -> GroupResult | None:
     if baseline.result.has_rotation():
         return None
     extracted = extract_cycle(problem, choose_runs(problem, baseline))
-    pattern, compared = _fair_pattern(problem, baseline.result), _baseline(problem, baseline.result)
+    pattern, compared = (
+        _find_fair_pattern(problem, baseline.result),
+        _measure_baseline(problem, baseline.result),
+    )
     if pattern is not None and (
         extracted is None or problem.compute_value(pattern) >= problem.compute_value(extracted)
     ):
-        return _compared(problem, baseline.result, pattern, *compared)
-    return None if extracted is None else _started(problem, extracted, *compared)
+        return _compare_run(problem, baseline.result, pattern, *compared)
+    return None if extracted is None else _start_timetable(problem, extracted, *compared)
 
 
-def _fair_pattern(problem: CyclicProblem, run: GroupResult) -> Candidate | None:
+def _find_fair_pattern(problem: CyclicProblem, run: GroupResult) -> Candidate | None:
     """Return the pattern of a simulation; None without a pattern, or if it is unfair."""
     if run.timetable is None or not problem.is_fair(run.timetable.counts, run.timetable.period):
         return None
     return Candidate.as_it_is(run.timetable)
 
 
-def _simulated(problem: CyclicProblem, rule: str, share: float) -> GroupResult:
+def _simulate(problem: CyclicProblem, rule: str, share: float) -> GroupResult:
     """Simulate the group on its usual routes for a share of the time."""
     return advance(make_simulation(problem.context, rule), problem.deadline.shorten(share))
 
 
-def _baseline(problem: CyclicProblem, run: GroupResult) -> tuple[BaselineEnds, Fraction]:
+def _measure_baseline(problem: CyclicProblem, run: GroupResult) -> tuple[BaselineEnds, Fraction]:
     """Return the end of first come first served, and the value of its laps per tick."""
     if run.ends == "deadlock":
         return "deadlock", Fraction(0)
@@ -358,12 +361,12 @@ def _baseline(problem: CyclicProblem, run: GroupResult) -> tuple[BaselineEnds, F
     return "starves" if starves else run.ends, run.compute_rate(problem.weights)
 
 
-def _by_other_rules(problem: CyclicProblem, params: ChoiceParams) -> Iterator[Candidate]:
+def _try_other_rules(problem: CyclicProblem, params: ChoiceParams) -> Iterator[Candidate]:
     """Yield the patterns of other rules found in their share; none without a time limit."""
     if problem.deadline.at is None or len(problem) > params.many:
         return
     for rule in ("two-level", "fixed-order"):
-        pattern = _fair_pattern(problem, _simulated(problem, rule, params.other_rule_share))
+        pattern = _find_fair_pattern(problem, _simulate(problem, rule, params.other_rule_share))
         if pattern is not None:
             yield problem.make_candidate(pattern.timetable)
 
@@ -381,7 +384,9 @@ def _cut_out(problem: CyclicProblem, run: GroupResult, params: ChoiceParams) -> 
     return [max(pair, key=problem.compute_value) for pair in zip(cuts, filled, strict=True)]
 
 
-def _built(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) -> list[Candidate]:
+def _build_timetables(
+    problem: CyclicProblem, rounds: int | None, params: ChoiceParams
+) -> list[Candidate]:
     """Return the best of several timetables, built by insertion for random periods."""
     is_small = len(problem) <= params.many
     building = problem.shorten(params.building_share if is_small else params.filling_share)
@@ -401,7 +406,7 @@ def _built(problem: CyclicProblem, rounds: int | None, params: ChoiceParams) -> 
     ]
 
 
-def _improved(
+def _improve_timetables(
     problem: CyclicProblem,
     starts: Sequence[Candidate],
     rounds: int | None,
@@ -418,7 +423,9 @@ def _improved(
     return improve(problem, max(net, best, key=problem.compute_value), steps=rounds)
 
 
-def _whole(problem: CyclicProblem, candidate: Candidate, params: ChoiceParams) -> Candidate:
+def _convert_to_whole(
+    problem: CyclicProblem, candidate: Candidate, params: ChoiceParams
+) -> Candidate:
     """Return the timetable in whole ticks; several periods if its cycle time is a fraction."""
     timetable, cycle_time = candidate.timetable, candidate.cycle_time
     if cycle_time.denominator * candidate.n_visits <= params.most_visits:
@@ -430,7 +437,7 @@ def _whole(problem: CyclicProblem, candidate: Candidate, params: ChoiceParams) -
     )
 
 
-def _started(
+def _start_timetable(
     problem: CyclicProblem, chosen: Candidate, ends: BaselineEnds, baseline: Fraction
 ) -> GroupResult:
     """Return the result of a timetable with which robots that wait at home can begin."""
@@ -440,7 +447,7 @@ def _started(
     return result
 
 
-def _compared(
+def _compare_run(
     problem: CyclicProblem,
     run: GroupResult,
     pattern: Candidate,

@@ -71,8 +71,8 @@ def unroll_laps(result: CyclicResult, laps: int | None = None) -> Plan:
     until = min(ends)
 
     def laps_and_visits(group: GroupResult, index: int, n_laps: int) -> tuple[int, int]:
-        robot, moves = group.robots[index], _moves(group, index)
-        own = laps or max(_laps_until(group, index, until, None if moves else n_laps), 1)
+        robot, moves = group.robots[index], _is_moving(group, index)
+        own = laps or max(_count_laps_until(group, index, until, None if moves else n_laps), 1)
         if not group.pattern and own > n_laps:
             raise GaveUp(Fact("laps not followed", result.scenario, robot=robot, laps=own))
         if group.pattern and not moves:
@@ -121,27 +121,27 @@ def make_excerpt(
         until = min(until, int(most_visits / visits_per_tick))
 
     def laps_and_visits(group: GroupResult, index: int, laps: int) -> tuple[int, int]:
-        if group.ends == "deadlock" or (group.pattern and not _moves(group, index)):
+        if group.ends == "deadlock" or (group.pattern and not _is_moving(group, index)):
             return laps + 1, len(group.history[index])
         if not group.pattern and not laps:
             robot = group.robots[index]
             raise GaveUp(Fact("lap not followed", result.scenario, robot=robot))
         most = None if group.pattern else laps - 1
-        own = _laps_until(group, index, until, most) + 1
+        own = _count_laps_until(group, index, until, most) + 1
         return own, own * len(group.context.routes[index]) + 1
 
     plan = _plan(result, Status("excerpt of laps", rule=result.rule), laps_and_visits)
     return plan, tuple(
-        _steady_state(group, group.pattern, plan) for group in result.groups if group.pattern
+        _make_steady_state(group, group.pattern, plan) for group in result.groups if group.pattern
     )
 
 
-def _moves(group: GroupResult, index: int) -> bool:
+def _is_moving(group: GroupResult, index: int) -> bool:
     """Return whether a robot makes laps for ever."""
     return group.pattern is not None and group.pattern.counts[index] > 0
 
 
-def _laps_until(group: GroupResult, index: int, until: int, most: int | None) -> int:
+def _count_laps_until(group: GroupResult, index: int, until: int, most: int | None) -> int:
     """Return the number of laps that a robot completes by a tick, and the maximum."""
     pattern, past = group.pattern, group.history[index]
     length, laps = len(group.context.routes[index]), 0
@@ -164,7 +164,7 @@ def _plan(
         for index, (robot, n_laps) in enumerate(zip(group.robots, group.count_laps(), strict=True)):
             laps, n_visits = laps_and_visits(group, index, n_laps)
             robots[robot] = replace(robots[robot], laps=laps)
-            if group.pattern and _moves(group, index):
+            if group.pattern and _is_moving(group, index):
                 enter = group.pattern.enters(index, range(n_visits))
             else:
                 enter = np.array(group.history[index][:n_visits], np.int64)
@@ -179,9 +179,9 @@ def _plan(
     )
 
 
-def _steady_state(group: GroupResult, pattern: Pattern, plan: Plan) -> SteadyState:
+def _make_steady_state(group: GroupResult, pattern: Pattern, plan: Plan) -> SteadyState:
     """Return the steady state of a group, with critical visits if the plan has all of them."""
-    critical = _critical_visits(group, pattern)
+    critical = _list_critical_visits(group, pattern)
     rows = zip(group.robots, pattern.counts, strict=True)
     held = all(index < len(plan.tracks[robot]) for robot, index in critical)
     return SteadyState(
@@ -192,7 +192,7 @@ def _steady_state(group: GroupResult, pattern: Pattern, plan: Plan) -> SteadySta
     )
 
 
-def _critical_visits(group: GroupResult, pattern: Pattern) -> tuple[tuple[int, int], ...]:
+def _list_critical_visits(group: GroupResult, pattern: Pattern) -> tuple[tuple[int, int], ...]:
     """Return the visits of the critical circuit; none if the period exceeds the cycle time."""
     graph = group.build_graph()
     if graph is None:

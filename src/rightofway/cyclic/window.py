@@ -74,7 +74,7 @@ class Window:
             self.routes,
             rules=context.booking_rules,
             frozen=[visit for f, s, past in known for visit in range(f, f + len(past) - s)],
-            rows=self._rows(),
+            rows=self._list_rows(),
         )
         task = Task(scenario=context.scenario, options={"swaps": "resolve"}, deadline=deadline)
         self.fleet = PartialPlan(task, self.routes, graph=self.graph)
@@ -129,14 +129,16 @@ class Window:
             return False
         i_lap, j_lap = len(self.context.routes[i]), len(self.context.routes[j])
         if not self.context.scenario.problem.resources.are_points:
-            recurrence = _recurrence(((pair.i, pair.j) for pair in segment.pairs), i_lap, j_lap)
+            recurrence = _classify_recurrence(
+                ((pair.i, pair.j) for pair in segment.pairs), i_lap, j_lap
+            )
             if recurrence is not None:
                 return recurrence == "head-on"
         elif len(pairs) >= i_lap + j_lap:
             return True
         raise TooShort(meeting.robots)
 
-    def _rows(self) -> BookedRows | None:
+    def _list_rows(self) -> BookedRows | None:
         """Return what the visits book where robots have a size; the last vertices are free."""
         scenario = self.context.scenario
         resources = scenario.problem.resources
@@ -168,7 +170,9 @@ class Window:
         dwell = [cyclic.lap.dwell[place] for place in places]
         dwell[-1] = cyclic.compute_least(visits[-1])
         for visit in range(start, len(past)):
-            dwell[visit - start] = Tick(self._lasted(robot, visit) - cyclic.drive(visit + 1))
+            dwell[visit - start] = Tick(
+                self._measure_lasting(robot, visit) - cyclic.drive(visit + 1)
+            )
         return Route(
             vertices=(
                 *(cyclic.lap.vertices[place] for place in places),
@@ -178,7 +182,7 @@ class Window:
             drive=(Tick(0), *(cyclic.lap.drive[place] for place in places[1:]), Tick(0)),
         )
 
-    def _lasted(self, robot: int, visit: int) -> int:
+    def _measure_lasting(self, robot: int, visit: int) -> int:
         """Return the least duration within the window of a visit begun by the cut [ticks]."""
         past = self.prefix.history[robot]
         if visit + 1 < len(past):
@@ -189,7 +193,7 @@ class Window:
         return max(leave - max(past[visit], self.begins), 1)
 
 
-def _recurrence(
+def _classify_recurrence(
     pairs: Iterable[tuple[int, int]], i_lap: int, j_lap: int
 ) -> Literal["head-on", "in place"] | None:
     """Return how pairs of a head-on segment come again whole laps apart, so that it has no end.

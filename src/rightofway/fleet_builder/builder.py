@@ -344,9 +344,9 @@ class FleetBuilder:
         try:
             robot = Robot(
                 name=name,
-                home=HOMELESS if home is None else self._vertex("home", home),
+                home=HOMELESS if home is None else self._find_vertex("home", home),
                 stops=tuple(
-                    Stop(at=self._vertex(place, at), work=time)  # type: ignore[arg-type]
+                    Stop(at=self._find_vertex(place, at), work=time)  # type: ignore[arg-type]
                     for place, at, time in trip
                 ),
                 speed=speed,  # type: ignore[arg-type]
@@ -398,8 +398,9 @@ class FleetBuilder:
         try:
             ends = None if edge is None else read_ends("edge", edge)
             closure = Closure(
-                at=None if at is None else self._vertex("at", at),
-                edge=ends and (self._vertex("edge", ends[0]), self._vertex("edge", ends[1])),
+                at=None if at is None else self._find_vertex("at", at),
+                edge=ends
+                and (self._find_vertex("edge", ends[0]), self._find_vertex("edge", ends[1])),
                 from_=from_,  # type: ignore[arg-type]
                 until=until,  # type: ignore[arg-type]
                 radius=radius,  # type: ignore[arg-type]
@@ -459,7 +460,7 @@ class FleetBuilder:
             self._roadmap = self._drawn.build_roadmap(spacing=self._spacing, y_up=self._y_up)
         return self._roadmap
 
-    def _vertex(self, key: Where, place: Any) -> VertexId:
+    def _find_vertex(self, key: Where, place: Any) -> VertexId:
         """Return the vertex of a place as users write it."""
         roadmap = self.build_roadmap()
         if not isinstance(place, str) and str(place) in (roadmap.labels or ()):

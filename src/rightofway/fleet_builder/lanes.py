@@ -101,7 +101,7 @@ class DrawnLanes:
         given = None if length is None else exact_length(length, (place, "length"))
         if given is None:
             with locate_faults(place):
-                measure_straight_length(self._square(tail, head))
+                measure_straight_length(self._measure_square(tail, head))
         limit = None if max_speed is None else exact_length(max_speed, (place, "max_speed"))
         more = {
             "max_speed": limit,
@@ -121,13 +121,15 @@ class DrawnLanes:
         Without a spacing, one is chosen for robots that have to keep a distance above 0. The
         vertices that were added come first, whatever is split.
         """
-        squares = [self._square(tail, head) for tail, head, given, _ in self.edges if given is None]
+        squares = [
+            self._measure_square(tail, head) for tail, head, given, _ in self.edges if given is None
+        ]
         step = choose_rounding_step(squares)
         edges = [
             Edge(
                 tail=tail,
                 head=head,
-                length=given or measure_straight_length(self._square(tail, head), step),
+                length=given or measure_straight_length(self._measure_square(tail, head), step),
                 **more,
             )
             for tail, head, given, more in self.edges
@@ -146,7 +148,7 @@ class DrawnLanes:
             passed=self.passed,
         )
 
-    def _square(self, tail: str, head: str) -> Fraction:
+    def _measure_square(self, tail: str, head: str) -> Fraction:
         return measure_squared_distance(self.positions[tail], self.positions[head])
 
 
@@ -154,7 +156,7 @@ def read_graph(graph: Any) -> DrawnLanes:
     """Return the lanes of a `networkx` graph; drawn if all its nodes have positions."""
     if not all(hasattr(graph, name) for name in ("nodes", "edges", "is_directed")):
         raise InputError.at("graph", f"{quote(graph)} is no graph (give a networkx graph)")
-    at = {node: _position(node, data) for node, data in graph.nodes(data=True)}
+    at = {node: _read_position(node, data) for node, data in graph.nodes(data=True)}
     is_drawn = all(at.values())
     lanes = DrawnLanes(is_drawn=is_drawn)
     for index, (node, position) in enumerate(at.items()):
@@ -174,7 +176,7 @@ def read_graph(graph: Any) -> DrawnLanes:
     return lanes
 
 
-def _position(node: Any, data: dict[str, Any]) -> tuple[Any, Any] | None:
+def _read_position(node: Any, data: dict[str, Any]) -> tuple[Any, Any] | None:
     """Return where a node of a graph lies, if it says so."""
     position = data.get("pos", (data["x"], data["y"]) if {"x", "y"} <= data.keys() else node)
     if isinstance(position, str) or not hasattr(position, "__len__") or len(position) != 2:  # noqa: PLR2004 (x and y)

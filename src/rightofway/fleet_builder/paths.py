@@ -68,7 +68,7 @@ def plan_of_paths(scenario: Scenario, paths: Mapping[str, Sequence[Any]]) -> Pla
 def _track(scenario: Scenario, name: str, path: Sequence[Any]) -> Track:
     """Return the visits of a path; a robot that stays makes one of them."""
     vertices, enter = list[int](), list[int]()
-    for index, (place, tick) in enumerate(_timed(scenario, name, path)):
+    for index, (place, tick) in enumerate(_count_times(scenario, name, path)):
         with locate_faults(("paths", name, index)):
             roadmap = scenario.roadmap
             vertex = find_vertex_at(roadmap, as_place(place, roadmap), units=scenario.units)
@@ -78,7 +78,7 @@ def _track(scenario: Scenario, name: str, path: Sequence[Any]) -> Track:
     return Track.of(vertices, enter)
 
 
-def _timed(scenario: Scenario, name: str, path: Sequence[Any]) -> Iterator[tuple[Any, int]]:
+def _count_times(scenario: Scenario, name: str, path: Sequence[Any]) -> Iterator[tuple[Any, int]]:
     """Yield each place with its tick: as it is given, or of the time units so far."""
     per_unit = 1 / Fraction(scenario.problem.clock.tick)
     pairs = [_is_pair(item) for item in path]

@@ -52,15 +52,15 @@ def read_content(path: Path, most: int | None = None) -> bytes | bytearray:
         if str(path) == "-":
             data = _STREAMS.get(sys.stdin.buffer)
             if data is None:
-                data = _STREAMS[sys.stdin.buffer] = _content(sys.stdin.buffer, most)
+                data = _STREAMS[sys.stdin.buffer] = _read_content(sys.stdin.buffer, most)
         else:
-            data = _content_of_file(path, most)
+            data = _read_file_content(path, most)
     except InputError:
         raise
     except (OSError, ValueError) as error:
-        raise InputError.at("", _why_unreadable(error, path)) from None
+        raise InputError.at("", _explain_unreadable(error, path)) from None
     if len(data) > most:
-        raise _too_long(most)
+        raise _make_too_long(most)
     return data
 
 
@@ -71,7 +71,7 @@ _PIPES: dict[tuple[int, int], bytearray] = {}
 """What was read of each pipe, by device and number."""
 
 
-def _content_of_file(path: Path, most: int) -> bytearray:
+def _read_file_content(path: Path, most: int) -> bytearray:
     status = path.stat()
     if stat.S_ISDIR(status.st_mode):
         raise IsADirectoryError
@@ -79,18 +79,18 @@ def _content_of_file(path: Path, most: int) -> bytearray:
     if not (is_pipe or stat.S_ISREG(status.st_mode)):
         raise InputError.at("", "this is a device (give a file)")
     if status.st_size > most:
-        raise _too_long(most)
+        raise _make_too_long(most)
     key = status.st_dev, status.st_ino
     if is_pipe and key in _PIPES:
         return _PIPES[key]
     with path.open("rb") as file:
-        data = _content(file, most)
+        data = _read_content(file, most)
     if is_pipe:
         _PIPES[key] = data
     return data
 
 
-def _content(file: BinaryIO, most: int) -> bytearray:
+def _read_content(file: BinaryIO, most: int) -> bytearray:
     """Return the bytes of a file up to the limit, in pieces: one read reserves all that it asks."""
     content = bytearray()
     while len(content) <= most and (piece := file.read(PIECE)):
@@ -98,7 +98,7 @@ def _content(file: BinaryIO, most: int) -> bytearray:
     return content
 
 
-def _too_long(most: int) -> InputError:
+def _make_too_long(most: int) -> InputError:
     return InputError.at("", f"the file is longer than {most} bytes (is it the right one?)")
 
 
@@ -154,7 +154,7 @@ def find_remedy_for_missing(path: Path) -> str:
     return "check the path"
 
 
-def _why_unreadable(error: Exception, path: Path) -> str:
+def _explain_unreadable(error: Exception, path: Path) -> str:
     if isinstance(error, FileNotFoundError):
         return f"there is no such file ({find_remedy_for_missing(path)})"
     if isinstance(error, IsADirectoryError):

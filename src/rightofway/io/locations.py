@@ -53,7 +53,7 @@ def locate(faults: Iterable[InputFault], text: str) -> Iterator[InputFault]:
     """Yield faults of a document with lines and names, as far as its text shows them."""
     faults = list(faults)
     has_no_lines = [bool(fault.path) and fault.line is None and not fault.file for fault in faults]
-    root = _root(text) if any(has_no_lines) else None
+    root = _read_root(text) if any(has_no_lines) else None
     for fault, has_no_line in zip(faults, has_no_lines, strict=True):
         if root is None or not has_no_line:
             yield fault
@@ -61,7 +61,7 @@ def locate(faults: Iterable[InputFault], text: str) -> Iterator[InputFault]:
             yield fault.place_at(_locate(fault.location, root))
 
 
-def _root(text: str) -> yaml.Node | None:
+def _read_root(text: str) -> yaml.Node | None:
     import yaml
 
     if len(text) > MAX_CHARACTERS:
@@ -95,7 +95,7 @@ def _locate(location: Location, root: yaml.Node) -> Location:
     """Return a location with line and names, its path followed as far as there are values."""
     node, line, names = root, root.start_mark.line, list[str]()
     for step in location.path:
-        child = _child(node, step)
+        child = _find_child(node, step)
         if child is None:
             break
         node, line = child
@@ -103,7 +103,7 @@ def _locate(location: Location, root: yaml.Node) -> Location:
     return replace(location, line=line + 1, names=tuple(names))
 
 
-def _child(node: yaml.Node, step: str | int) -> tuple[yaml.Node, int] | None:
+def _find_child(node: yaml.Node, step: str | int) -> tuple[yaml.Node, int] | None:
     """Return the value that a step of a path leads to, and its line, from 0; None without one."""
     import yaml
 

@@ -114,14 +114,14 @@ def load_scen(path: Path | str) -> tuple[ScenRow, ...]:
         lines = read_text(Path(path)).rstrip().split("\n")
         for number, line in enumerate(lines, start=1):
             if number > 1 or not line.startswith("version"):
-                rows.append(faults.attempt(Location(line=number), _scen_row, number, line))
+                rows.append(faults.attempt(Location(line=number), _read_scen_row, number, line))
         faults.stop()
         if not rows:
             raise InputError.at("", "there is no row (give one for each robot)")
     return tuple(row for row in rows if row is not None)
 
 
-def _scen_row(line: int, text: str) -> ScenRow:
+def _read_scen_row(line: int, text: str) -> ScenRow:
     columns = text.split("\t") if "\t" in text else text.split()
     if len(columns) not in {8, 9}:
         raise InputError.at("", f"{len(columns)} columns (give {_COLUMNS})")
@@ -156,7 +156,7 @@ def write_map(roadmap: Roadmap, path: Path | str) -> None:
     InputError
         If the roadmap is no grid, or the file cannot be written.
     """
-    grid = _grid_of(roadmap)
+    grid = _require_grid(roadmap)
     header = ("type octile", f"height {grid.rows}", f"width {grid.columns}", "map")
     write_whole(path, "\n".join((*header, *grid.as_lines())) + "\n")
 
@@ -191,7 +191,7 @@ def write_scen(scenario: Scenario, path: Path | str, *, map_name: str) -> tuple[
     The optimal length is the number of moves on a shortest path without diagonal moves, as in
     multi-agent path finding; the benchmark's own files count diagonal moves. The bucket is 0.
     """
-    grid = _grid_of(scenario.roadmap)
+    grid = _require_grid(scenario.roadmap)
     faults = [
         InputFault(
             ("robots", index, "stops"),
@@ -203,15 +203,15 @@ def write_scen(scenario: Scenario, path: Path | str, *, map_name: str) -> tuple[
     if faults:
         raise InputError(faults)
     lines = ["version 1"]
-    for robot, moves in zip(scenario.robots, _optimal_lengths(scenario), strict=True):
+    for robot, moves in zip(scenario.robots, _measure_optimal_lengths(scenario), strict=True):
         (start_y, start_x), (goal_y, goal_x) = map(grid.get_cell, (robot.home, robot.stops[0].at))
         columns = (0, map_name, grid.columns, grid.rows, start_x, start_y, goal_x, goal_y, moves)
         lines.append("\t".join(map(str, columns)))
     write_whole(path, "\n".join(lines) + "\n")
-    return tuple(_left_out(scenario, grid))
+    return tuple(_list_left_out(scenario, grid))
 
 
-def _optimal_lengths(scenario: Scenario) -> Iterator[int]:
+def _measure_optimal_lengths(scenario: Scenario) -> Iterator[int]:
     """Yield for each robot the moves on a shortest path from its home to its target."""
     from rightofway.metrics import compute_alone_completions
 
@@ -223,14 +223,14 @@ def _optimal_lengths(scenario: Scenario) -> Iterator[int]:
     return (moves // 2 for moves in compute_alone_completions(there_and_back))
 
 
-def _grid_of(roadmap: Roadmap) -> Grid:
+def _require_grid(roadmap: Roadmap) -> Grid:
     if roadmap.grid is None:
         message = "the roadmap is no grid, MovingAI files hold nothing else (choose another format)"
         raise InputError.at("map", message)
     return roadmap.grid
 
 
-def _left_out(scenario: Scenario, grid: Grid) -> Iterator[str]:
+def _list_left_out(scenario: Scenario, grid: Grid) -> Iterator[str]:
     robots = scenario.robots
     if any(robot.speed != 1 for robot in robots) or grid.cell_size != 1:
         yield "speeds and the size of cells are left out; .scen robots drive one cell a tick"

@@ -74,10 +74,10 @@ def format_site_plan(plan: Plan, name: str) -> tuple[str, tuple[str, ...]]:
     tuple
         The text, and what had to be assumed, a sentence each.
     """
-    return get_value(SITE_PLAN_FORMATS, name, "name").write(plan), tuple(_assumed(plan, name))
+    return get_value(SITE_PLAN_FORMATS, name, "name").write(plan), tuple(_list_assumed(plan, name))
 
 
-def _assumed(plan: Plan, name: str) -> Iterator[str]:
+def _list_assumed(plan: Plan, name: str) -> Iterator[str]:
     units = plan.scenario.units
     missing = [
         f"{quantity} {unit}"
@@ -140,10 +140,10 @@ class _Site:
         """Yield the poses of a robot in order of time, each at an instant of its own."""
         track, stays = self.plan.tracks[robot], self.stays[robot]
         points = [self.locate_vertex(vertex) for vertex in track.vertices.tolist()]
-        headings, speeds = self._drives(points, stays)
+        headings, speeds = self._measure_drives(points, stays)
         came, last = headings[0], len(points) - 1
         for visit, ((x, y), (arrives, departs)) in enumerate(
-            zip(points, _instants(track, stays), strict=True)
+            zip(points, _list_instants(track, stays), strict=True)
         ):
             goes = came if visit == last else headings[visit]
             passes = 0 < visit < last and arrives == departs
@@ -158,7 +158,7 @@ class _Site:
                        heading=heading, speed=speed)  # fmt: skip
             came = goes
 
-    def _drives(
+    def _measure_drives(
         self, points: list[tuple[Fraction, Fraction]], stays: Stays
     ) -> tuple[list[float], list[float]]:
         """Return heading [rad] and speed [m/s] of the drive that ends each visit."""
@@ -172,7 +172,7 @@ class _Site:
         return headings or [0.0], speeds
 
 
-def _instants(track: Track, stays: Stays) -> Iterator[tuple[int, int]]:
+def _list_instants(track: Track, stays: Stays) -> Iterator[tuple[int, int]]:
     """Yield when each visit begins, and when the drive that ends it begins [ticks]."""
     enter = track.enter.tolist()
     for begin, leave, drive in zip(enter, enter[1:], stays.drive.tolist(), strict=False):
@@ -180,11 +180,11 @@ def _instants(track: Track, stays: Stays) -> Iterator[tuple[int, int]]:
     yield enter[-1], max(int(stays.completion), enter[-1])
 
 
-def _rounded(number: Fraction | float) -> float:
+def _round_number(number: Fraction | float) -> float:
     return round(float(number), DECIMALS) + 0.0  # without a negative zero
 
 
-def _events(plan: Plan) -> str:
+def _write_events(plan: Plan) -> str:
     """Return one event a line, by time and robot.
 
     ``start``, ``arrive``, ``work`` (work and turning begin), ``wait``, ``depart``, ``done``.
@@ -213,11 +213,11 @@ def _events(plan: Plan) -> str:
         if is_last:
             steps.append((int(stays.completion), "done", came.get(robot, goes), ""))
         came[robot] = goes
-        x, y = map(_rounded, site.locate_vertex(event.vertex))
+        x, y = map(_round_number, site.locate_vertex(event.vertex))
         for tick, doing, heading, for_robot in steps:
             row = (
-                _rounded(tick * site.second), robots[robot].name, doing, name(event.vertex), x, y,
-                _rounded(heading), event.purpose, for_robot,
+                _round_number(tick * site.second), robots[robot].name, doing, name(event.vertex),
+                x, y, _round_number(heading), event.purpose, for_robot,
             )  # fmt: skip
             rows.append((tick, robot, row))
     text = io.StringIO()
@@ -227,7 +227,7 @@ def _events(plan: Plan) -> str:
     return text.getvalue()
 
 
-def _nav2(plan: Plan) -> str:
+def _write_nav2(plan: Plan) -> str:
     """Return for each robot a path of ROS, and the node of each of its poses."""
     site, names = _Site(plan, y_up=True), plan.scenario.roadmap.name
     robots = {}
@@ -235,27 +235,30 @@ def _nav2(plan: Plan) -> str:
         poses = list(site.list_poses(robot))
         nodes = [names(int(track.vertices[pose.visit])) for pose in poses]
         path = {
-            "header": _header(Fraction(0)),
-            "poses": [{"header": _header(pose.seconds), "pose": _ros_pose(pose)} for pose in poses],
+            "header": _make_header(Fraction(0)),
+            "poses": [
+                {"header": _make_header(pose.seconds), "pose": _make_ros_pose(pose)}
+                for pose in poses
+            ],
         }
         are_ids = all(node.isascii() and node.isdecimal() for node in nodes)
         robots[plan.scenario.robots[robot].name] = {
             "path": path,
             "nodes": list(map(int, nodes)) if are_ids else nodes,
         }
-    return _spread({"frame_id": FRAME, "robots": robots}) + "\n"
+    return _write_spread({"frame_id": FRAME, "robots": robots}) + "\n"
 
 
-def _header(seconds: Fraction) -> dict[str, Any]:
+def _make_header(seconds: Fraction) -> dict[str, Any]:
     whole, rest = divmod(int(seconds * BILLION), BILLION)
     return {"stamp": {"sec": whole, "nanosec": rest}, "frame_id": FRAME}
 
 
-def _ros_pose(pose: Pose) -> dict[str, Any]:
+def _make_ros_pose(pose: Pose) -> dict[str, Any]:
     half = pose.heading / 2
     turn = {"z": round(math.sin(half), 9) + 0.0, "w": round(math.cos(half), 9) + 0.0}
     return {
-        "position": {"x": _rounded(pose.x), "y": _rounded(pose.y), "z": 0.0},
+        "position": {"x": _round_number(pose.x), "y": _round_number(pose.y), "z": 0.0},
         "orientation": {"x": 0.0, "y": 0.0, **turn},
     }
 
@@ -271,35 +274,36 @@ def _open_rmf(plan: Plan) -> str:
             waypoints.append(
                 {
                     "time": int(pose.seconds * BILLION),
-                    "position": [_rounded(pose.x), _rounded(pose.y), _rounded(yaw)],
-                    "velocity": [*map(_rounded, velocity), 0.0],
+                    "position": [_round_number(pose.x), _round_number(pose.y), _round_number(yaw)],
+                    "velocity": [*map(_round_number, velocity), 0.0],
                 }
             )
         route = {"map": LEVEL, "trajectory": {"waypoints": waypoints}}
         itineraries[plan.scenario.robots[robot].name] = [route]
-    return _spread({"itineraries": itineraries}) + "\n"
+    return _write_spread({"itineraries": itineraries}) + "\n"
 
 
-def _spread(value: Any, margin: str = "\n") -> str:
+def _write_spread(value: Any, margin: str = "\n") -> str:
     """Return JSON with one pose or waypoint on a line."""
     inner = margin + "  "
     if isinstance(value, dict) and not {"pose", "position", "stamp"} & set(value):
         pairs = (
-            f"{format_json_line(key)}: {_spread(child, inner)}" for key, child in value.items()
+            f"{format_json_line(key)}: {_write_spread(child, inner)}"
+            for key, child in value.items()
         )
         return f"{{{inner}{f',{inner}'.join(pairs)}{margin}}}"
     if isinstance(value, list) and value and isinstance(value[0], dict):
-        return f"[{inner}{f',{inner}'.join(_spread(item, inner) for item in value)}{margin}]"
+        return f"[{inner}{f',{inner}'.join(_write_spread(item, inner) for item in value)}{margin}]"
     return format_json_line(value)
 
 
 SITE_PLAN_FORMATS: dict[str, SitePlanFormat] = {
     "events": SitePlanFormat(
         summary="events as CSV: who starts, arrives, works, waits and departs, where and when",
-        write=_events,
+        write=_write_events,
     ),
     "nav2": SitePlanFormat(
-        summary="Nav2: a path (nav_msgs/Path) and the nodes of each robot, JSON", write=_nav2
+        summary="Nav2: a path (nav_msgs/Path) and the nodes of each robot, JSON", write=_write_nav2
     ),
     "open-rmf": SitePlanFormat(
         summary="Open-RMF: an itinerary (rmf_traffic_msgs/Route) of each robot, JSON",

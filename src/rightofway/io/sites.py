@@ -77,23 +77,23 @@ def read_sites(path: Path | str, choice: Choice, robots: Path | str | None = Non
         if given := choice.list_keys():
             message = f"{next(iter(given))} is for layouts, and this is none (leave it out)"
             raise InputError.at("", message, str(path))
-        return _of_scenario(path, robots)
+        return _read_scenario_site(path, robots)
     layout = read_layout(path)
     if robots is not None:
         keys = choice.list_keys()
         if isinstance(layout, Layout):
-            level = _level(path, layout, choice)
+            level = _choose_level(path, layout, choice)
             keys["spacing"] = "whole"  # what is drawn is inspected, not pieces of it
-            if choice.vehicle_type is None and (name := _usual_type(level)):
+            if choice.vehicle_type is None and (name := _find_usual_type(level)):
                 keys["vehicle_type"] = name
-        loaded = _with_fleet({"layout": str(path.resolve()), **keys}, Path(), Path(robots))
+        loaded = _add_fleet({"layout": str(path.resolve()), **keys}, Path(), Path(robots))
         return Sites(description=describe_layout(layout), notes=loaded.notes, sites=loaded.sites)
     if isinstance(layout, Layout):
-        return _of_layout(path, layout, choice)
-    return _of_cells(path, layout, choice)
+        return _read_layout(path, layout, choice)
+    return _read_cells(path, layout, choice)
 
 
-def _level(path: Path, layout: Layout, choice: Choice) -> Level:
+def _choose_level(path: Path, layout: Layout, choice: Choice) -> Level:
     """Return the level that is wanted, with lanes of the vehicle type that is wanted."""
     with name_file(str(path)):
         if choice.cell_size is not None:
@@ -105,14 +105,14 @@ def _level(path: Path, layout: Layout, choice: Choice) -> Level:
     return level
 
 
-def _of_layout(path: Path, layout: Layout, choice: Choice) -> Sites:
-    levels = layout.levels if choice == Choice() else (_level(path, layout, choice),)
+def _read_layout(path: Path, layout: Layout, choice: Choice) -> Sites:
+    levels = layout.levels if choice == Choice() else (_choose_level(path, layout, choice),)
     sites, notes = list[tuple[str, Site]](), list(layout.notes)
     for level in levels:
         if not level.vertices:
             notes.append(Fact("level empty", level=level.name))
             continue
-        name = choice.vehicle_type or _usual_type(level)
+        name = choice.vehicle_type or _find_usual_type(level)
         level_map = build_roadmap_of_level(level, vehicle_type=name)
         roadmap = level_map.roadmap
         lacks = (*level_map.notes, *note_on_hidden_stations(roadmap))
@@ -144,13 +144,13 @@ def _name_level(level: str, note: Fact) -> Fact:
     return Fact("note on level", note.about, level=level, lack=note)
 
 
-def _usual_type(level: Level) -> str | None:
+def _find_usual_type(level: Level) -> str | None:
     """Return the vehicle type that most lanes are open to, or None where lanes do not differ."""
     types = Counter(name for edge in level.edges for name in edge.types or ())
     return min(types, key=lambda name: (-types[name], name)) if len(types) > 1 else None
 
 
-def _of_cells(path: Path, cells: Any, choice: Choice) -> Sites:
+def _read_cells(path: Path, cells: Any, choice: Choice) -> Sites:
     from rightofway.io.scenario.shape import MapDocument
 
     document = validate(MapDocument, {"layout": str(path.resolve()), **choice.list_keys()})
@@ -160,7 +160,7 @@ def _of_cells(path: Path, cells: Any, choice: Choice) -> Sites:
     return Sites(description=describe_layout(cells), notes=loaded.notes, sites=(("", site),))
 
 
-def _of_scenario(path: Path, robots: Path | str | None) -> Sites:
+def _read_scenario_site(path: Path, robots: Path | str | None) -> Sites:
     if robots is None:
         loaded = load_with_notes(path)
         return make_sites(loaded.scenario, loaded.notes)
@@ -173,10 +173,10 @@ def _of_scenario(path: Path, robots: Path | str | None) -> Sites:
         drawn = document.get("map") if isinstance(document, dict) else None
         if drawn is None:
             raise InputError.at("", "this is neither a layout nor a scenario with a map")
-    return _with_fleet(drawn, path.parent, Path(robots))
+    return _add_fleet(drawn, path.parent, Path(robots))
 
 
-def _with_fleet(drawn: Any, base: Path, robots: Path) -> Sites:
+def _add_fleet(drawn: Any, base: Path, robots: Path) -> Sites:
     """Return the site of a map document with the fleet of another file."""
     document: dict[str, Any] = {"format": SCENARIO_FORMAT, "map": drawn}
     if robots.suffix.lower() == ".csv":

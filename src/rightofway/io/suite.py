@@ -28,14 +28,14 @@ MAX_WORK = 1_000_000
 T = TypeVar("T", bound=Hashable)
 
 
-def _each_once(values: list[T]) -> list[T]:
+def _list_once(values: list[T]) -> list[T]:
     twice = next((value for index, value in enumerate(values) if value in values[:index]), None)
     if twice is not None:
         raise ValueError(f"{quote(twice)} stands there twice (give each once)")
     return values
 
 
-def _pair(least: int, most: int, numbers: str, *, in_order: bool = False) -> Kind:
+def _make_pair(least: int, most: int, numbers: str, *, in_order: bool = False) -> Kind:
     """Return the kind of two whole numbers within bounds."""
 
     def read(value: object) -> tuple[int, int]:
@@ -53,7 +53,7 @@ def _pair(least: int, most: int, numbers: str, *, in_order: bool = False) -> Kin
     return Kind(read, {"type": "array", "items": number, "minItems": 2, "maxItems": 2})
 
 
-def _share(value: object) -> float:
+def _read_share(value: object) -> float:
     share = read_exact(value)
     if not 0 <= share < 1:
         raise ValueError(f"{quote(value)} is no share (give 0 or more, below 1)")
@@ -61,13 +61,13 @@ def _share(value: object) -> float:
 
 
 Seed = Annotated[int, Field(ge=0, le=MAX_SEED)]
-GridSize = Annotated[tuple[int, int], _pair(1, MAX_SIDE, "[width, height]")]
-WorkRange = Annotated[tuple[int, int], _pair(0, MAX_WORK, "[least, most]", in_order=True)]
-Share = Annotated[float, Kind(_share, {"type": "number", "minimum": 0, "exclusiveMaximum": 1})]
+GridSize = Annotated[tuple[int, int], _make_pair(1, MAX_SIDE, "[width, height]")]
+WorkRange = Annotated[tuple[int, int], _make_pair(0, MAX_WORK, "[least, most]", in_order=True)]
+Share = Annotated[float, Kind(_read_share, {"type": "number", "minimum": 0, "exclusiveMaximum": 1})]
 Distinct = Annotated[
     list[T],
     Field(min_length=1, json_schema_extra={"uniqueItems": True}),
-    AfterValidator(_each_once),
+    AfterValidator(_list_once),
 ]
 
 

@@ -102,9 +102,9 @@ class _Builder:
                 if self.documents > 1:
                     raise make_line_fault(line, "a second document begins (keep one in a file)")
             case "ScalarEvent":
-                self._add(_scalar(event), 1, event.anchor, line)
+                self._add(_read_scalar(event), 1, event.anchor, line)
             case "AliasEvent":
-                value, size = self._named(event.anchor, line)
+                value, size = self._find_named(event.anchor, line)
                 self._add(value, size, None, line)
             case "SequenceStartEvent":
                 self._begin(_Open([], event.anchor), line)
@@ -121,7 +121,7 @@ class _Builder:
             self.anchored.pop(opened.anchor, None)
         self.open.append(opened)
 
-    def _named(self, anchor: str, line: int) -> tuple[Any, int]:
+    def _find_named(self, anchor: str, line: int) -> tuple[Any, int]:
         """Return the value that an alias stands for, and its size."""
         if anchor not in self.anchored:
             inside = any(opened.anchor == anchor for opened in self.open)
@@ -158,7 +158,7 @@ class _Builder:
             parent.key = value
 
 
-def _scalar(event: Any) -> Any:
+def _read_scalar(event: Any) -> Any:
     text: str = event.value
     is_plain, _ = event.implicit
     if not is_plain:

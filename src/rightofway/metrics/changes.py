@@ -135,7 +135,7 @@ def _compare_robots(
         )
         yield "stops", was, now
     works, others = ([stop.work for stop in robot.stops] for robot in (old, new))
-    if not _are_all_same("time", before, works, after, others):
+    if not _has_all_same("time", before, works, after, others):
         was, now = (
             Fact("times", scenario, times=tuple(times)) if times else None
             for scenario, times in ((before, works), (after, others))
@@ -152,7 +152,7 @@ def _find_scale(measure: str, units: Units) -> Fraction | None:
     return {"length": metres, "time": seconds}.get(measure)
 
 
-def _are_same(measure: str, before: Scenario, was: Any, after: Scenario, now: Any) -> bool:
+def _has_same(measure: str, before: Scenario, was: Any, after: Scenario, now: Any) -> bool:
     """Return whether two values are the same, in the units of their scenarios."""
     if not isinstance(was, Fraction) or not isinstance(now, Fraction):
         return bool(was == now)
@@ -162,12 +162,12 @@ def _are_same(measure: str, before: Scenario, was: Any, after: Scenario, now: An
     return was * scale == now * other
 
 
-def _are_all_same(
+def _has_all_same(
     measure: str, before: Scenario, was: Sequence[Any], after: Scenario, now: Sequence[Any]
 ) -> bool:
     """Return whether there are as many values in both scenarios, each the same."""
     return len(was) == len(now) and all(
-        _are_same(measure, before, value, after, other)
+        _has_same(measure, before, value, after, other)
         for value, other in zip(was, now, strict=True)
     )
 
@@ -189,7 +189,7 @@ def _compare_attributes(
     """Yield the differences of two robots or of rules: name and both values."""
     for attribute in attributes:
         was, now = (getattr(owner, attribute.name) for owner in (old, new))
-        if not _are_same(attribute.measure, before, was, after, now):
+        if not _has_same(attribute.measure, before, was, after, now):
             key = attribute.name.replace("_", " ")
             yield key, _make_value(before, attribute, was), _make_value(after, attribute, now)
 
@@ -227,7 +227,7 @@ def _compare_closures(before: Scenario, after: Scenario) -> Iterator[Change]:
     for name, (place, closures) in now.items():
         if name not in was:
             yield Change(subject="place", place=place, key="closed")
-        elif not _are_all_same(
+        elif not _has_all_same(
             "time", before, _list_times(was[name][1]), after, _list_times(closures)
         ):
             old, new = (

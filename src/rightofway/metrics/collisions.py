@@ -299,7 +299,7 @@ def find_near_misses(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NearM
         return ()
     of_row: defaultdict[int, list[_Booking]] = defaultdict(list)
     for robot, (track, stay) in enumerate(zip(tracks, find_stays(scenario, tracks), strict=True)):
-        for row, booking in _places_booked(scenario, resources, robot, track, stay):
+        for row, booking in _list_places_booked(scenario, resources, robot, track, stay):
             of_row[row].append(booking)
     overlaps: defaultdict[tuple[int, int], list[_Overlap]] = defaultdict(list)
     for row, bookings in of_row.items():
@@ -319,7 +319,7 @@ def find_near_misses(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NearM
             end=None if end == NEVER else Tick(end),
         )
         for robots, times in overlaps.items()
-        for start, end, places in _joined(times)
+        for start, end, places in _join_overlaps(times)
     ]
     return tuple(sorted(near_ones, key=lambda miss: (miss.start, miss.robots)))
 
@@ -449,7 +449,7 @@ class _Booking(NamedTuple):
 _Overlap = tuple[int, int, tuple[tuple[VertexId, ...], tuple[VertexId, ...]]]
 
 
-def _places_booked(
+def _list_places_booked(
     scenario: Scenario, resources: Resources, robot: int, track: Track, stay: Stays
 ) -> Iterator[tuple[int, _Booking]]:
     """Yield what one robot books, with the row of the resource: vertices, and edges it drives."""
@@ -466,7 +466,7 @@ def _places_booked(
             yield resources.get_edge_row(robot, edge), _Booking(start, end, robot, ends_of_edge)
 
 
-def _joined(times: Iterable[_Overlap]) -> list[_Overlap]:
+def _join_overlaps(times: Iterable[_Overlap]) -> list[_Overlap]:
     """Join what follows without a gap; the places are those of the first."""
     joined: list[_Overlap] = []
     for start, end, places in sorted(times):

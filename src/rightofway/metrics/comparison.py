@@ -55,7 +55,7 @@ class Comparison:
         A robot that a plan does not have completes at None there. ``best`` has the places of the
         plans with the smallest figures; sums over different robots have no best one.
         """
-        units, fleets = self.plans[0].scenario.units, [_names(plan) for plan in self.plans]
+        units, fleets = self.plans[0].scenario.units, [_list_names(plan) for plan in self.plans]
         plans = list(map(self._list_figures, self.plans, self.scales))
         is_one_fleet = all(fleet == fleets[0] for fleet in fleets)
         return {
@@ -64,12 +64,12 @@ class Comparison:
             "scales": list(self.scales),
             "plans": plans,
             "best": {
-                key: _best(plans, key) if is_one_fleet or key == "seconds" else []
+                key: _find_best(plans, key) if is_one_fleet or key == "seconds" else []
                 for key in SMALLER_IS_BETTER
             },
             "robots": [
                 {"name": name, "completion": row}
-                for name, row in zip(self.robots, self._completions(), strict=True)
+                for name, row in zip(self.robots, self._list_completions(), strict=True)
             ],
         }
 
@@ -92,10 +92,16 @@ class Comparison:
             "robots": len(plan.scenario.robots),
         }
 
-    def _completions(self) -> Iterator[list[int | None]]:
+    def _list_completions(self) -> Iterator[list[int | None]]:
         """Yield the completion of each robot in each plan."""
         columns = [
-            dict(zip(_names(plan), (scale * int(ticks) for ticks in plan.completions), strict=True))
+            dict(
+                zip(
+                    _list_names(plan),
+                    (scale * int(ticks) for ticks in plan.completions),
+                    strict=True,
+                )
+            )
             for plan, scale in zip(self.plans, self.scales, strict=True)
         ]
         for name in self.robots:
@@ -140,16 +146,16 @@ def compare(plans: Sequence[Plan], titles: Sequence[str] = ()) -> Comparison:
         plans=tuple(plans),
         tick=common,
         scales=tuple(int(tick / common) for tick in ticks),
-        robots=tuple(dict.fromkeys(name for plan in plans for name in _names(plan))),
+        robots=tuple(dict.fromkeys(name for plan in plans for name in _list_names(plan))),
         changes=tuple(find_changes(first, plan.scenario) for plan in plans),
     )
 
 
-def _names(plan: Plan) -> tuple[str, ...]:
+def _list_names(plan: Plan) -> tuple[str, ...]:
     return tuple(robot.name for robot in plan.scenario.robots)
 
 
-def _best(plans: Sequence[dict[str, Any]], key: str) -> list[int]:
+def _find_best(plans: Sequence[dict[str, Any]], key: str) -> list[int]:
     """Return where a figure is smallest; nowhere if it is the same everywhere."""
     values = {place: plan[key] for place, plan in enumerate(plans) if plan[key] is not None}
     least = min(values.values(), default=None)

@@ -168,7 +168,7 @@ def find_immediate_dominators(along: Neighbours, against: Neighbours, root: int)
     ----------
     Georgiadis, *Linear-time algorithms for dominators and related problems*, 2005: Semi-NCA.
     """
-    order, parent = _depth_first(along, root)
+    order, parent = _walk_depth_first(along, root)
     number = {vertex: index for index, vertex in enumerate(order)}
     count = len(order)
     semi, label, ancestor = list(range(count)), list(range(count)), parent[:]
@@ -199,7 +199,7 @@ def find_immediate_dominators(along: Neighbours, against: Neighbours, root: int)
     return {order[vertex]: order[dominator[vertex]] for vertex in range(1, count)}
 
 
-def _depth_first(along: Neighbours, root: int) -> tuple[list[int], list[int]]:
+def _walk_depth_first(along: Neighbours, root: int) -> tuple[list[int], list[int]]:
     """Return the vertices in the order of a depth-first search, and the number before each."""
     order, parent, seen = [root], [0], {root}
     stack = [(0, iter(along[root]))]
@@ -293,7 +293,7 @@ def find_corridors(ways: Ways) -> list[Corridor]:
 def measure_distances_from(ways: Ways, source: int) -> tuple[list[int], dict[int, int]]:
     """Return the vertices that a source reaches, by distance, and their distances [steps]."""
     if ways.even:
-        return _levels_from(ways, source)
+        return _measure_levels_from(ways, source)
     distance, order, settled = {source: 0}, list[int](), set[int]()
     queue = [(0, source)]
     while queue:
@@ -310,7 +310,7 @@ def measure_distances_from(ways: Ways, source: int) -> tuple[list[int], dict[int
     return order, distance
 
 
-def _levels_from(ways: Ways, source: int) -> tuple[list[int], dict[int, int]]:
+def _measure_levels_from(ways: Ways, source: int) -> tuple[list[int], dict[int, int]]:
     """Do what `measure_distances_from` does where all edges have one length: level after level."""
     distance, order, level, gone = {source: 0}, list[int](), [source], 0
     while level:
@@ -322,7 +322,7 @@ def _levels_from(ways: Ways, source: int) -> tuple[list[int], dict[int, int]]:
     return order, distance
 
 
-def _before(ways: Ways, vertex: int, distance: Mapping[int, int]) -> list[int]:
+def _list_before(ways: Ways, vertex: int, distance: Mapping[int, int]) -> list[int]:
     """Return the vertices from which shortest ways enter a vertex."""
     at, tails = distance[vertex], ways.against[vertex]
     if ways.even:
@@ -357,7 +357,7 @@ def measure_route_load(ways: Ways, trips: Mapping[int, Mapping[int, float]]) -> 
             if not passing and not ending:
                 continue
             load[vertex] += passing
-            before = _before(ways, vertex, distance)
+            before = _list_before(ways, vertex, distance)
             for tail in before:
                 own[tail] += (passing + ending) / len(before)
     return dict(load)

@@ -76,21 +76,21 @@ def list_events(plan: Plan) -> tuple[Event, ...]:
     return tuple(
         event
         for robot, stay in enumerate(stays)
-        for event in _events_of(plan, robot, stay, of_robot[robot])
+        for event in _list_events_of(plan, robot, stay, of_robot[robot])
     )
 
 
-def _events_of(plan: Plan, robot: int, stay: Stays, losses: Sequence[Loss]) -> Iterator[Event]:
+def _list_events_of(plan: Plan, robot: int, stay: Stays, losses: Sequence[Loss]) -> Iterator[Event]:
     track = plan.tracks[robot]
-    purposes = _purposes(plan.scenario, robot, stay, len(track))
+    purposes = _list_purposes(plan.scenario, robot, stay, len(track))
     enters = track.enter.tolist()
     waited = [loss for loss in losses if loss.kind != "makes room"]
     room = [loss for loss in losses if loss.kind == "makes room"]
     columns = (track.vertices, stay.dwell, stay.waits, stay.turns)
     rows = zip(*(column.tolist() for column in columns), strict=True)
     for visit, (vertex, dwell, waiting, turns) in enumerate(rows):
-        reason = _holding(waited, enters[visit] + dwell) if waiting else None
-        idle = "make room" if _holding(room, enters[visit]) else "drive through"
+        reason = _find_holding(waited, enters[visit] + dwell) if waiting else None
+        idle = "make room" if _find_holding(room, enters[visit]) else "drive through"
         purpose = purposes.get(visit) or ("wait" if waiting else idle)
         if turns and not purpose.endswith("turn"):
             purpose = "turn" if purpose == "drive through" else f"{purpose}, turn"
@@ -107,13 +107,13 @@ def _events_of(plan: Plan, robot: int, stay: Stays, losses: Sequence[Loss]) -> I
         )
 
 
-def _holding(losses: Sequence[Loss], tick: int) -> Loss | None:
+def _find_holding(losses: Sequence[Loss], tick: int) -> Loss | None:
     """Return the loss that a tick is in; they are in order of time and do not overlap."""
     index = bisect_right(losses, tick, key=lambda loss: loss.tick) - 1
     return losses[index] if index >= 0 and tick < losses[index].end else None
 
 
-def _purposes(scenario: Scenario, robot: int, stay: Stays, n_visits: int) -> dict[int, str]:
+def _list_purposes(scenario: Scenario, robot: int, stay: Stays, n_visits: int) -> dict[int, str]:
     """Return what a robot does in those visits that are more than a drive through."""
     stages, n_stops = scenario.problem.itineraries[robot].stages, len(scenario.robots[robot].stops)
     ends_at_home = (scenario.robots[robot].ends or scenario.rules.ends) == "home"

@@ -81,7 +81,7 @@ def find_forced_losses(
     add up. Deterministic without a time limit.
     """
     deadline = Deadline.after(require_time_limit(time_limit))
-    tracks = _alone(scenario, deadline)
+    tracks = _plan_alone(scenario, deadline)
     if tracks is None:
         return ()
     search, objective = ConflictBasedSearch(scenario.problem), choose_objective(scenario)
@@ -95,7 +95,7 @@ def find_forced_losses(
         return Tick(0 if least is None else max(least - sum(alone[robot] for robot in robots), 0))
 
     forced = dict[Robots, ForcedLoss]()
-    for robots, vertex in list(_meetings(scenario, tracks).items())[:pairs]:
+    for robots, vertex in list(_find_meetings(scenario, tracks).items())[:pairs]:
         if ticks := measure_loss(robots):
             forced[robots] = ForcedLoss(
                 robots=robots, ticks=ticks, vertex=vertex, objective=objective
@@ -146,7 +146,7 @@ def find_forced_makespan(
     Deterministic without a time limit.
     """
     deadline = Deadline.after(require_time_limit(time_limit))
-    tracks = None if scenario.roadmap.has_surcharges else _alone(scenario, deadline)
+    tracks = None if scenario.roadmap.has_surcharges else _plan_alone(scenario, deadline)
     if tracks is None or makespan < 1:
         return ()
     search = ConflictBasedSearch(scenario.problem, latest=makespan - 1)
@@ -159,7 +159,7 @@ def find_forced_makespan(
     completions = compute_completions(scenario, tracks)
     late = [robot for robot, completion in enumerate(completions) if completion >= makespan]
     lone: Places = {(robot,): scenario.robots[robot].stops[-1].at for robot in late}
-    meetings = dict(list(_meetings(scenario, tracks).items())[:pairs])
+    meetings = dict(list(_find_meetings(scenario, tracks).items())[:pairs])
     for groups in chain([lone], _list_larger_groups(meetings, pairs)):
         forced = [robots for robots in groups if is_forced(robots)]
         if forced:
@@ -217,7 +217,7 @@ def _sum_of_disjoint(pairs: Mapping[Robots, ForcedLoss]) -> int:
     return most
 
 
-def _alone(scenario: Scenario, deadline: Deadline) -> list[Track] | None:
+def _plan_alone(scenario: Scenario, deadline: Deadline) -> list[Track] | None:
     """Return the track of least cost of each robot alone; None if one has none, or time is up."""
     bookings, tracks = Bookings(scenario.problem), list[Track]()
     distances = Distances(scenario.roadmap)
@@ -234,7 +234,7 @@ def _alone(scenario: Scenario, deadline: Deadline) -> list[Track] | None:
     return tracks
 
 
-def _meetings(scenario: Scenario, tracks: list[Track]) -> Places:
+def _find_meetings(scenario: Scenario, tracks: list[Track]) -> Places:
     """Return the pairs that meet on their tracks, and where they do first, in order of time."""
     of_points = [(hit.start, hit.robots, hit.vertex) for hit in find_collisions(scenario, tracks)]
     head_on = [(swap.tick, swap.robots, swap.vertices[0]) for swap in find_swaps(tracks)]

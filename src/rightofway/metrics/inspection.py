@@ -80,14 +80,14 @@ def inspect(site: Site) -> Inspection:
     apart = find_separations(ways, places[::step])
     load, total, sampled = _load(site, ways, parts[0], places)
     findings = [
-        *_odd_sizes(site),
-        *_impossible_trips(site, ways, parts),
-        *_narrow_trips(site, ways),
-        *_outside(site, ways, parts),
+        *_find_odd_sizes(site),
+        *_find_impossible_trips(site, ways, parts),
+        *_find_narrow_trips(site, ways),
+        *_find_outside(site, ways, parts),
         *find_nearness(site, ways.joints),
-        *_on_the_way(site, ways, main, apart, load=load, total=total),
-        *_corridors(site, ways, main, load, total),
-        *_bottlenecks(site, ways, load, total, named=len(places) > 1),
+        *_find_on_the_way(site, ways, main, apart, load=load, total=total),
+        *_find_corridors(site, ways, main, load, total),
+        *_find_bottlenecks(site, ways, load, total, named=len(places) > 1),
     ]
     pairs = {(tail, head) for tail, heads in enumerate(ways.along) for head in heads}
     return Inspection(
@@ -112,11 +112,15 @@ def _load(
             if {start, goal} <= inside:
                 trips[start][goal] = count
     else:
-        ends = places if len(places) > 1 else _spread(_by_nearness(site.roadmap, part), SPREAD)
+        ends = (
+            places
+            if len(places) > 1
+            else _sample_evenly(_sort_by_nearness(site.roadmap, part), SPREAD)
+        )
         trips.update({start: {goal: 1 for goal in ends if goal != start} for start in ends})
     size = len(ways.along) + sum(map(len, ways.along))
     most = max(FEWEST_SOURCES, EFFORT // max(size, 1))
-    chosen = _spread(sorted(trips), most)
+    chosen = _sample_evenly(sorted(trips), most)
     taken = {start: trips[start] for start in chosen}
     total = sum(sum(goals.values()) for goals in taken.values())
     sources = len(trips) if site.robots or len(places) > 1 else len(part)
@@ -124,13 +128,13 @@ def _load(
     return measure_route_load(ways, taken), total, (len(chosen), sources) if is_sampled else None
 
 
-def _spread(vertices: Sequence[int], most: int) -> list[int]:
+def _sample_evenly(vertices: Sequence[int], most: int) -> list[int]:
     """Return at most ``most`` of some vertices, spread over them."""
     count = min(most, len(vertices))
     return [vertices[k * len(vertices) // count] for k in range(count)]
 
 
-def _by_nearness(roadmap: Roadmap, vertices: Sequence[int]) -> list[int]:
+def _sort_by_nearness(roadmap: Roadmap, vertices: Sequence[int]) -> list[int]:
     """Return vertices so that neighbours in the list are near on the map: in Morton's order."""
     at = roadmap.positions[list(vertices)]
     low, span = at.min(axis=0), np.ptp(at, axis=0).max() or 1
@@ -141,7 +145,9 @@ def _by_nearness(roadmap: Roadmap, vertices: Sequence[int]) -> list[int]:
     return [vertices[at] for at in np.argsort(keys, kind="stable").tolist()]
 
 
-def _impossible_trips(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator[Finding]:
+def _find_impossible_trips(
+    site: Site, ways: Ways, parts: Sequence[Sequence[int]]
+) -> Iterator[Finding]:
     """Yield the drives that no way leads along."""
     part_of = {vertex: number for number, part in enumerate(parts) for vertex in part}
     for index, robot in enumerate(site.robots):
@@ -159,13 +165,13 @@ def _impossible_trips(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) ->
                 )
 
 
-def _odd_sizes(site: Site) -> Iterator[Finding]:
+def _find_odd_sizes(site: Site) -> Iterator[Finding]:
     """Yield sizes that only another unit explains."""
     for fact, remedy in find_odd_sizes(site, site.radii[0]):
         yield Finding(kind="scale", severity="warning", fact=fact, remedy=remedy)
 
 
-def _narrow_trips(site: Site, ways: Ways) -> Iterator[Finding]:
+def _find_narrow_trips(site: Site, ways: Ways) -> Iterator[Finding]:
     """Yield for each radius the robots that walls keep from their places, and the room they leave.
 
     Ways of a grid lead in both directions.
@@ -217,7 +223,7 @@ def _find_robots_kept_out(site: Site, ways: Ways, radius: Fraction) -> dict[int,
     return barred_trips
 
 
-def _outside(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator[Finding]:
+def _find_outside(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator[Finding]:
     """Yield what cannot be reached or left from the largest part, in connected pieces."""
     main = parts[0]
     ahead = set(reach_from(main, ways.along, lambda _: True))
@@ -268,7 +274,7 @@ def _describe_piece(site: Site, piece: Sequence[int], own: Sequence[int]) -> Fac
     return Fact("places", places=tuple(own or piece))
 
 
-def _on_the_way(
+def _find_on_the_way(
     site: Site,
     ways: Ways,
     main: set[int],
@@ -329,7 +335,7 @@ def _is_busy(load: Mapping[int, float], total: float, vertex: int) -> bool:
     return load.get(vertex, 0) >= max(float(BUSY) * total, 2)
 
 
-def _corridors(
+def _find_corridors(
     site: Site, ways: Ways, main: set[int], load: Mapping[int, float], total: float
 ) -> Iterator[Finding]:
     """Yield the corridors without a passing place that most shortest routes use."""
@@ -344,8 +350,8 @@ def _corridors(
     busiest = sorted(long_ones, key=lambda corridor: (-use(corridor), -corridor.steps))
     for corridor in busiest[:LISTED_CORRIDORS]:
         ends, inside = corridor.ends, set(corridor.inside)
-        first = set(reach_from(ends[:1], ways.along, _outside_of(inside)))
-        using = _using(site, first, inside)
+        first = set(reach_from(ends[:1], ways.along, _make_outside_test(inside)))
+        using = _list_using(site, first, inside)
         is_only = ends[1] not in first
         if site.robots and is_only:
             if len(using) < 2:  # noqa: PLR2004 - a robot alone meets nobody
@@ -373,11 +379,11 @@ def _corridors(
         )
 
 
-def _outside_of(inside: set[int]) -> Callable[[int], bool]:
+def _make_outside_test(inside: set[int]) -> Callable[[int], bool]:
     return lambda vertex: vertex not in inside
 
 
-def _using(site: Site, side: set[int], inside: set[int]) -> list[str]:
+def _list_using(site: Site, side: set[int], inside: set[int]) -> list[str]:
     """Return the robots that have places in a corridor, or on both sides of it."""
     findings = []
     for robot in site.robots:
@@ -387,7 +393,7 @@ def _using(site: Site, side: set[int], inside: set[int]) -> list[str]:
     return findings
 
 
-def _bottlenecks(
+def _find_bottlenecks(
     site: Site, ways: Ways, load: Mapping[int, float], total: float, *, named: bool
 ) -> Iterator[Finding]:
     """Yield the busiest vertex of each connected set of vertices that many shortest routes pass."""

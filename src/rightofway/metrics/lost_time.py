@@ -64,10 +64,10 @@ def compute_lost_time(plan: Plan) -> tuple[LostTime, ...]:
     NoPlanExists
         If no way leads from one place of a robot's trip to the next.
     """
-    return require_plan(plan).compute_once("lost time", lambda: _lost_time(plan))
+    return require_plan(plan).compute_once("lost time", lambda: _measure_lost_time(plan))
 
 
-def _lost_time(plan: Plan) -> tuple[LostTime, ...]:
+def _measure_lost_time(plan: Plan) -> tuple[LostTime, ...]:
     scenario, tracks, alone = plan.scenario, plan.tracks, measure(plan).alone
     stays = plan.stays
     drive = np.concatenate([stay.drive for stay in stays])
@@ -81,11 +81,11 @@ def _lost_time(plan: Plan) -> tuple[LostTime, ...]:
         waiting = sum(loss.ticks for loss in own)
         driven = stay.completion - alone[robot] - waiting  # beyond the shortest trip
         itinerary = scenario.problem.itineraries[robot]
-        turning = int((stay.dwell - stay.turns).sum()) - _least_dwell_of_trip(itinerary)
-        room = list(_room_made(robot, track, stay, bookings, turning)) if driven else []
+        turning = int((stay.dwell - stay.turns).sum()) - _compute_least_dwell_of_trip(itinerary)
+        room = list(_find_room_made(robot, track, stay, bookings, turning)) if driven else []
         if itinerary.turning is not None:
             edges = scenario.roadmap.find_edges(track.vertices[:-1], track.vertices[1:])
-            room = list(_with_turns(room, track, stay, itinerary.turning, edges))
+            room = list(_add_turns(room, track, stay, itinerary.turning, edges))
         making_room = sum(loss.ticks for loss in room)
         lost = LostTime(
             robot=robot,
@@ -115,10 +115,10 @@ def join_waits(
         The parts of their visits.
     """
     require_one_for_each(scenario.robots, tracks=tracks, stays=stays)
-    return tuple(_joined_waits(scenario, tracks, stays))
+    return tuple(_join_waits(scenario, tracks, stays))
 
 
-def _joined_waits(
+def _join_waits(
     scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
 ) -> Iterator[Loss]:
     lengths = np.array([len(track) for track in tracks])
@@ -131,19 +131,19 @@ def _joined_waits(
     ]
     frees = find_freeing_visits(scenario, tracks, stays)
     visits = np.flatnonzero(waiting > 0)
-    bound = _next_bound(frees, robot)[visits + 1]
+    bound = _find_next_bound(frees, robot)[visits + 1]
     joined: list[Bound] = []  # visits: of the wait, bound by the other robot, its own
     for visit, own in zip(visits.tolist(), bound.tolist(), strict=True):
         wait = (visit, own, NOBODY if own == NOBODY else int(frees[own]))
         if joined and not _go_together(joined[-1], wait, vertex, robot):
-            yield _joined(joined, robot, vertex, begin, waiting)
+            yield _join_wait(joined, robot, vertex, begin, waiting)
             joined = []
         joined.append(wait)
     if joined:
-        yield _joined(joined, robot, vertex, begin, waiting)
+        yield _join_wait(joined, robot, vertex, begin, waiting)
 
 
-def _next_bound(frees: NDArray[np.int64], robot: NDArray[np.int64]) -> NDArray[np.int64]:
+def _find_next_bound(frees: NDArray[np.int64], robot: NDArray[np.int64]) -> NDArray[np.int64]:
     """Return, for each visit, the first from it on that another robot's leaving makes possible."""
     last = len(frees)
     bound = np.where(frees == NOBODY, last, np.arange(last))
@@ -173,7 +173,7 @@ def _go_together(
     return bool(is_own) and vertex[run] == vertex[leader : next_leader + 1]
 
 
-def _joined(
+def _join_wait(
     waits: Sequence[Bound],
     robot: NDArray[np.int64],
     vertex: Sequence[int],
@@ -197,7 +197,7 @@ def _joined(
     )
 
 
-def _room_made(
+def _find_room_made(
     robot: int, track: Track, stay: Stays, bookings: BookedPlaces, turning: int
 ) -> Iterator[Loss]:
     """Yield the drives of one robot away from a vertex and back to it, between its stops.
@@ -219,7 +219,7 @@ def _room_made(
                 yield Loss(
                     kind="makes room",
                     robot=robot,
-                    for_robot=_visitor(bookings, robot, vertices[visit], leave, until),
+                    for_robot=_find_visitor(bookings, robot, vertices[visit], leave, until),
                     vertex=VertexId(vertices[visit]),
                     until_vertex=VertexId(vertices[visit]),
                     towards=VertexId(vertices[visit + 1]),
@@ -232,7 +232,7 @@ def _room_made(
             visit = back + 1
 
 
-def _with_turns(
+def _add_turns(
     room: Sequence[Loss], track: Track, stay: Stays, turning: Turning, edges: NDArray[np.int32]
 ) -> Iterator[Loss]:
     """Yield the drives of one robot that make room, their turns included.
@@ -250,7 +250,9 @@ def _with_turns(
             yield replace(loss, ticks=Tick(ticks))
 
 
-def _visitor(bookings: BookedPlaces, robot: int, vertex: int, leave: int, until: int) -> int | None:
+def _find_visitor(
+    bookings: BookedPlaces, robot: int, vertex: int, leave: int, until: int
+) -> int | None:
     """Return the first other robot that books a vertex while a robot is away."""
     # Of the same type: for Python's numbers numpy would copy all bookings of the fleet.
     places = np.array((vertex, vertex + 1), bookings.vertex.dtype)
@@ -263,7 +265,7 @@ def _visitor(bookings: BookedPlaces, robot: int, vertex: int, leave: int, until:
     return int(bookings.robot[first:after][inside][0]) if inside.any() else None
 
 
-def _least_dwell_of_trip(itinerary: Itinerary) -> int:
+def _compute_least_dwell_of_trip(itinerary: Itinerary) -> int:
     """Return the least ticks of all visits of a trip, without drives and turns to them."""
     visits = [list(stages) for _, stages in groupby(itinerary.stages, lambda stage: stage.vertex)]
     moving = sum(compute_least_dwell(stages, leaves=True) for stages in visits[:-1])

@@ -84,7 +84,7 @@ def measure(plan: Plan) -> Metrics:
     NoPlanExists
         If no way leads from one place of a robot's trip to the next, so that there is no bound.
     """
-    return require_plan(plan).compute_once("metrics", lambda: _measured(plan))
+    return require_plan(plan).compute_once("metrics", lambda: _measure_plan(plan))
 
 
 def get_own_outcome(plan: Plan) -> Outcome | None:
@@ -103,7 +103,7 @@ def get_own_outcome(plan: Plan) -> Outcome | None:
     return outcome if is_true else None
 
 
-def _measured(plan: Plan) -> Metrics:
+def _measure_plan(plan: Plan) -> Metrics:
     stays = plan.stays
     completions = tuple(stay.completion for stay in stays)
     alone = plan.run.alone or compute_alone_completions(plan.scenario)

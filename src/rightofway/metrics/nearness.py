@@ -36,11 +36,11 @@ def find_nearness(site: Site, joints: frozenset[int]) -> Iterator[Finding]:
 
     Joints between pieces of a lane are no vertices: what is near to one is near to the lane.
     """
-    yield from _beside_walls(site)
-    yield from _near(site, joints)
+    yield from _find_beside_walls(site)
+    yield from _find_near(site, joints)
 
 
-def _beside_walls(site: Site) -> Iterator[Finding]:
+def _find_beside_walls(site: Site) -> Iterator[Finding]:
     """Yield for each radius where a robot would reach into the walls of a grid."""
     roadmap = site.roadmap
     if roadmap.grid is None or site.rules.walls == "strict":
@@ -61,7 +61,7 @@ def _beside_walls(site: Site) -> Iterator[Finding]:
             )
 
 
-def _near(site: Site, joints: frozenset[int]) -> Iterator[Finding]:
+def _find_near(site: Site, joints: frozenset[int]) -> Iterator[Finding]:
     """Yield vertices and lanes that are nearer than the robots are wide, and lanes that cross."""
     roadmap, room = site.roadmap, site.room
     need = _find_need(site) if room else None
@@ -83,7 +83,7 @@ def _near(site: Site, joints: frozenset[int]) -> Iterator[Finding]:
             )
         return
     pairs, near_lanes = _find_drawn_pairs(roadmap, room or TOUCHING, joints)
-    yield from _near_vertices(site, pairs, need)
+    yield from _find_near_vertices(site, pairs, need)
     for vertex, (tail, head) in pairs.beside:
         if roadmap.is_along_one_lane((vertex, tail, head)):
             continue
@@ -204,12 +204,12 @@ def find_smallest_cell(roadmap: Roadmap) -> Fraction | None:
     return None if roadmap.sides is None else min(roadmap.sides)
 
 
-def _near_vertices(site: Site, pairs: ClosePairs, need: Fact | None) -> Iterator[Finding]:
+def _find_near_vertices(site: Site, pairs: ClosePairs, need: Fact | None) -> Iterator[Finding]:
     roadmap = site.roadmap
     for first, other in pairs.vertices:
         if roadmap.is_along_one_lane((first, other)):
             continue
-        both_homes = _homes_clash(site, first, other)
+        both_homes = _has_home_clash(site, first, other)
         is_joined = (
             roadmap.find_edge(first, other) is not None
             or roadmap.find_edge(other, first) is not None
@@ -232,7 +232,7 @@ def _near_vertices(site: Site, pairs: ClosePairs, need: Fact | None) -> Iterator
         )
 
 
-def _homes_clash(site: Site, first: int, other: int) -> bool:
+def _has_home_clash(site: Site, first: int, other: int) -> bool:
     """Whether robots live at two vertices that are nearer than just these robots need."""
     radius = {int(robot.home): robot.radius for robot in site.robots}
     if not {first, other} <= radius.keys() or not radius[first] + radius[other]:

@@ -41,19 +41,19 @@ def bind_lists(resources: Resources) -> _core.ExcludedRows | None:
     resources
         The resources of a fleet.
     """
-    return None if resources.are_points else _known_lists(resources)
+    return None if resources.are_points else _find_known_lists(resources)
 
 
-def _known_lists(resources: Resources) -> _core.ExcludedRows:
+def _find_known_lists(resources: Resources) -> _core.ExcludedRows:
     lists = _KNOWN.get(resources)
     if lists is None:  # it takes long to compare roadmaps
-        lists = _lists_of(resources.roadmap, resources.sizes, resources.clearance)
+        lists = _make_lists(resources.roadmap, resources.sizes, resources.clearance)
         _KNOWN[resources] = lists
     return lists
 
 
 @lru_cache(maxsize=8)
-def _lists_of(
+def _make_lists(
     roadmap: Roadmap, sizes: tuple[Fraction, ...], clearance: Fraction
 ) -> _core.ExcludedRows:
     """Return the lists of a fleet; problems that differ in their robots alone share them."""
@@ -63,7 +63,7 @@ def _lists_of(
         for other_radius in sizes
     ]
     whole, scale = scale_positions(roadmap, distances)
-    x, y = map(_from_the_least, (whole[::2], whole[1::2]))
+    x, y = map(_shift_to_zero, (whole[::2], whole[1::2]))
     needed = [int(distance * scale) for distance in distances]
     n_bits = max(*x, *y, *needed).bit_length()
     n_limbs = max(1, -(-n_bits // LIMB))
@@ -82,11 +82,11 @@ def _lists_of(
         _core.Drawing(
             np.array([coordinate / scale for coordinate in x], np.float64),
             np.array([coordinate / scale for coordinate in y], np.float64),
-            _limbs(chain.from_iterable(zip(x, y, strict=True)), n_limbs),
+            _split_into_limbs(chain.from_iterable(zip(x, y, strict=True)), n_limbs),
             is_grid=roadmap.grid is not None,
         ),
         distance=np.array([float(distance) for distance in distances], np.float64),
-        distance_limbs=_limbs(needed, n_limbs),
+        distance_limbs=_split_into_limbs(needed, n_limbs),
         zone_first=np.array([0, *accumulate(map(len, members))], np.int32),
         zone_member=np.array(list(chain.from_iterable(members)), np.int32),
         chain_first=np.array([0, *accumulate(map(len, chains))], np.int32),
@@ -94,12 +94,12 @@ def _lists_of(
     )
 
 
-def _from_the_least(axis: Sequence[int]) -> list[int]:
+def _shift_to_zero(axis: Sequence[int]) -> list[int]:
     least = min(axis)
     return [coordinate - least for coordinate in axis]
 
 
-def _limbs(numbers: Iterable[int], n_limbs: int) -> NDArray[np.uint32]:
+def _split_into_limbs(numbers: Iterable[int], n_limbs: int) -> NDArray[np.uint32]:
     """Return numbers that are not negative in limbs of 32 bits, the least first."""
     text = b"".join(number.to_bytes(4 * n_limbs, "little") for number in numbers)
     return np.frombuffer(text, np.dtype("<u4")).astype(np.uint32)
@@ -117,7 +117,7 @@ def list_excluded(resources: Resources, row: int) -> list[int]:
     """
     if resources.are_points:
         return [row] if row < resources.n_vertices else []
-    excluded: list[int] = _known_lists(resources).of(row).tolist()
+    excluded: list[int] = _find_known_lists(resources).of(row).tolist()
     return excluded
 
 

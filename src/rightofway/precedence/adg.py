@@ -220,7 +220,7 @@ class ActionDependencyGraph:
             bind_rules(scenario.problem.booking_rules),
             _core.Routes(self.first_visit, self.vertex, self.dwell, self.drive),
             _core.Order(self.planned, begins, first, self.since),
-            _kernel_of(delay_model),
+            _make_kernel(delay_model),
             bind_rows(BookedRows.of(scenario.problem, [route.vertices for route in self.routes])),
             bind_closures(ClosedPlaces.of(scenario.problem, self.routes)),
         )
@@ -315,7 +315,7 @@ def order_of(vertex: NDArray[np.int32], when: NDArray[np.int64]) -> Pairs:
     return np.column_stack((first[by_second], second[by_second]))
 
 
-def _kernel_of(delays: DelayModel) -> _core.DelayModel:
+def _make_kernel(delays: DelayModel) -> _core.DelayModel:
     stoppages = list(chain(*delays.stoppages))
     return _core.DelayModel(
         np.array(delays.pace, np.float64),

@@ -167,7 +167,7 @@ class PrecedenceGraph:
         Each robot would have waited for the next, the last robot for the first. Empty if another
         reason made the right of way impossible.
         """
-        robots = [self._robot[visit] for visit in self._refused_cycle()]
+        robots = [self._robot[visit] for visit in self._find_refused_cycle()]
         return [robot for robot, _ in groupby(reversed(robots))]
 
     def list_deadlocking_rights(self) -> list[tuple[Visit, Visit]]:
@@ -177,11 +177,11 @@ class PrecedenceGraph:
         """
         return [
             (first_visit - 1, other)
-            for first_visit, other in pairwise(self._refused_cycle())
+            for first_visit, other in pairwise(self._find_refused_cycle())
             if self._robot[first_visit] != self._robot[other]
         ]
 
-    def _refused_cycle(self) -> list[Visit]:
+    def _find_refused_cycle(self) -> list[Visit]:
         return [] if self._delays_frozen else self._kernel.cycle().tolist()
 
     def keep_order(self, when: Sequence[Sequence[int] | NDArray[np.int64]]) -> None:
@@ -220,7 +220,7 @@ class PrecedenceGraph:
         """Return the segment around two visits that are in conflict if both are at one time."""
         (i, index_i), (j, index_j) = self.place(visit), self.place(other)
         if self._has_sizes:
-            segment = self._segments_of(i, j).find(index_i, index_j)
+            segment = self._list_segments(i, j).find(index_i, index_j)
             assert segment is not None, "the visits exclude each other"
             return segment
         return find_shared_segment(self.routes[i], index_i, self.routes[j], index_j)
@@ -230,7 +230,7 @@ class PrecedenceGraph:
         if not self._has_sizes:
             return self.find_segment(first, second)
         (i, index_i), (j, starts) = self.place(first), self.place(second)
-        segments = self._segments_of(i, j)
+        segments = self._list_segments(i, j)
         return next(
             segment
             for index_j in (starts, starts - 1)
@@ -238,7 +238,7 @@ class PrecedenceGraph:
             and (index_i, starts) in segment.list_meetings()
         )
 
-    def _segments_of(self, i: int, j: int) -> LinkedSegments:
+    def _list_segments(self, i: int, j: int) -> LinkedSegments:
         """Return the segments of two robots, by the indices of the visits in them."""
         if (i, j) not in self._segments:
             begins = np.array([self.get_visit(i, 0), self.get_visit(j, 0)] * 2, np.int32)
@@ -269,13 +269,13 @@ class PrecedenceGraph:
 
     def find_next_meeting(self) -> Meeting | None:
         """Return the earliest conflict in the system, or None."""
-        return self._meeting(self._kernel.next_conflict())
+        return self._convert_meeting(self._kernel.next_conflict())
 
     def find_next_meeting_of(self, i: int, j: int) -> Meeting | None:
         """Return the earliest conflict of two robots, or None."""
-        return self._meeting(self._kernel.next_conflict_between(i, j))
+        return self._convert_meeting(self._kernel.next_conflict_between(i, j))
 
-    def _meeting(self, meeting: tuple[int, int, int, int] | None) -> Meeting | None:
+    def _convert_meeting(self, meeting: tuple[int, int, int, int] | None) -> Meeting | None:
         if meeting is None:
             return None
         tick, kind, first, other = meeting

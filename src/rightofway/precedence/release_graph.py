@@ -84,7 +84,7 @@ class ReleaseGraph:
         firsts
             The number of the first visit of each track, 0 if left out.
         """
-        uses = [_uses_of(scenario, robot, track) for robot, track in enumerate(tracks)]
+        uses = [_list_uses(scenario, robot, track) for robot, track in enumerate(tracks)]
         order = defaultdict[int, list[_Use]](list)  # the uses of each row, by begin
         for use in (use for own in uses for use in own):
             order[use.row].append(use)
@@ -96,7 +96,7 @@ class ReleaseGraph:
                 Arrival(other, firsts[other] + visit) for other, visit in arrivals
             ]
             for robot, own in enumerate(uses)
-            for number, arrivals in _waits_of(scenario, robot, own, order).items()
+            for number, arrivals in _list_waits(scenario, robot, own, order).items()
         }
         ends = [first + len(track) for first, track in zip(firsts, tracks, strict=True)]
         return cls(ends, waits, firsts)
@@ -158,7 +158,7 @@ class ReleaseGraph:
         a plan cannot be released part by part. Every other plan can, to its end.
         """
         before = {
-            Part(robot, number): self._released_before(Part(robot, number))
+            Part(robot, number): self._list_released_before(Part(robot, number))
             for robot, (first, end) in enumerate(zip(self.firsts, self.ends, strict=True))
             for number in range(first, end)
         }
@@ -184,7 +184,7 @@ class ReleaseGraph:
             part = min(awaited for awaited in before[part] if awaited in open_arcs)
         return tuple(walked[walked.index(part) :])
 
-    def _released_before(self, part: Part) -> set[Part]:
+    def _list_released_before(self, part: Part) -> set[Part]:
         """Return the parts that are released before a part: its own last one, and arrivals' own."""
         first = self.firsts[part.robot]
         own = [Part(part.robot, part.number - 1)] if part.number > first else []
@@ -205,7 +205,7 @@ class _Use(NamedTuple):
     is_vertex: bool
 
 
-def _uses_of(scenario: Scenario, robot: int, track: Track) -> list[_Use]:
+def _list_uses(scenario: Scenario, robot: int, track: Track) -> list[_Use]:
     """Return what a robot books: each vertex and each edge."""
     resources, roadmap = scenario.problem.resources, scenario.roadmap
     vertices, enter = track.vertices.tolist(), track.enter.tolist()
@@ -226,7 +226,7 @@ def _uses_of(scenario: Scenario, robot: int, track: Track) -> list[_Use]:
     return uses
 
 
-def _waits_of(
+def _list_waits(
     scenario: Scenario, robot: int, own: Sequence[_Use], order: Mapping[int, Sequence[_Use]]
 ) -> dict[int, list[Arrival]]:
     """Return the arrivals that each part of a robot waits for."""

@@ -92,18 +92,20 @@ class Segment:
 
         Only those that the others do not imply, in the order of j.
         """
-        return [(i, j) for j, i in _implying(zip(self.j_starts, map(neg, self.i), strict=True))]
+        return [
+            (i, j) for j, i in _list_implying(zip(self.j_starts, map(neg, self.i), strict=True))
+        ]
 
     def list_rights_of_j(self) -> list[tuple[int, int]]:
         """Return the visits (of i, of j) of which j's ends before i's starts if i waits."""
-        return _implying(zip(self.i_starts, map(neg, self.j), strict=True))
+        return _list_implying(zip(self.i_starts, map(neg, self.j), strict=True))
 
     def list_vertices_ahead(self, waits: int) -> tuple[VertexId, ...]:
         """Return the vertices of the robot that goes first; 0: i waits, 1: j waits."""
         return self.j_vertices if waits == 0 else self.i_vertices
 
 
-def _implying(waits: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
+def _list_implying(waits: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
     """Return (start, end before it) of those pairs whose end no earlier start waits for.
 
     Given are pairs (start, minus the end), so that sorting puts the latest end of a start first.
@@ -135,28 +137,28 @@ class LinkedSegments:
         """Return the segment of two visits, None where they do not exclude each other."""
         segment = self._segments.get((i, j))
         if segment is None and (i, j) in self._rows:
-            segment = self._link(self._pair(i, j))
+            segment = self._connect(self._make_pair(i, j))
         return segment
 
-    def _pair(self, i: int, j: int) -> IncompatiblePair:
+    def _make_pair(self, i: int, j: int) -> IncompatiblePair:
         return IncompatiblePair._make(self._pairs[self._rows[i, j]].tolist())
 
-    def _link(self, pair: IncompatiblePair) -> Segment:
+    def _connect(self, pair: IncompatiblePair) -> Segment:
         linked, seen = [pair], {(pair.i, pair.j)}
         for reached in linked:  # grows
             i, j = reached.i, reached.j
             around = [(i + di, j + dj) for di in (-1, 0, 1) for dj in (-1, 0, 1)]
-            near = [self._pair(*at) for at in around if at in self._rows and at not in seen]
+            near = [self._make_pair(*at) for at in around if at in self._rows and at not in seen]
             new = [other for other in near if reached.is_linked(other)]
             seen.update((other.i, other.j) for other in new)
             linked += new
         columns = tuple(zip(*sorted(linked), strict=True))
-        segment = _segment_of(self._first, self._other, columns)
+        segment = _make_segment(self._first, self._other, columns)
         self._segments |= dict.fromkeys(seen, segment)
         return segment
 
 
-def _segment_of(first: Route, other: Route, columns: tuple[Sequence[int], ...]) -> Segment:
+def _make_segment(first: Route, other: Route, columns: tuple[Sequence[int], ...]) -> Segment:
     i, j, i_starts, j_starts = columns
     together = len(i) * sum(map(mul, i, j)) - sum(i) * sum(j)  # above 0: i and j rise together
     kind: Literal["vertex", "head-on", "following", "crossing"] = "crossing"
@@ -187,7 +189,7 @@ def make_crossing(first: Route, i: int, other: Route, j: int) -> Segment:
     other, j
         Route of robot j and the index of its visit, to the same vertex.
     """
-    return _segment_of(first, other, ((i,), (j,), (i,), (j,)))
+    return _make_segment(first, other, ((i,), (j,), (i,), (j,)))
 
 
 def find_shared_segment(first: Route, i: int, other: Route, j: int) -> Segment:
@@ -209,7 +211,7 @@ def find_shared_segment(first: Route, i: int, other: Route, j: int) -> Segment:
         after = _run(first, i, other, j, i_step=1, j_step=1)
     i_visits = range(i - before, i + after + 1)
     j_visits = range(j - j_step * before, j + j_step * (after + 1), j_step)
-    return _segment_of(first, other, (i_visits, j_visits, i_visits, j_visits))
+    return _make_segment(first, other, (i_visits, j_visits, i_visits, j_visits))
 
 
 def _run(first: Route, i: int, other: Route, j: int, *, i_step: int, j_step: int) -> int:

@@ -77,7 +77,10 @@ def compute_sensitivity(
         If time ran out.
     """
     mask = find_tight_arcs(graph, time_limit=time_limit) if tight is None else tight
-    growth, now = _grow(graph, share), graph.find_critical_circuit(time_limit=time_limit).cycle_time
+    growth, now = (
+        _compute_growth(graph, share),
+        graph.find_critical_circuit(time_limit=time_limit).cycle_time,
+    )
     as_it_is = growth.fixed + growth.slope == graph.arcs.length[growth.of] * growth.parts
     on_critical = mask[growth.of] & as_it_is
     critical = graph.arcs.choose(growth.of[on_critical].astype(np.int32))
@@ -88,7 +91,7 @@ def compute_sensitivity(
         return circuit.cycle_time / growth.parts
 
     gain, loss = now - mean(growth.fixed), mean(growth.slope)
-    until, at_best = _reach(graph, growth, now, gain, time_limit)
+    until, at_best = _measure_reach(graph, growth, now, gain, time_limit)
     return Sensitivity(cycle_time=now, gain=gain, loss=loss, until=until, at_best=at_best)
 
 
@@ -146,11 +149,11 @@ def find_critical_circuit_without(
     GaveUp
         If time ran out.
     """
-    line = _find_line(graph, _grow(graph, share), part, time_limit)
+    line = _find_line(graph, _compute_growth(graph, share), part, time_limit)
     return Circuit(cycle_time=line.compute_period(1 - part), arcs=line.arcs.astype(np.int32))
 
 
-def _grow(graph: TimedEventGraph, share: NDArray[np.int64] | Growth) -> Growth:
+def _compute_growth(graph: TimedEventGraph, share: NDArray[np.int64] | Growth) -> Growth:
     """Return the lengths of arcs as a function of the part of a time that is left."""
     if isinstance(share, Growth):
         return share
@@ -166,7 +169,7 @@ def _find_line(
     return line
 
 
-def _reach(
+def _measure_reach(
     graph: TimedEventGraph,
     growth: Growth,
     now: Fraction,

@@ -207,7 +207,11 @@ class TimedEventGraph:
             height=self.wraps,
             first=np.full(len(self), -1, np.int32),
         )
-        rights = self._rights_of_way() if self.rows is None else self._rights_by_rows(self.rows)
+        rights = (
+            self._list_rights_of_way()
+            if self.rows is None
+            else self._list_rights_by_rows(self.rows)
+        )
         return Arcs(
             **{
                 name: np.concatenate((getattr(progress, name), getattr(rights, name)))
@@ -227,7 +231,7 @@ class TimedEventGraph:
         """The part of each arc that is the headway [ticks]; int64."""
         return np.where(self.arcs.first < 0, 0, self.rules.end(0))
 
-    def _rights_of_way(self) -> Arcs:
+    def _list_rights_of_way(self) -> Arcs:
         """Return an arc for each two visits of different robots next to each other at a vertex."""
         period = int(self.timetable.period)
         turn, tick = np.divmod(np.concatenate(self.timetable.enter), period)
@@ -250,7 +254,7 @@ class TimedEventGraph:
             first=first.astype(np.int32),
         )
 
-    def _rights_by_rows(self, rows: BookedRows) -> Arcs:
+    def _list_rights_by_rows(self, rows: BookedRows) -> Arcs:
         """Return for each start, of each other robot, an arc from its latest end before.
 
         Of two incompatible visits, that one goes first which ends first. A visit ends with its
@@ -284,9 +288,9 @@ class TimedEventGraph:
         by_start = np.column_stack((np.arange(n), n + before)).ravel()
         n_answers = np.cumsum(np.diff(n_asked[first])[at_used][by_start])[1::2]
         parts = []
-        for some in np.split(by_start, 2 * _parts(n_answers, MOST_ANSWERS)):
-            of_asked, at = _ranges(first[at_used[some]], first[at_used[some] + 1])
-            again, of = _ranges(robots_at[0][at], robots_at[1][at])
+        for some in np.split(by_start, 2 * _split_into_parts(n_answers, MOST_ANSWERS)):
+            of_asked, at = _expand_ranges(first[at_used[some]], first[at_used[some] + 1])
+            again, of = _expand_ranges(robots_at[0][at], robots_at[1][at])
             asks = some[of_asked[again]]
             is_other = keys[of] % n_robots != self.robot[visit[asks]]
             asks, of = asks[is_other], of[is_other]
@@ -295,7 +299,7 @@ class TimedEventGraph:
             ended = visit[order][np.where(is_earlier_round, ends[of] - 1, place)]
             rounds = turn[visit[asks]] - turn[ended] - is_earlier_round
             height = later[asks] - rounds - self.wraps[ended]
-            parts.append(self._latest_ends(start[asks], ended, height))
+            parts.append(self._find_latest_ends(start[asks], ended, height))
         head, ended, height = (np.concatenate(column) for column in zip(*parts, strict=True))
         return Arcs(
             tail=self.after[ended],
@@ -307,7 +311,7 @@ class TimedEventGraph:
             first=ended.astype(np.int32),
         )
 
-    def _latest_ends(
+    def _find_latest_ends(
         self, head: NDArray[np.int64], ended: NDArray[np.int64], height: NDArray[np.int64]
     ) -> tuple[NDArray[np.int64], ...]:
         """Return, of arcs from ends to starts, for each start the latest end of each robot.
@@ -424,13 +428,13 @@ class TimedEventGraph:
         return replace(self.timetable, period=period, enter=enter)
 
 
-def _parts(counts: NDArray[np.int64], most: int) -> NDArray[np.int64]:
+def _split_into_parts(counts: NDArray[np.int64], most: int) -> NDArray[np.int64]:
     """Return where to cut a sequence with these running totals, into parts of about ``most``."""
     cuts = np.searchsorted(counts, np.arange(most, int(counts[-1]) + 1, most))
     return np.unique(cuts)
 
 
-def _ranges(
+def _expand_ranges(
     first: NDArray[np.integer], end: NDArray[np.integer]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return all numbers of some ranges, and before them the range that each is of."""

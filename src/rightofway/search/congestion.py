@@ -79,7 +79,9 @@ class Congestion:
         """Begin for one trip of each robot: a robot that is in the way once is in the way."""
         robots, station = problem.itineraries, np.zeros(problem.roadmap.n_vertices, np.int64)
         cost = int(
-            STATION * SHARES * mean(_edges_of_trip(distances, itinerary) for itinerary in robots)
+            STATION
+            * SHARES
+            * mean(_count_edges_of_trip(distances, itinerary) for itinerary in robots)
         )
         for robot, itinerary in enumerate(robots):
             places = [itinerary.home, *(stage.vertex for stage in itinerary.stages)]
@@ -93,7 +95,7 @@ class Congestion:
         """Begin for laps: costs from the frequency of robots, and the shares of laps at stops."""
         station, oncoming = np.zeros(problem.roadmap.n_vertices, np.int64), []
         for itinerary in problem.itineraries:
-            lap = max(_ticks_of_lap(distances, itinerary), 1)
+            lap = max(_count_ticks_of_lap(distances, itinerary), 1)
             for stage in itinerary.stages:
                 stays = stage.work + stage.turn + 1
                 station[stage.vertex] += OFTEN_AT_STATION * FINE_SHARES * stays // lap
@@ -118,7 +120,7 @@ class Congestion:
         self._kernel.add(np.array(path, np.int32), oncoming)
 
 
-def _edges_of_trip(distances: Distances, itinerary: Itinerary) -> float:
+def _count_edges_of_trip(distances: Distances, itinerary: Itinerary) -> float:
     """Return about how many edges it is from home to the first stop."""
     ticks = itinerary.edge_ticks
     ticks_to_stop = int(distances.to(itinerary.stages[0].vertex, ticks)[itinerary.home])
@@ -126,7 +128,7 @@ def _edges_of_trip(distances: Distances, itinerary: Itinerary) -> float:
     return ticks_to_stop / float(all_ticks[all_ticks > 0].mean()) if ticks_to_stop else 0.0
 
 
-def _ticks_of_lap(distances: Distances, itinerary: Itinerary) -> int:
+def _count_ticks_of_lap(distances: Distances, itinerary: Itinerary) -> int:
     """Return how long a lap takes at least [ticks]."""
     place, ticks = itinerary.home, 0
     for stage in itinerary.stages:

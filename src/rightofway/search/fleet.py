@@ -75,11 +75,13 @@ class FleetSearch:
         alone: NDArray[np.int64] | None = None,
         objective: Objective = Objective.FLOWTIME,
     ) -> None:
-        n_threads = _cores() if threads is None else require_number("threads", threads, 0, 1024)
+        n_threads = (
+            _count_cores() if threads is None else require_number("threads", threads, 0, 1024)
+        )
         self._core = _core.FleetSearch(
             bind_native(problem),
             require_seed(seed),
-            n_threads or _cores(),
+            n_threads or _count_cores(),
             alone,
             _NATIVE[objective],
         )
@@ -128,9 +130,9 @@ class FleetSearch:
             When to stop [s] once the greedy attempt has a plan, if that is later.
         """
         with_fallback = time_limit if with_fallback is None else with_fallback
-        return self._core.prioritize(self._robots(order), searches, time_limit, with_fallback)
+        return self._core.prioritize(self._make_order(order), searches, time_limit, with_fallback)
 
-    def _robots(self, order: Sequence[int]) -> NDArray[np.int32]:
+    def _make_order(self, order: Sequence[int]) -> NDArray[np.int32]:
         for k, robot in enumerate(order):
             require_index(("order", k), robot, self._n_robots)
         return np.array(order, np.int32)
@@ -167,7 +169,7 @@ class FleetSearch:
         time_limit
             When to stop [s].
         """
-        return self._core.repair(self._robots(order), searches, time_limit)
+        return self._core.repair(self._make_order(order), searches, time_limit)
 
     def improve(
         self,
@@ -220,5 +222,5 @@ def list_visits(
     )
 
 
-def _cores() -> int:
+def _count_cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

@@ -19,10 +19,10 @@ from rightofway.site.walls import find_narrowest
 
 def reaches_its_places(itinerary: Itinerary, distances: Distances) -> bool:
     """Return whether a robot has a way from each place of its trip to the next."""
-    return next(_legs_without_a_way(itinerary, distances), None) is None
+    return next(_find_legs_without_a_way(itinerary, distances), None) is None
 
 
-def _legs_without_a_way(
+def _find_legs_without_a_way(
     itinerary: Itinerary, distances: Distances
 ) -> Iterator[tuple[VertexId, VertexId]]:
     places = [itinerary.home, *(stage.vertex for stage in itinerary.stages)]
@@ -47,9 +47,9 @@ def find_missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[B
             yield Blockage(reason, (name,), vertices, Fact("join the parts"))
             continue
         distances = distances or Distances(scenario.roadmap)
-        for tail, head in _legs_without_a_way(itinerary, distances):
-            if distances.to(head, _unbarred(itinerary))[tail] >= 0:
-                why, remedy = _explain_barred(scenario, robot, tail, head)
+        for tail, head in _find_legs_without_a_way(itinerary, distances):
+            if distances.to(head, _open_all_edges(itinerary))[tail] >= 0:
+                why, remedy = _describe_barred(scenario, robot, tail, head)
             elif opening := parts.find_opening(tail, head):
                 first, last = opening
                 why = Fact("one-way edge", first=first, last=last)
@@ -60,7 +60,7 @@ def find_missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[B
             yield Blockage(reason, (name,), (name_of(tail), name_of(head)), remedy)
 
 
-def _explain_barred(
+def _describe_barred(
     scenario: Scenario, robot: int, tail: VertexId, head: VertexId
 ) -> tuple[Fact, Fact]:
     """Return why a robot has no way where others have one, and a remedy.
@@ -77,7 +77,7 @@ def _explain_barred(
     return why, Fact("widen the way of robot")
 
 
-def _unbarred(itinerary: Itinerary) -> tuple[Tick, ...]:
+def _open_all_edges(itinerary: Itinerary) -> tuple[Tick, ...]:
     """Return ticks of edges, each at least 1 also where the robot is barred."""
     return tuple(max(ticks, Tick(1)) for ticks in itinerary.edge_ticks)
 

@@ -73,7 +73,7 @@ class RoundTrip:
         forbidden
             Vertices that the robot must not visit.
         """
-        stages = _with_one_home(itinerary.stages)
+        stages = _merge_home_stages(itinerary.stages)
         tables = tuple(distances.to(stage.vertex, itinerary.edge_ticks) for stage in stages)
         if forbidden:
             tables = tuple(map(np.copy, tables))
@@ -88,7 +88,7 @@ class RoundTrip:
         )
 
 
-def _with_one_home(stages: Sequence[Stage]) -> tuple[Stage, ...]:
+def _merge_home_stages(stages: Sequence[Stage]) -> tuple[Stage, ...]:
     """Return the stages with those at home at the end merged into one."""
     home = stages[-1].vertex
     at_home = list(takewhile(lambda stage: stage.vertex == home, reversed(stages)))
@@ -164,7 +164,9 @@ class PeriodicBookings:
             lists,
         )
 
-    def _visits(self, robot: int, lap: Lap, count: int) -> tuple[Visits, NDArray[np.int32] | None]:
+    def _list_visits(
+        self, robot: int, lap: Lap, count: int
+    ) -> tuple[Visits, NDArray[np.int32] | None]:
         """Return the visits of some laps, and the rows of the edges driven in."""
         vertex, dwell, drive = make_visits_of_laps(lap, count)
         if self._rows is None:
@@ -185,7 +187,7 @@ class PeriodicBookings:
 
     def add_if_free(self, robot: int, lap: Lap, count: int, enter: NDArray[np.int64]) -> bool:
         """Book as `add` does; false, with nothing booked, if a booking overlaps another robot's."""
-        visits, edges = self._visits(robot, lap, count)
+        visits, edges = self._list_visits(robot, lap, count)
         return self._kernel.add(robot, *visits, enter, None, edges)
 
     def add_visits(
@@ -203,7 +205,7 @@ class PeriodicBookings:
             When each begins, and when the last one ends [ticks].
         """
         place = np.arange(visits.start, visits.stop) % len(lap)
-        (vertex, dwell, drive), edges = self._visits(robot, lap, 1)
+        (vertex, dwell, drive), edges = self._list_visits(robot, lap, 1)
         begins, edges = np.ascontiguousarray(enter), None if edges is None else edges[place]
         self._kernel.add(
             robot, vertex[place], dwell[place], drive[place], begins, int(leave), edges
@@ -229,7 +231,7 @@ class PeriodicBookings:
         Complete for this lap, unless no other robot visits its home: then the robot stays there
         until the phase, and None says nothing about other phases.
         """
-        visits, edges = self._visits(robot, lap, count)
+        visits, edges = self._list_visits(robot, lap, count)
         enter = self._kernel.search(*visits, phase, time_limit, edges)
         return None if enter is None else enter - enter[0] // int(self.period) * int(self.period)
 
@@ -284,7 +286,7 @@ class PeriodicBookings:
         robot
             The robot.
         """
-        vertex, dwell, drive = _visits_home(lap, count)
+        vertex, dwell, drive = _list_visits_home(lap, count)
         ticks = int(begins), int(until), int(leave)
         if self._rows is None:
             return self._kernel.connect(vertex, dwell, drive, *ticks)
@@ -296,17 +298,17 @@ class PeriodicBookings:
         self, robot: int, lap: Lap, begins: int = -NEVER, until: int = NEVER
     ) -> set[int]:
         """Return the robots that have booked what the last search, for this lap, could not."""
-        return self._users(self._not_reached(robot, lap), begins, until)
+        return self._list_users(self._find_not_reached(robot, lap), begins, until)
 
     def keeps_out(self, other: int, home_of: Lap, robot: int, lap: Lap) -> bool:
         """Return whether a robot at home excludes what the last search, for this lap, needed."""
-        needed = self._not_reached(robot, lap)
+        needed = self._find_not_reached(robot, lap)
         if self._rows is None:
             return bool(needed[0] == home_of.vertices[0])
         row = int(self._rows.find_rows(other, home_of)[0][0])
         return bool(np.isin(needed, list_excluded(self._rows.resources, row)).any())
 
-    def _not_reached(self, robot: int, lap: Lap) -> NDArray[np.int32]:
+    def _find_not_reached(self, robot: int, lap: Lap) -> NDArray[np.int32]:
         """Return the rows (for points: the vertex) that the last search could not book."""
         visit = (self._kernel.reached + 1) % len(lap)
         if self._rows is None:
@@ -316,15 +318,17 @@ class PeriodicBookings:
     def find_neighbours(self, robot: int, lap: Lap) -> set[int]:
         """Return the robots that have booked anything that a lap needs."""
         if self._rows is None:
-            return self._users(np.array(lap.vertices, np.int32))
-        return self._users(np.concatenate(self._rows.find_rows(robot, lap)))
+            return self._list_users(np.array(lap.vertices, np.int32))
+        return self._list_users(np.concatenate(self._rows.find_rows(robot, lap)))
 
-    def _users(self, rows: NDArray[np.int32], begins: int = -NEVER, until: int = NEVER) -> set[int]:
+    def _list_users(
+        self, rows: NDArray[np.int32], begins: int = -NEVER, until: int = NEVER
+    ) -> set[int]:
         return set(self._kernel.users(rows, begins, until).tolist())
 
 
 @lru_cache(maxsize=1 << 14)
-def _visits_home(
+def _list_visits_home(
     lap: Lap, count: int
 ) -> tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]:
     vertex, dwell, drive = make_visits_of_laps(lap, 1)

@@ -67,12 +67,12 @@ class Floor:
     obstacles: tuple[Obstacle, ...] = ()
 
     def __post_init__(self) -> None:
-        faults = list(_floor_faults(self))
+        faults = list(_find_floor_faults(self))
         if faults:
             raise InputError(faults)
 
 
-def _floor_faults(floor: Floor) -> Iterator[InputFault]:
+def _find_floor_faults(floor: Floor) -> Iterator[InputFault]:
     if floor.width <= 0 or floor.height <= 0:
         yield InputFault(
             "size", f"[{floor.width}, {floor.height}] is not positive (give two lengths)"
@@ -174,12 +174,12 @@ def free_cells(
         raise InputError.at(key, message)
     free = np.ones((rows, columns), np.bool_)
     for obstacle in floor.obstacles:
-        across = _covered(obstacle.x, obstacle.width, cell_size)
-        down = _covered(obstacle.y, obstacle.height, cell_size)
+        across = _find_covered(obstacle.x, obstacle.width, cell_size)
+        down = _find_covered(obstacle.y, obstacle.height, cell_size)
         free[down, across] = False
     return free
 
 
-def _covered(start: Fraction, length: Fraction, cell_size: Fraction) -> slice:
+def _find_covered(start: Fraction, length: Fraction, cell_size: Fraction) -> slice:
     first = math.floor(start / cell_size)
     return slice(max(first, 0), max(math.ceil((start + length) / cell_size), 0))

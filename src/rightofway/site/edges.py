@@ -287,7 +287,7 @@ def make_roadmap_of_table(
         frame=frame or Frame(y_up=y_up),
         sides=None if sides is None else tuple(sides),
         zones=number_zones(zones, ids, _list_ends(table), pieces or {}) if zones else (),
-        lanes=_lanes((pieces or {}).values(), ids),
+        lanes=_list_lanes((pieces or {}).values(), ids),
     )
     return unfold(roadmap, [VertexId(ids[name]) for name in passed])
 
@@ -354,7 +354,9 @@ def _sort_key(edge_class: EdgeClass) -> tuple[Any, ...]:
     )
 
 
-def _lanes(split: Iterable[Sequence[tuple[str, str]]], ids: Mapping[str, int]) -> tuple[Lane, ...]:
+def _list_lanes(
+    split: Iterable[Sequence[tuple[str, str]]], ids: Mapping[str, int]
+) -> tuple[Lane, ...]:
     """Return the lanes of some pieces each, in an order that does not depend on that of edges."""
     names = ([pieces[0][0], *(head for _, head in pieces)] for pieces in split)
     ways = (tuple(VertexId(ids[name]) for name in lane_names) for lane_names in names)
@@ -367,14 +369,16 @@ def _check_edges(table: EdgeTable) -> None:
         raise InputError.at("", "the roadmap has no vertex (give at least one)")
     if not len(table):
         return
-    is_wrong = np.array([_class_fault(edge_class) != "" for edge_class in table.classes], bool)
+    is_wrong = np.array(
+        [_describe_class_fault(edge_class) != "" for edge_class in table.classes], bool
+    )
     is_repeated = table.find_repeated()
     wrong = (table.tails == table.heads) | is_wrong[table.kinds] | is_repeated
     if not wrong.any():
         return
     index = int(wrong.argmax())
     tail, head = table.names[table.tails[index]], table.names[table.heads[index]]
-    fault = _class_fault(table.classes[table.kinds[index]])
+    fault = _describe_class_fault(table.classes[table.kinds[index]])
     if tail == head:
         fault = f"leads from {tail!r} to itself (take it out)"
     elif not fault or (fault.startswith("surcharge") and is_repeated[index]):
@@ -382,7 +386,7 @@ def _check_edges(table: EdgeTable) -> None:
     raise InputError.at(("edges", index), fault)
 
 
-def _class_fault(edge_class: EdgeClass) -> str:
+def _describe_class_fault(edge_class: EdgeClass) -> str:
     if edge_class.length.numerator <= 0:
         return f"length {edge_class.length} is not positive (give a length above 0)"
     if edge_class.max_speed is not None and edge_class.max_speed.numerator <= 0:

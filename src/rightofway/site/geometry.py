@@ -179,17 +179,17 @@ def measure_straight_length(square: Fraction, step: Fraction = COARSE) -> Fracti
     above, below = square.numerator, square.denominator
     whole, part = math.isqrt(above), math.isqrt(below)
     root = Fraction(whole, part)
-    if whole * whole != above or part * part != below or _digits(root) > DIGITS:
+    if whole * whole != above or part * part != below or _count_digits(root) > DIGITS:
         steps = -(-above * step.denominator**2 // (below * step.numerator**2))  # rounded up
         whole = math.isqrt(steps)
         root = Fraction((whole + (whole * whole < steps)) * step.numerator, step.denominator)
-    if _digits(root) > DIGITS:
+    if _count_digits(root) > DIGITS:
         about = f"about {math.sqrt(square):.4g}"
         message = f"the straight distance, {about}, has too many digits (give a length)"
         raise InputError.at("", message)
     return root
 
 
-def _digits(number: Fraction) -> int:
+def _count_digits(number: Fraction) -> int:
     """Return the most digits of numerator and denominator; those of 10**n count as n."""
     return len(str(max(number.numerator, number.denominator) - 1))

@@ -60,12 +60,12 @@ def make_grid_roadmap(
     size = read_length(cell_size, "cell_size")
     free = np.array([[character in FREE for character in line] for line in lines])
     if not free.any():
-        raise InputError.at("", f"no free cell in {free.size} ({_meant_by(lines)})")
+        raise InputError.at("", f"no free cell in {free.size} ({_describe_meant(lines)})")
     rows, columns = free.shape
     cells = np.flatnonzero(free).astype(np.int32)
     vertex_at = np.full(rows * columns, -1, np.int32)
     vertex_at[cells] = np.arange(len(cells), dtype=np.int32)
-    neighbours = _neighbours(vertex_at.reshape(rows, columns), free)
+    neighbours = _find_neighbours(vertex_at.reshape(rows, columns), free)
     present = neighbours >= 0
     cells.flags.writeable = vertex_at.flags.writeable = False
     y, x = np.divmod(cells, columns)
@@ -76,11 +76,11 @@ def make_grid_roadmap(
         edge_classes=(EdgeClass(length=size),),
         positions=np.column_stack((x, y)).astype(np.float64) * float(size),
         grid=Grid(rows=rows, columns=columns, cell_size=size, cells=cells, vertex_at=vertex_at),
-        frame=_frame_of_grid(rows * size, size, y_up=y_up, origin=origin, yaw=yaw),
+        frame=_make_grid_frame(rows * size, size, y_up=y_up, origin=origin, yaw=yaw),
     )
 
 
-def _frame_of_grid(
+def _make_grid_frame(
     height: Fraction, size: Fraction, *, y_up: bool, origin: Point | None, yaw: Fraction
 ) -> Frame:
     """Return the frame of a grid: the point (0, 0) of its plane is the centre of its first cell."""
@@ -109,7 +109,7 @@ def _check_lines(lines: Sequence[str]) -> None:
             raise InputError.at(row, message)
 
 
-def _meant_by(lines: Sequence[str]) -> str:
+def _describe_meant(lines: Sequence[str]) -> str:
     """Return how to write a grid that has no free cell."""
     characters = sorted(set("".join(lines)))
     if set(characters) <= set("01"):
@@ -120,7 +120,7 @@ def _meant_by(lines: Sequence[str]) -> str:
     return "free cells are . G S, all other characters are blocked"
 
 
-def _neighbours(vertex_at: NDArray[np.int32], free: NDArray[np.bool_]) -> NDArray[np.int32]:
+def _find_neighbours(vertex_at: NDArray[np.int32], free: NDArray[np.bool_]) -> NDArray[np.int32]:
     """Return the vertex east, south, west and north of each vertex, -1 for none; shape (V, 4)."""
     framed = np.pad(vertex_at, 1, constant_values=-1)
     rows, columns = vertex_at.shape

@@ -219,7 +219,7 @@ def build_roadmap_of_level(
         selects = bool(known_types)
     lanes = level.lanes if selects else level.list_lanes(vehicle_type)
     check_work(READING)
-    table, lost = _tabulate_slowest(lanes, known_types if selects else (), metre, second)
+    table, lost = _make_slowest_table(lanes, known_types if selects else (), metre, second)
     check_work(READING)
     # Only other vehicle types come there.
     closed = {lanes.names[vertex] for vertex in _list_ends(level.lanes) - _list_ends(lanes)}
@@ -229,7 +229,7 @@ def build_roadmap_of_level(
         if vertex.name not in closed
     }
     if closed:
-        table = _leave_out(table, tuple(positions))
+        table = _remove_vertices(table, tuple(positions))
     zones = _list_zones(level, positions, lanes)
     curves = _list_curves(lanes) if cuts_curves else {}
     shapes = {
@@ -250,18 +250,18 @@ def build_roadmap_of_level(
     )
     bends = {lanes.get_ends(lane): shape.points for lane, shape in lanes.shapes.items()
              if shape.points}  # fmt: skip
-    roadmap = replace(roadmap, drawing=_drawing(level, roadmap, bends, metre))
+    roadmap = replace(roadmap, drawing=_make_drawing(level, roadmap, bends, metre))
     return LevelRoadmap(
         roadmap=roadmap,
         curves=len(curves),
         chord_error=metre * max((curve.chord_error or Fraction(0) for curve in curves.values()),
                                 default=Fraction(0)),
-        notes=tuple(_lacks(level, [lanes.get_ends(lane) for lane in lost], closed)),
+        notes=tuple(_list_lacks(level, [lanes.get_ends(lane) for lane in lost], closed)),
         split=split,
     )  # fmt: skip
 
 
-def _tabulate_slowest(
+def _make_slowest_table(
     lanes: LaneTable, known_types: Collection[str], metre: Fraction, second: Fraction
 ) -> tuple[EdgeTable, list[int]]:
     """Return the lanes as edges, and which of several parallel lanes some type does without.
@@ -304,7 +304,7 @@ def _tabulate_slowest(
         if taken.length != further.length or not has_own_types:
             lost.append(lane)
         if taken != further:
-            classes.append(_slower(taken, further, known_types))
+            classes.append(_choose_slower(taken, further, known_types))
             column[earlier] = len(classes) - 1
     table = replace(
         table,
@@ -315,7 +315,7 @@ def _tabulate_slowest(
     return table, lost
 
 
-def _leave_out(table: EdgeTable, names: tuple[str, ...]) -> EdgeTable:
+def _remove_vertices(table: EdgeTable, names: tuple[str, ...]) -> EdgeTable:
     """Return edges with the numbers that their vertices have where others are left out."""
     number = {name: vertex for vertex, name in enumerate(names)}
     vertices = np.array([number.get(name, -1) for name in table.names], np.int32)
@@ -341,7 +341,7 @@ def _list_curves(lanes: LaneTable) -> dict[tuple[str, str], LaneShape]:
     }
 
 
-def _drawing(
+def _make_drawing(
     level: Level,
     roadmap: Roadmap,
     bends: Mapping[tuple[str, str], Sequence[Point]],
@@ -368,7 +368,7 @@ def _drawing(
     )
 
 
-def _slower(first: EdgeClass, other: EdgeClass, known_types: Collection[str]) -> EdgeClass:
+def _choose_slower(first: EdgeClass, other: EdgeClass, known_types: Collection[str]) -> EdgeClass:
     """Return an edge that asks each type for no more than either of two parallel lanes does.
 
     Types that are not known count as the slowest one.
@@ -401,7 +401,7 @@ def _slower(first: EdgeClass, other: EdgeClass, known_types: Collection[str]) ->
     )
 
 
-def _lacks(
+def _list_lacks(
     level: Level, lost: Sequence[tuple[str, str]], closed: Collection[str]
 ) -> Iterator[Fact]:
     if closed:

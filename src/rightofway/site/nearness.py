@@ -41,13 +41,13 @@ class PointGrid:
         self._least = points.min(axis=0, initial=np.inf)
         extent = float(np.ptp(points, axis=0).max()) if len(points) else 0.0
         self._side = MARGIN * max(distance, extent / MOST_CELLS) or 1.0
-        columns, rows = self._cells(points)
+        columns, rows = self._find_cells(points)
         self._width = int(columns.max(initial=0)) + 3  # a column is free on both sides
         numbers = rows * self._width + columns
         self._order = np.argsort(numbers, kind="stable")
         self._numbers = numbers[self._order]
 
-    def _cells(self, points: Floats) -> tuple[Ints, Ints]:
+    def _find_cells(self, points: Floats) -> tuple[Ints, Ints]:
         columns, rows = np.floor((points - self._least) / self._side).astype(np.int64).T
         return columns, rows
 
@@ -59,7 +59,7 @@ class PointGrid:
         points
             Positions between those of the grid; shape (m, 2).
         """
-        columns, rows = self._cells(points)
+        columns, rows = self._find_cells(points)
         of_cell = (np.arange(-1, 2)[:, None] + rows) * self._width + columns
         begin = np.searchsorted(self._numbers, of_cell - 1).ravel()
         counts = np.searchsorted(self._numbers, of_cell + 1, side="right").ravel() - begin
@@ -103,7 +103,7 @@ class Lines:
         distance
             The distance.
         """
-        line, point = self._pairs(grid, some, len(grid.points))
+        line, point = self._find_pairs(grid, some, len(grid.points))
         step, to_point = (self.end - self.begin)[line], grid.points[point] - self.begin[line]
         square = np.maximum((step**2).sum(axis=1), np.finfo(float).tiny)
         share = np.clip((step * to_point).sum(axis=1) / square, 0, 1)
@@ -122,15 +122,15 @@ class Lines:
         slack
             What rounding can move a line.
         """
-        point, middle = self._pairs(grid, some, len(grid.points))
+        point, middle = self._find_pairs(grid, some, len(grid.points))
         of_middle = self.line_of[middle]
         later = of_middle > point
         point, other = point[later], of_middle[later]
         point, other = np.divmod(np.unique(point * len(self.begin) + other), len(self.begin))
-        apart = self._lie_beside(point, other, slack) | self._lie_beside(other, point, slack)
+        apart = self._is_beside(point, other, slack) | self._is_beside(other, point, slack)
         return point[~apart], other[~apart]
 
-    def _lie_beside(self, first: Ints, other: Ints, slack: float) -> NDArray[np.bool_]:
+    def _is_beside(self, first: Ints, other: Ints, slack: float) -> NDArray[np.bool_]:
         """Return where both ends of a line lie on one side of another, beyond the slack."""
         (x, y), (begin_x, begin_y), (end_x, end_y) = (
             (ends[of] - self.begin[other]).T
@@ -143,7 +143,7 @@ class Lines:
         )
         return beside
 
-    def _pairs(self, grid: PointGrid, some: slice, n_points: int) -> tuple[Ints, Ints]:
+    def _find_pairs(self, grid: PointGrid, some: slice, n_points: int) -> tuple[Ints, Ints]:
         """Return the pairs of some lines and points of a grid that are near one of their pieces."""
         begin, stop, _ = some.indices(len(self.begin))
         pieces = slice(self.first[begin], self.first[stop])

@@ -161,7 +161,9 @@ def widen_blocked(blocked: NDArray[np.bool_], by: Fraction, *, outside: bool) ->
     rows = len(framed)
     gap = np.empty(framed.shape, np.uint16)
     for begin in range(0, rows, STRIP):  # a strip at a time needs little memory
-        gap[begin : begin + STRIP] = np.minimum(_gap_in_row(framed[begin : begin + STRIP]), FAR)
+        gap[begin : begin + STRIP] = np.minimum(
+            _measure_gap_in_row(framed[begin : begin + STRIP]), FAR
+        )
     result = framed.copy()
     for down in range(min(ceil(by) + 1, rows)):
         between = max(down - 1, 0)
@@ -176,7 +178,7 @@ def widen_blocked(blocked: NDArray[np.bool_], by: Fraction, *, outside: bool) ->
     return result[1:-1, 1:-1]
 
 
-def _gap_in_row(blocked: NDArray[np.bool_]) -> NDArray[np.int32]:
+def _measure_gap_in_row(blocked: NDArray[np.bool_]) -> NDArray[np.int32]:
     """Return how many pixels each pixel is from the nearest blocked one in its row; int32."""
     columns = np.arange(blocked.shape[1], dtype=np.int32)
     far = np.int32(2 * FAR)

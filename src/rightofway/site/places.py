@@ -26,7 +26,7 @@ class Spot:
     y: Fraction
 
     def __str__(self) -> str:
-        return f"{{x: {_written(self.x)}, y: {_written(self.y)}}}"
+        return f"{{x: {_write_coordinate(self.x)}, y: {_write_coordinate(self.y)}}}"
 
 
 Place = str | tuple[int, int] | Spot
@@ -59,8 +59,8 @@ def as_place(value: object, roadmap: Roadmap | None = None) -> Place:
         row, column = value
         return int(row), int(column)
     if isinstance(value, Mapping):
-        return _spot(value)
-    raise InputError.at("", f"{quote(value)} is no place ({_meant(value, roadmap)})")
+        return _read_spot(value)
+    raise InputError.at("", f"{quote(value)} is no place ({_describe_meant(value, roadmap)})")
 
 
 def is_cell(value: object) -> TypeGuard[tuple[int, int]]:
@@ -68,7 +68,7 @@ def is_cell(value: object) -> TypeGuard[tuple[int, int]]:
     return isinstance(value, list | tuple) and len(value) == 2 and all(map(is_whole, value))  # noqa: PLR2004
 
 
-def _spot(value: Mapping[object, object]) -> Spot:
+def _read_spot(value: Mapping[object, object]) -> Spot:
     faults = [
         InputFault("", f"{quote(key)} is no coordinate (give {{x: 1.2, y: 0.8}})")
         for key in value
@@ -88,7 +88,7 @@ def _spot(value: Mapping[object, object]) -> Spot:
     return Spot(**coordinates)
 
 
-def _meant(value: object, roadmap: Roadmap | None) -> str:
+def _describe_meant(value: object, roadmap: Roadmap | None) -> str:
     """Return what the user may have meant by a value that is not a place."""
     labels = roadmap.labels if roadmap else None
     if is_whole(value) and str(value) in (labels or ()):
@@ -134,33 +134,35 @@ def find_vertex_at(
     grid = roadmap.grid
     if grid is None:
         if isinstance(place, Spot):
-            return _vertex_at_point(place, roadmap, units or Units())
-        return _named(place, roadmap)
+            return _find_vertex_at_point(place, roadmap, units or Units())
+        return _find_named(place, roadmap)
     if isinstance(place, Spot):
-        row, column = _cell_that_holds(place, roadmap, grid)
+        row, column = _find_cell_at(place, roadmap, grid)
     else:
-        row, column = place if isinstance(place, tuple) else _numbered(place, grid)
+        row, column = place if isinstance(place, tuple) else _read_numbered(place, grid)
     if not (0 <= row < grid.rows and 0 <= column < grid.columns):
         raise InputError.at(
-            "", f"{_named_as(place)} is outside the map ({_limits(place, roadmap, grid)})"
+            "",
+            f"{_name_place(place)} is outside the map ({_describe_limits(place, roadmap, grid)})",
         )
     vertex = int(grid.vertex_at[row * grid.columns + column])
     if vertex >= 0:
         return VertexId(vertex)
     obstacle = what_blocks(row, column) if what_blocks else "a wall"
     if isinstance(place, Spot):
-        near = _nearest(place, roadmap)
+        near = _find_nearest(place, roadmap)
+        nearest = _describe_with_distance(near, place, roadmap, units or Units())
         at = f" lies in N{row * grid.columns + column}, row {row}, column {column}, which"
-        free = f"the nearest free cell is {_with_distance(near, place, roadmap, units or Units())}"
+        free = f"the nearest free cell is {nearest}"
     else:
         at = "" if isinstance(place, tuple) else f", row {row}, column {column},"
         free = f"{_free_cell(row, column, grid)} is free"
-    raise InputError.at("", f"{_named_as(place)}{at} is blocked by {obstacle} ({free})")
+    raise InputError.at("", f"{_name_place(place)}{at} is blocked by {obstacle} ({free})")
 
 
-def _named(place: str | tuple[int, int], roadmap: Roadmap) -> VertexId:
+def _find_named(place: str | tuple[int, int], roadmap: Roadmap) -> VertexId:
     if isinstance(place, tuple):
-        message = f"{_named_as(place)} needs a grid, and this is a roadmap (give a vertex name)"
+        message = f"{_name_place(place)} needs a grid, and this is a roadmap (give a vertex name)"
         raise InputError.at("", message)
     try:
         return roadmap.get_place(place)
@@ -168,7 +170,7 @@ def _named(place: str | tuple[int, int], roadmap: Roadmap) -> VertexId:
         raise InputError.at("", error.faults[0].message) from None
 
 
-def _numbered(place: str, grid: Grid) -> tuple[int, int]:
+def _read_numbered(place: str, grid: Grid) -> tuple[int, int]:
     number = place[1:]
     if not (place.startswith("N") and number.isascii() and number.isdecimal()):
         meant = f"N{place.lstrip('nN')}"
@@ -181,7 +183,7 @@ def _numbered(place: str, grid: Grid) -> tuple[int, int]:
     return divmod(int(number), grid.columns)
 
 
-def _cell_that_holds(spot: Spot, roadmap: Roadmap, grid: Grid) -> tuple[int, int]:
+def _find_cell_at(spot: Spot, roadmap: Roadmap, grid: Grid) -> tuple[int, int]:
     """Return row and column of the cell that holds a point; also of cells outside the map."""
     x, y = roadmap.frame.to_plane((spot.x, spot.y))
     half = Fraction(1, 2)  # the plane's (0, 0) is the centre of the first cell
@@ -192,7 +194,7 @@ def _cell_that_holds(spot: Spot, roadmap: Roadmap, grid: Grid) -> tuple[int, int
     )
 
 
-def _limits(place: Place, roadmap: Roadmap, grid: Grid) -> str:
+def _describe_limits(place: Place, roadmap: Roadmap, grid: Grid) -> str:
     """Return which places a grid has."""
     if not isinstance(place, Spot):
         return f"rows are 0 to {grid.rows - 1}, columns 0 to {grid.columns - 1}"
@@ -207,21 +209,21 @@ def _limits(place: Place, roadmap: Roadmap, grid: Grid) -> str:
     return f"x is {ends[0]} to {ends[1]}, y {ends[2]} to {ends[3]}"
 
 
-def _vertex_at_point(spot: Spot, roadmap: Roadmap, units: Units) -> VertexId:
+def _find_vertex_at_point(spot: Spot, roadmap: Roadmap, units: Units) -> VertexId:
     x, y = roadmap.frame.to_plane((spot.x, spot.y))
     if roadmap.sides is not None:
-        return _square_that_holds(spot, roadmap, roadmap.drawn_sides, units)
+        return _find_square_at(spot, roadmap, roadmap.drawn_sides, units)
     vertices = np.flatnonzero((roadmap.positions == (float(x), float(y))).all(axis=1)).tolist()
     if len(vertices) == 1:
         return VertexId(vertices[0])
     if vertices:
         names = ", ".join(repr(roadmap.name(vertex)) for vertex in vertices)
         raise InputError.at("", f"{spot} is the point of {names} (give one of these names)")
-    near = _with_distance(_nearest(spot, roadmap), spot, roadmap, units)
+    near = _describe_with_distance(_find_nearest(spot, roadmap), spot, roadmap, units)
     raise InputError.at("", f"no vertex is at {spot} (the nearest is {near})")
 
 
-def _square_that_holds(
+def _find_square_at(
     spot: Spot, roadmap: Roadmap, sides: NDArray[np.float64], units: Units
 ) -> VertexId:
     x, y = roadmap.frame.to_plane((spot.x, spot.y))
@@ -231,35 +233,37 @@ def _square_that_holds(
         return VertexId(
             int(max(vertices, key=lambda vertex: tuple(roadmap.positions[vertex, ::-1])))
         )
-    near = _with_distance(_nearest(spot, roadmap), spot, roadmap, units)
+    near = _describe_with_distance(_find_nearest(spot, roadmap), spot, roadmap, units)
     raise InputError.at("", f"{spot} is in no free cell (the nearest has its middle at {near})")
 
 
-def _nearest(spot: Spot, roadmap: Roadmap) -> int:
+def _find_nearest(spot: Spot, roadmap: Roadmap) -> int:
     """Return the vertex nearest to a point."""
     x, y = roadmap.frame.to_plane((spot.x, spot.y))
     gaps = roadmap.positions - (float(x), float(y))
     return int(np.argmin(np.hypot(gaps[:, 0], gaps[:, 1])))
 
 
-def _with_distance(vertex: int, spot: Spot, roadmap: Roadmap, units: Units) -> str:
+def _describe_with_distance(vertex: int, spot: Spot, roadmap: Roadmap, units: Units) -> str:
     """Return a vertex with its point and its distance from a point."""
     point: Point = roadmap.get_point(vertex)
     away = float(measure_squared_distance(point, (spot.x, spot.y))) ** 0.5
     name = roadmap.name(vertex) if roadmap.grid else repr(roadmap.name(vertex))
-    if _smallest_side(roadmap) > 4 * SHORT:  # a point near the middle of a cell lies in it, too
+    if (
+        _find_smallest_side(roadmap) > 4 * SHORT
+    ):  # a point near the middle of a cell lies in it, too
         point = round(point[0] / SHORT) * SHORT, round(point[1] / SHORT) * SHORT
     return f"{name} at {Spot(*point)}, {units.format_length(away)} away"
 
 
-def _smallest_side(roadmap: Roadmap) -> Fraction:
+def _find_smallest_side(roadmap: Roadmap) -> Fraction:
     """Return the side of the smallest cell, 0 for vertices that are points."""
     if roadmap.grid is not None:
         return roadmap.grid.cell_size
     return Fraction(0) if roadmap.sides is None else min(roadmap.sides)
 
 
-def _named_as(place: Place) -> str:
+def _name_place(place: Place) -> str:
     return f"[{quote(place[0])}, {quote(place[1])}]" if isinstance(place, tuple) else str(place)
 
 
@@ -270,7 +274,7 @@ def _free_cell(row: int, column: int, grid: Grid) -> str:
     return f"N{int(grid.cells[nearest_vertex])}"
 
 
-def _written(coordinate: Fraction) -> str:
+def _write_coordinate(coordinate: Fraction) -> str:
     """Return a coordinate exactly."""
     text = format_decimal(coordinate, DECIMALS)
     return text if Fraction(text) == coordinate else str(coordinate)

@@ -93,7 +93,7 @@ def join_squares(
     levels = max(min(largest, rows, columns), 1).bit_length() - 1
     block = 1 << levels
     padded = np.pad(free, ((0, -rows % block), (0, -columns % block)))
-    joined = _joined(padded, levels, near=near)
+    joined = _join_blocks(padded, levels, near=near)
     counts = [int(whole.sum()) for whole in joined]
     count = sum(counts) - 4 * sum(counts[1:])  # each block but the smallest has four in it
     if count > max_squares:
@@ -101,7 +101,7 @@ def join_squares(
         raise InputError.at("smallest", message)
     squares: list[tuple[NDArray[np.int64], NDArray[np.int64], int]] = []
     for level, whole in enumerate(joined):
-        alone = whole & ~_halved(joined[level + 1]) if level < levels else whole
+        alone = whole & ~_split_into_four(joined[level + 1]) if level < levels else whole
         row, column = np.nonzero(alone)
         squares.append((row << level, column << level, 1 << level))
     row = np.concatenate([square[0] for square in squares])
@@ -111,7 +111,7 @@ def join_squares(
     row, column, side = row[order], column[order], side[order]
     at = np.full((1, 1), -1, np.int32)
     for level in range(levels, -1, -1):
-        at = np.full(joined[level].shape, -1, np.int32) if level == levels else _halved(at)
+        at = np.full(joined[level].shape, -1, np.int32) if level == levels else _split_into_four(at)
         of_level = np.flatnonzero(side == 1 << level)
         at[row[of_level] >> level, column[of_level] >> level] = of_level
     return Squares(
@@ -122,7 +122,7 @@ def join_squares(
     )
 
 
-def _joined(free: NDArray[np.bool_], levels: int, *, near: bool) -> list[NDArray[np.bool_]]:
+def _join_blocks(free: NDArray[np.bool_], levels: int, *, near: bool) -> list[NDArray[np.bool_]]:
     """Return for each level which blocks of 2**level cells may be in one square.
 
     A block may if its four parts may, and if no square beside it can be smaller than they are.
@@ -131,7 +131,7 @@ def _joined(free: NDArray[np.bool_], levels: int, *, near: bool) -> list[NDArray
     sides = [free] * 4  # whether a block has a free cell at its low x, high x, low y, high y
     for level in range(levels):
         part = pieces[-1]
-        whole = _all_of_four(part)
+        whole = _mark_all_of_four(part)
         if level or not near:
             join = np.logical_or if level else np.logical_xor
             low_x, high_x, low_y, high_y = [~part & side for side in sides] if level else sides
@@ -150,14 +150,14 @@ def _joined(free: NDArray[np.bool_], levels: int, *, near: bool) -> list[NDArray
     return pieces
 
 
-def _all_of_four(part: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _mark_all_of_four(part: NDArray[np.bool_]) -> NDArray[np.bool_]:
     result: NDArray[np.bool_] = part[0::2, 0::2] & part[1::2, 0::2]
     result &= part[0::2, 1::2]
     result &= part[1::2, 1::2]
     return result
 
 
-def _halved(blocks: NDArray[Cell]) -> NDArray[Cell]:
+def _split_into_four(blocks: NDArray[Cell]) -> NDArray[Cell]:
     """Return blocks cut into four each."""
     return blocks.repeat(2, axis=0).repeat(2, axis=1)
 
@@ -194,7 +194,7 @@ def build_roadmap_of_squares(
         free, largest=int(largest // smallest), near=near, max_squares=max_squares
     )
     count = len(squares.side)
-    tails, heads, lengths = _edges(squares, y_up=y_up)
+    tails, heads, lengths = _list_edges(squares, y_up=y_up)
     known, class_of_edge = np.unique(lengths, return_inverse=True)
     left, low = (corner[0] - origin[0], corner[1] - origin[1]) if yaw else corner
     half = smallest / 2
@@ -231,7 +231,7 @@ def build_roadmap_of_squares(
     )
 
 
-def _edges(
+def _list_edges(
     squares: Squares, *, y_up: bool
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
     """Return tails, heads and lengths of all edges [twelfths of a smallest cell], by tail.

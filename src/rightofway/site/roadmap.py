@@ -235,7 +235,7 @@ class Roadmap:
             and self.lanes == other.lanes
             and self.labels == other.labels
             and self.frame == other.frame
-            and _same_grid(self.grid, other.grid)
+            and _has_same_grid(self.grid, other.grid)
             and np.array_equal(self.indptr, other.indptr)
             and np.array_equal(self.heads, other.heads)
             and np.array_equal(self.class_of_edge, other.class_of_edge)
@@ -500,7 +500,7 @@ class Roadmap:
         return edge_of_pair
 
 
-def _same_grid(first: Grid | None, other: Grid | None) -> bool:
+def _has_same_grid(first: Grid | None, other: Grid | None) -> bool:
     if first is None or other is None:
         return first is other
     return (first.rows, first.columns, first.cell_size) == (

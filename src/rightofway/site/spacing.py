@@ -264,7 +264,7 @@ def _make_way(
     whole = sum(lengths, Fraction(0))
     return _Way(
         names=[tail, *names, head],
-        shares=_each(parts, whole.__rtruediv__),
+        shares=_compute_each(parts, whole.__rtruediv__),
         least=whole if len(lengths) > 1 else Fraction(0),
         longest_piece=Fraction(0) if own is None else own,
         is_cut=own is not None,
@@ -354,7 +354,7 @@ def _make_winding_fault(
     )
 
 
-def _each(parts: Sequence[Fraction], use: Callable[[Fraction], Fraction]) -> list[Fraction]:
+def _compute_each(parts: Sequence[Fraction], use: Callable[[Fraction], Fraction]) -> list[Fraction]:
     """Return what becomes of each part; parts that are one number are worked out once."""
     part_of = {id(part): part for part in parts}
     result_of = {key: use(part) for key, part in part_of.items()}

@@ -49,8 +49,8 @@ def measure_gaps(grid: Grid, limit: int | None = None) -> NDArray[np.int64]:
     before = np.maximum.accumulate(np.where(blocked, columns, -1), axis=1)
     behind = np.where(blocked, columns, grid.columns)[:, ::-1]
     behind = np.minimum.accumulate(behind, axis=1)[:, ::-1]
-    in_row = _square_gaps(np.minimum(columns - before, behind - columns))
-    gaps = np.minimum(in_row, _square_gaps(np.minimum(rows + 1, grid.rows - rows)))
+    in_row = _measure_square_gaps(np.minimum(columns - before, behind - columns))
+    gaps = np.minimum(in_row, _measure_square_gaps(np.minimum(rows + 1, grid.rows - rows)))
     for offset in range(1, grid.rows):
         in_column = (2 * offset - 1) ** 2
         if in_column >= (gaps.max() if limit is None else min(limit, gaps.max())):
@@ -60,7 +60,7 @@ def measure_gaps(grid: Grid, limit: int | None = None) -> NDArray[np.int64]:
     return gaps.ravel()[grid.cells]
 
 
-def _square_gaps(offsets: NDArray[np.int64]) -> NDArray[np.int64]:
+def _measure_square_gaps(offsets: NDArray[np.int64]) -> NDArray[np.int64]:
     """Return the squared gaps between the middles of cells and other cells [half cells]."""
     return np.maximum(2 * offsets - 1, 0) ** 2
 

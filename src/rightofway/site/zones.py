@@ -104,7 +104,7 @@ def number_zones(
     faults = []
     names: set[str] = set()
     for index, zone in enumerate(named):
-        faults += [fault.nest(("zones", index)) for fault in _faults(zone, names, ids, lanes)]
+        faults += [fault.nest(("zones", index)) for fault in _find_faults(zone, names, ids, lanes)]
         names.add(zone.name)
     if faults:
         raise InputError(faults)
@@ -121,7 +121,7 @@ def number_zones(
     )
 
 
-def _faults(
+def _find_faults(
     zone: NamedZone,
     names: Collection[str],
     ids: Mapping[str, int],

@@ -72,7 +72,7 @@ def create_app(studio: Studio, access: Access, *, has_page: bool = True) -> Fast
     app.include_router(drives.router)
     if has_page:
         app.include_router(pages.router)
-    return _guarded(app, access)
+    return _add_guard(app, access)
 
 
 def create_watch(watched: Watched, access: Access) -> FastAPI:
@@ -85,57 +85,57 @@ def create_watch(watched: Watched, access: Access) -> FastAPI:
     async def get_page(request: Request) -> Response:
         return await drives.get_page(request, 0)
 
-    return _guarded(app, access)
+    return _add_guard(app, access)
 
 
-def _guarded(app: FastAPI, access: Access) -> FastAPI:
+def _add_guard(app: FastAPI, access: Access) -> FastAPI:
     """Return an application with the guard and the one form of errors."""
-    app.add_exception_handler(StudioError, _refused)
-    app.add_exception_handler(InputError, _faulty)
-    app.add_exception_handler(RequestValidationError, _not_fitting)
-    app.add_exception_handler(HTTPException, _http)
+    app.add_exception_handler(StudioError, _return_refused)
+    app.add_exception_handler(InputError, _return_faulty)
+    app.add_exception_handler(RequestValidationError, _return_unfitting)
+    app.add_exception_handler(HTTPException, _return_http)
     app.add_middleware(Guard, access=access)
     return app
 
 
-def _answer(status: int, error: dict[str, Any]) -> Response:
+def _make_answer(status: int, error: dict[str, Any]) -> Response:
     return Response(make_error_body(status, error), status, media_type="application/json")
 
 
-def _refused(_request: Request, error: Exception) -> Response:
+def _return_refused(_request: Request, error: Exception) -> Response:
     assert isinstance(error, StudioError), "it is registered for these"
-    return _answer(error.status, error.error)
+    return _make_answer(error.status, error.error)
 
 
-def _faulty(_request: Request, error: Exception) -> Response:
-    return _answer(422, as_error(error))
+def _return_faulty(_request: Request, error: Exception) -> Response:
+    return _make_answer(422, as_error(error))
 
 
-def _http(_request: Request, error: Exception) -> Response:
+def _return_http(_request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException), "it is registered for these"
-    return _answer(error.status_code, {"message": str(error.detail)})
+    return _make_answer(error.status_code, {"message": str(error.detail)})
 
 
-def _not_fitting(request: Request, error: Exception) -> Response:
+def _return_unfitting(request: Request, error: Exception) -> Response:
     """Name the faults of a body in the words that those of a file have."""
     assert isinstance(error, RequestValidationError), "it is registered for these"
     faults = error.errors()
     if any(fault["type"] == "json_invalid" for fault in faults):
         where = faults[0]["loc"][-1]
         message = f"the body is no JSON: character {where} does not fit (send JSON)"
-        return _answer(400, {"kind": "input", "message": message})
-    model = _model_of(request, error.body)
+        return _make_answer(400, {"kind": "input", "message": message})
+    model = _find_model(request, error.body)
     if model is not None and isinstance(error.body, dict):
         try:
             validate(model, error.body)
         except InputError as found:
-            return _answer(422, as_error(found))
+            return _make_answer(422, as_error(found))
     place = ".".join(str(part) for part in faults[0]["loc"])
     message = f"{place}: {faults[0]['msg']} (see {API}/openapi.json)"
-    return _answer(422, {"kind": "input", "message": message})
+    return _make_answer(422, {"kind": "input", "message": message})
 
 
-def _model_of(request: Request, body: Any) -> Any:
+def _find_model(request: Request, body: Any) -> Any:
     """Return the model that a body is to fit, of several the one of its kind; None without one."""
     parameters = request.scope["route"].dependant.body_params
     wanted = parameters[0].field_info.annotation if parameters else None

@@ -171,7 +171,7 @@ class Crew:
 
     async def start(self) -> None:
         """Start one worker in advance."""
-        self._free.append(await self._new())
+        self._free.append(await self._start_worker())
 
     async def do(self, job: Job) -> tuple[Any, list[bytes]]:
         """Return the result of a job, with its blobs.
@@ -192,19 +192,19 @@ class Crew:
         finally:
             self._waiting -= 1
         try:
-            return await self._done(job)
+            return await self._run_job(job)
         finally:
             self._slots.release()
 
-    async def _done(self, job: Job) -> tuple[Any, list[bytes]]:
-        worker = await self._one()
+    async def _run_job(self, job: Job) -> tuple[Any, list[bytes]]:
+        worker = await self._take_worker()
         job.worker, is_usable = worker, False
         try:
             job.on_start()
             order = {"job": job.number, "task": job.task, "arguments": job.arguments}
             worker.send(order, job.blobs)
             async with asyncio.timeout(job.limit):
-                answer, blobs = await self._answer(worker, job)
+                answer, blobs = await self._read_answer(worker, job)
             is_usable = not answer["is_large"]
         except TimeoutError:
             message = f"this took longer than {job.limit:g} s (give a smaller problem)"
@@ -214,12 +214,12 @@ class Crew:
             raise TaskFailed(error) from None
         finally:
             job.worker = None
-            await self._back(worker, is_whole=is_usable)
+            await self._return_worker(worker, is_whole=is_usable)
         if "error" in answer:
             raise TaskFailed(answer["error"])
         return answer["result"], blobs
 
-    async def _answer(self, worker: Worker, job: Job) -> tuple[dict[str, Any], list[bytes]]:
+    async def _read_answer(self, worker: Worker, job: Job) -> tuple[dict[str, Any], list[bytes]]:
         while True:
             message, blobs = await worker.receive()
             if message["job"] != job.number:
@@ -228,29 +228,29 @@ class Crew:
                 return message, blobs
             job.on_event(message["event"], blobs)
 
-    async def _one(self) -> Worker:
+    async def _take_worker(self) -> Worker:
         while self._free:
             worker = self._free.pop()  # the latest one: it has kept what it read
             if worker.is_alive:
                 return worker
-            await self._gone(worker)
-        return await self._new()
+            await self._drop_worker(worker)
+        return await self._start_worker()
 
-    async def _new(self) -> Worker:
+    async def _start_worker(self) -> Worker:
         worker = await Worker.started(self._folder, self._scratch)
         self._all.add(worker)
         return worker
 
-    async def _back(self, worker: Worker, *, is_whole: bool) -> None:
+    async def _return_worker(self, worker: Worker, *, is_whole: bool) -> None:
         """Take a worker back; one that died or was killed is replaced at once."""
         if is_whole:
             self._free.append(worker)
             return
-        await asyncio.shield(self._gone(worker))
+        await asyncio.shield(self._drop_worker(worker))
         if not self._is_over:
-            self._free.append(await asyncio.shield(self._new()))
+            self._free.append(await asyncio.shield(self._start_worker()))
 
-    async def _gone(self, worker: Worker) -> None:
+    async def _drop_worker(self, worker: Worker) -> None:
         self._all.discard(worker)
         await worker.end()
 

@@ -119,7 +119,7 @@ class Drives:
         await asyncio.wait({work, beginning}, return_when=asyncio.FIRST_COMPLETED)
         beginning.cancel()
         if drive.error:
-            self._forget(drive)
+            self._drop_drive(drive)
             raise TaskFailed(drive.error)
         return drive
 
@@ -129,7 +129,7 @@ class Drives:
         self.pages[drive.number] = drive.page
         ended = [other for other in self._drives.values() if other.state != "driving"]
         for other in ended[: max(len(self._drives) - MAX_LISTED, 0)]:
-            self._forget(other)
+            self._drop_drive(other)
         try:
             await self._crew.do(drive.job)
             drive.state = "done"
@@ -137,7 +137,7 @@ class Drives:
             if drive.state != "stopped":
                 drive.state, drive.error = "failed", failed.error
 
-    def _forget(self, drive: Drive) -> None:
+    def _drop_drive(self, drive: Drive) -> None:
         drive.page.hang_up()
         self.pages.pop(drive.number, None)
         self._drives.pop(drive.number, None)
@@ -156,7 +156,7 @@ class Drives:
         """End all drives, and the streams of their pages."""
         for drive in self.list_all():
             await self.stop(drive.number)
-            self._forget(drive)
+            self._drop_drive(drive)
         await self._crew.close()
 
     def hang_up(self) -> None:

@@ -174,8 +174,8 @@ class Guard:
         answer = _Answer(send)
         try:
             request = _Request(scope)
-            self._judge(request)
-            if await self._signs_in(request, answer):
+            self._refuse_foreign(request)
+            if await self._is_sign_in(request, answer):
                 return
             self._ask_token(request)
             async with self._large if request.is_large else nullcontext():
@@ -187,7 +187,7 @@ class Guard:
             print(message, file=sys.stderr)  # noqa: T201 (a server's log)
             await answer.refuse(500, {"kind": "defect", "message": message})
 
-    def _judge(self, request: _Request) -> None:
+    def _refuse_foreign(self, request: _Request) -> None:
         """Refuse what is not a request of our own page, of a program here, or of an address bar."""
         scope, method = request.scope, request.scope["method"]
         if method not in READS | CHANGES:
@@ -211,10 +211,10 @@ class Guard:
         is_opened = method in READS and mode == "navigate" and scope["path"] == "/"
         if site in {"cross-site", "same-site"} and not is_opened:
             raise Refused("a page of another site asks (open the studio itself)", 403)
-        self._judge_body(request, method)
+        self._refuse_body(request, method)
 
     @staticmethod
-    def _judge_body(request: _Request, method: str) -> None:
+    def _refuse_body(request: _Request, method: str) -> None:
         length = request.get_header("content-length")
         if length and request.get_header("transfer-encoding"):
             # A proxy before the studio may go by the other one, and see another request after it.
@@ -233,7 +233,7 @@ class Guard:
         if has_body and method in CHANGES and kind not in wanted:
             raise Refused(f"{kind[:50]!r} is no type of a body here (give application/json)", 415)
 
-    async def _signs_in(self, request: _Request, answer: _Answer) -> bool:
+    async def _is_sign_in(self, request: _Request, answer: _Answer) -> bool:
         """Put the token of the address that was printed into a cookie; true if that is all."""
         query = parse_qs(request.scope["query_string"].decode("latin-1"))
         given = query.pop("token", [""])[0]
@@ -285,14 +285,14 @@ class _Body:
         self._is_whole = False
 
     async def receive(self) -> Message:
-        message = await (self._receive() if self._is_whole else self._next_part())
+        message = await (self._receive() if self._is_whole else self._receive_part())
         self._length += len(message.get("body", b""))
         if self._length > MAX_BODY:
             # As an exception of Starlette, because FastAPI takes any other one for broken JSON.
             raise HTTPException(413, f"the body is longer than {MAX_BODY} bytes (give less)")
         return message
 
-    async def _next_part(self) -> Message:
+    async def _receive_part(self) -> Message:
         began = time.monotonic()
         try:
             async with asyncio.timeout(min(STALLS, TAKES - self._waited)):

@@ -144,12 +144,12 @@ class Runs:
                 run.status = "the studio went down; the best plan so far is kept"
                 await self._save(run)
             elif run.state == "queued":
-                self._queue_of(run).put_nowait(number)
-        works = [self._consume(self._queue, self._crew) for _ in range(self._crew.size)]
-        works.append(self._consume(self._quick, self._desk))
+                self._get_queue(run).put_nowait(number)
+        works = [self._run_queue(self._queue, self._crew) for _ in range(self._crew.size)]
+        works.append(self._run_queue(self._quick, self._desk))
         self._consumers = [asyncio.create_task(work) for work in works]
 
-    def _queue_of(self, run: Run) -> asyncio.Queue[int]:
+    def _get_queue(self, run: Run) -> asyncio.Queue[int]:
         limit = run.request.get("time_limit")
         return self._quick if limit is not None and limit <= QUICK else self._queue
 
@@ -197,7 +197,7 @@ class Runs:
             if waiting >= MAX_QUEUED:
                 raise Busy(f"{waiting} runs are queued already (cancel some, or wait)")
             await self._add(run, {"arguments": json.dumps(arguments).encode(), **(blobs or {})})
-        self._queue_of(run).put_nowait(run.number)
+        self._get_queue(run).put_nowait(run.number)
         return run
 
     async def repeat(self, number: int) -> Run:
@@ -261,7 +261,7 @@ class Runs:
         run, work = self.get(number), self._work.get(number)
         if run.state == "queued":
             run.state = wanted
-            await self._over(run)
+            await self._finish_run(run)
         elif work is not None:
             work.wants = wanted
             if work.job is not None and wanted == "stopped":
@@ -283,19 +283,19 @@ class Runs:
         """Return a run as the API describes it."""
         return {**asdict(run), "has_plan": run.revision > 0}
 
-    async def _consume(self, queue: asyncio.Queue[int], crew: Crew) -> None:
+    async def _run_queue(self, queue: asyncio.Queue[int], crew: Crew) -> None:
         while True:
             run = self._runs.get(await queue.get())
             if run is None or run.state != "queued":
                 continue
             try:
-                await self._execute(run, crew)
+                await self._run_one(run, crew)
             except Exception as error:  # noqa: BLE001 (not even its end can be kept: go on)
                 run.state, run.error = "failed", as_error(error)
                 self._listeners.tell(run.number, "run", self.data(run))
                 self._listeners.end(run.number)
 
-    async def _execute(self, run: Run, crew: Crew) -> None:
+    async def _run_one(self, run: Run, crew: Crew) -> None:
         work = self._work[run.number] = _Work()
         try:
             run.state, run.started = "running", time.time()
@@ -311,9 +311,9 @@ class Runs:
             run.state, run.error = "failed", as_error(error)
         finally:
             self._work.pop(run.number, None)
-        await self._over(run)
+        await self._finish_run(run)
 
-    async def _over(self, run: Run) -> None:
+    async def _finish_run(self, run: Run) -> None:
         """Keep how a run ended, and hang up."""
         run.ended = time.time()
         await self._save(run)

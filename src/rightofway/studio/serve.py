@@ -70,7 +70,7 @@ def serve(
     actual = listener.getsockname()[1]
     access = Access.on(host, actual)
     query = f"?token={access.token}" if access.token else ""
-    address = f"http{'s' if certificate else ''}://{_called(host)}:{actual}/{query}"
+    address = f"http{'s' if certificate else ''}://{_name_host(host)}:{actual}/{query}"
 
     def ready() -> None:
         say(f"studio: {address} (end it with Ctrl-C)")
@@ -80,12 +80,14 @@ def serve(
         if opens_browser:
             threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
 
-    config = _config(create_app(studio, access, has_page=has_page), certificate, key)
+    config = _make_config(create_app(studio, access, has_page=has_page), certificate, key)
     with contextlib.closing(listener), contextlib.suppress(KeyboardInterrupt):
         _Server(config, studio, ready).run(sockets=[listener])
 
 
-def _config(app: FastAPI, certificate: str | None = None, key: str | None = None) -> uvicorn.Config:
+def _make_config(
+    app: FastAPI, certificate: str | None = None, key: str | None = None
+) -> uvicorn.Config:
     return uvicorn.Config(
         app,
         http=Connection,
@@ -116,11 +118,11 @@ def serve_watch(
     actual = listener.getsockname()[1]
     access = Access.on(host, actual)
     query = f"?token={access.token}" if access.token else ""
-    server = uvicorn.Server(_config(create_watch(watched, access)))
+    server = uvicorn.Server(_make_config(create_watch(watched, access)))
     thread = threading.Thread(target=server.run, args=([listener],), daemon=True)
     with contextlib.closing(listener):
         thread.start()
-        say(Phrase("watch it: {address}", address=f"http://{_called(host)}:{actual}/{query}"))
+        say(Phrase("watch it: {address}", address=f"http://{_name_host(host)}:{actual}/{query}"))
         try:
             yield
         finally:
@@ -172,7 +174,7 @@ def bind_socket(host: str, port: int | None) -> socket.socket:
     raise AssertionError("the last port is returned or refused")
 
 
-def _called(host: str) -> str:
+def _name_host(host: str) -> str:
     """Return how a browser on this machine calls an address."""
     with contextlib.suppress(ValueError):
         if ipaddress.ip_address(host.strip("[]")).is_unspecified:

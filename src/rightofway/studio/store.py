@@ -59,13 +59,13 @@ class Store:
         self._lock = threading.Lock()
         self.trouble = ""
         try:
-            self._database = self._opened(str(folder / FILE) if folder else ":memory:")
+            self._database = self._open_store(str(folder / FILE) if folder else ":memory:")
         except (sqlite3.Error, ValueError) as error:
-            self._database, self.trouble = self._opened(":memory:"), _explain(error)
+            self._database, self.trouble = self._open_store(":memory:"), _describe_fault(error)
         self.is_kept = folder is not None and not self.trouble
 
     @staticmethod
-    def _opened(path: str) -> sqlite3.Connection:
+    def _open_store(path: str) -> sqlite3.Connection:
         database = sqlite3.connect(path, timeout=0.5, check_same_thread=False)
         try:
             database.execute("PRAGMA locking_mode = EXCLUSIVE")
@@ -83,7 +83,7 @@ class Store:
         return database
 
     @contextmanager
-    def _work(self) -> Iterator[sqlite3.Connection]:
+    def _run_transaction(self) -> Iterator[sqlite3.Connection]:
         try:
             with self._lock, self._database:
                 yield self._database
@@ -111,7 +111,7 @@ class Store:
             If it is another one by now.
         """
         saved, text = time.time(), json.dumps(document)
-        with self._work() as database:
+        with self._run_transaction() as database:
             self._is_still(database, name, revision)
             row = (name, saved, text)
             database.execute("INSERT OR REPLACE INTO drafts VALUES (?, ?, ?)", row)
@@ -129,7 +129,7 @@ class Store:
 
     def read_draft(self, name: str) -> dict[str, Any] | None:
         """Return a draft with its revision and when it was kept, or None."""
-        with self._work() as database:
+        with self._run_transaction() as database:
             query = "SELECT saved, document FROM drafts WHERE name = ?"
             row = database.execute(query, (name,)).fetchone()
         if not row:
@@ -141,20 +141,20 @@ class Store:
 
     def list_drafts(self) -> list[dict[str, Any]]:
         """Return name, time and size of all drafts, the latest first."""
-        with self._work() as database:
+        with self._run_transaction() as database:
             query = "SELECT name, saved, length(document) FROM drafts ORDER BY saved DESC"
             rows = database.execute(query).fetchall()
         return [{"name": name, "saved": saved, "size": size} for name, saved, size in rows]
 
     def delete_draft(self, name: str, *, revision: str | None = None) -> bool:
         """Delete a draft, if it is still of a revision; false if there is none."""
-        with self._work() as database:
+        with self._run_transaction() as database:
             self._is_still(database, name, revision)
             return bool(database.execute("DELETE FROM drafts WHERE name = ?", (name,)).rowcount)
 
     def add_run(self, data: dict[str, Any], blobs: Sequence[tuple[str, bytes]] = ()) -> int:
         """Keep a new run with its blobs by kind, at once, and return its number."""
-        with self._work() as database:
+        with self._run_transaction() as database:
             added = database.execute("INSERT INTO runs (data) VALUES (?)", (json.dumps(data),))
             number = added.lastrowid
             assert number is not None, "a row was added"
@@ -165,7 +165,7 @@ class Store:
         self, number: int, data: dict[str, Any], blobs: Sequence[tuple[str, bytes]] = ()
     ) -> None:
         """Keep what is known of a run, and blobs by kind, at once."""
-        with self._work() as database:
+        with self._run_transaction() as database:
             row = database.execute(
                 "UPDATE runs SET data = ? WHERE id = ?", (json.dumps(data), number)
             )
@@ -181,13 +181,13 @@ class Store:
 
     def list_runs(self) -> list[tuple[int, dict[str, Any]]]:
         """Return all runs, the earliest first."""
-        with self._work() as database:
+        with self._run_transaction() as database:
             rows = database.execute("SELECT id, data FROM runs ORDER BY id").fetchall()
         return [(number, json.loads(data)) for number, data in rows]
 
     def read_blob(self, number: int, kind: str) -> bytes | None:
         """Return a blob of a run, or None."""
-        with self._work() as database:
+        with self._run_transaction() as database:
             query = "SELECT content FROM blobs WHERE run = ? AND kind = ?"
             row = database.execute(query, (number, kind)).fetchone()
         try:
@@ -198,7 +198,7 @@ class Store:
 
     def delete_run(self, number: int) -> None:
         """Delete a run and its blobs."""
-        with self._work() as database:
+        with self._run_transaction() as database:
             database.execute("DELETE FROM runs WHERE id = ?", (number,))
 
 
@@ -222,7 +222,7 @@ def _is_damage(error: Exception) -> bool:
     return code not in UNWRITABLE | {sqlite3.SQLITE_BUSY}
 
 
-def _explain(error: Exception) -> str:
+def _describe_fault(error: Exception) -> str:
     """Return why the file cannot be used, and what to do about it."""
     if _is_damage(error):
         return f"{FILE} is damaged: {error} (move it away, or put back a copy; then start again)"

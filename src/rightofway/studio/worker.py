@@ -58,7 +58,7 @@ class WorkerLoop:
         from rightofway.io.plan import shape  # noqa: F401 (before the first plan asks for it)
         from rightofway.studio.tasks import TASKS
 
-        threading.Thread(target=self._listen, daemon=True).start()
+        threading.Thread(target=self._run_jobs, daemon=True).start()
         while True:
             with contextlib.suppress(KeyboardInterrupt):  # a stop that came too late
                 self._do(*self._jobs.get(), TASKS)
@@ -86,7 +86,7 @@ class WorkerLoop:
             self._answers.write(data)
             self._answers.flush()
 
-    def _listen(self) -> None:
+    def _run_jobs(self) -> None:
         try:
             while True:
                 (length,) = LENGTH.unpack(self._orders.read(LENGTH.size))

@@ -95,14 +95,14 @@ class Workspace:
         parts = given.parts
         path = self.folder.joinpath(*parts)
         is_plain = bool(parts) and name == "/".join(parts) and path.is_relative_to(self.folder)
-        if not is_plain or not _fits_address(name):
+        if not is_plain or not _may_be_address(name):
             raise Refused(f"{name!r} is no path in the folder (give names with / between)")
         if any(part.startswith(".") for part in parts):
             raise Refused(f"{name!r} has a hidden part (give names that begin with no dot)")
         for count, part in enumerate(parts, 1):
             if not os.path.lexists(self.folder.joinpath(*parts[:count])):
                 _refuse_unportable(part)
-        if _resolved(path) != path:
+        if _resolve_path(path) != path:
             raise Refused(f"{name!r} leads through a symbolic link (give the file itself)")
         return path
 
@@ -194,14 +194,14 @@ class Workspace:
         for entry in inside:
             kind = KINDS.get(Path(entry.name).suffix.lower())
             name = Path(entry.path).relative_to(self.folder).as_posix()
-            if not kind or entry.name.startswith(".") or not _fits_address(name):
+            if not kind or entry.name.startswith(".") or not _may_be_address(name):
                 continue
             if entry.is_file(follow_symlinks=False):
                 stat = entry.stat(follow_symlinks=False)
                 yield Entry(name, kind, stat.st_size, stat.st_mtime)
 
 
-def _fits_address(name: str) -> bool:
+def _may_be_address(name: str) -> bool:
     """Return whether an address may have the name; it must be whole Unicode text for that, too."""
     try:
         return not CLIMBS.search(name.encode())
@@ -223,7 +223,7 @@ def _refuse_unportable(part: str) -> None:
         raise Refused(f"a name in the path is longer than {LONGEST_NAME} bytes (shorten it)")
 
 
-def _resolved(path: Path) -> Path | None:
+def _resolve_path(path: Path) -> Path | None:
     """Return where a path leads; None for links that lead in a circle."""
     try:
         return path.resolve()

@@ -41,16 +41,16 @@ def make_scenario_html(scenario: Scenario) -> str:
         The scenario.
     """
     count = len(scenario.robots)
-    parts = [_drawing(scenario)] if scenario.roadmap.n_vertices <= MOST_VERTICES else []
+    parts = [_draw_scenario(scenario)] if scenario.roadmap.n_vertices <= MOST_VERTICES else []
     head = "".join(f"<th>{name}</th>" for name in ("robot", "home", "stops", "speed"))
-    rows = "".join(_row(scenario, robot) for robot in scenario.robots[:MOST_ROBOTS])
+    rows = "".join(_write_row(scenario, robot) for robot in scenario.robots[:MOST_ROBOTS])
     parts.append(f"<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>")
     if count > MOST_ROBOTS:
         parts.append(f"<p>… and {count - MOST_ROBOTS} more robots</p>")
     return f"<div>{''.join(parts)}</div>"
 
 
-def _row(scenario: Scenario, robot: Robot) -> str:
+def _write_row(scenario: Scenario, robot: Robot) -> str:
     place, quantities = PlaceNames(scenario).describe_place, scenario.quantities
     stops = []
     for stop in robot.stops:
@@ -61,13 +61,13 @@ def _row(scenario: Scenario, robot: Robot) -> str:
     return "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>"
 
 
-def _drawing(scenario: Scenario) -> str:
+def _draw_scenario(scenario: Scenario) -> str:
     plane = lay_out_roadmap(scenario.roadmap)
     scale = min(LARGEST / max(plane.width, plane.height), LARGEST_UNIT)
     width, height = (round(side * scale) for side in (plane.width, plane.height))
     box = f"-0.5 -0.5 {plane.width:.6g} {plane.height:.6g}"
     radius = max(0.3, SMALLEST_RADIUS / scale)
-    shapes = "".join([*_map_shapes(scenario, plane), *_robot_shapes(scenario, plane, radius)])
+    shapes = "".join([*_map_shapes(scenario, plane), *_draw_robots(scenario, plane, radius)])
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" role="img" aria-label="map" width="{width}"'
         f' height="{height}" viewBox="{box}" style="background:{LIGHT.floor};'
@@ -97,7 +97,7 @@ def _map_shapes(scenario: Scenario, plane: Plane) -> Iterator[str]:
     yield f'<path stroke="{LIGHT.wall}" stroke-width="0.12" fill="none" d="{lanes}"/>'
 
 
-def _robot_shapes(scenario: Scenario, plane: Plane, radius: float) -> Iterator[str]:
+def _draw_robots(scenario: Scenario, plane: Plane, radius: float) -> Iterator[str]:
     """Yield a disc for the home and a ring for each stop of each robot, with its name."""
     colours = choose_colours(len(scenario.robots))
     for robot, colour in zip(scenario.robots, colours, strict=True):

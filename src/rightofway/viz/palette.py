@@ -101,46 +101,46 @@ DARK = Theme(
 def choose_colours(count: int) -> tuple[str, ...]:
     """Return a colour for each robot; a robot's colour does not depend on how many there are."""
     return tuple(
-        _hex_of_oklch(LIGHTNESS[index % len(LIGHTNESS)], CHROMA, FIRST_HUE + index * GOLDEN_ANGLE)
+        _convert_oklch(LIGHTNESS[index % len(LIGHTNESS)], CHROMA, FIRST_HUE + index * GOLDEN_ANGLE)
         for index in range(count)
     )
 
 
 def mix(low: str, high: str, share: float) -> str:
     """Return the colour at ``share`` (0 to 1) of the way between two."""
-    ends = zip(_channels(low), _channels(high), strict=True)
-    return _hex(tuple(round(start + (end - start) * share) for start, end in ends))
+    ends = zip(_split_channels(low), _split_channels(high), strict=True)
+    return _write_hex(tuple(round(start + (end - start) * share) for start, end in ends))
 
 
 def choose_ink(colour: str) -> str:
     """Return white or near-black, whichever reads better on a colour."""
-    red, green, blue = ((channel / 255) ** 2.2 for channel in _channels(colour))
+    red, green, blue = ((channel / 255) ** 2.2 for channel in _split_channels(colour))
     luminance = 0.2126 * red + 0.7152 * green + 0.0722 * blue
     return "#16191d" if luminance > DARK_INK_FROM else "#ffffff"
 
 
-def _channels(colour: str) -> tuple[int, ...]:
+def _split_channels(colour: str) -> tuple[int, ...]:
     return tuple(bytes.fromhex(colour[1:]))
 
 
-def _hex(channels: tuple[int, ...]) -> str:
+def _write_hex(channels: tuple[int, ...]) -> str:
     return "#" + bytes(channels).hex()
 
 
-def _hex_of_oklch(lightness: float, chroma: float, hue: float) -> str:
+def _convert_oklch(lightness: float, chroma: float, hue: float) -> str:
     """Convert to sRGB, with as much of the chroma as that can show."""
-    linear = _linear_rgb(lightness, chroma, hue)
+    linear = _compute_linear_rgb(lightness, chroma, hue)
     while not all(0 <= channel <= 1 for channel in linear):
         chroma -= 0.002
-        linear = _linear_rgb(lightness, chroma, hue)
+        linear = _compute_linear_rgb(lightness, chroma, hue)
     curved = (
         12.92 * channel if channel <= STRAIGHT_UNTIL else 1.055 * channel ** (1 / 2.4) - 0.055
         for channel in linear
     )
-    return _hex(tuple(round(255 * channel) for channel in curved))
+    return _write_hex(tuple(round(255 * channel) for channel in curved))
 
 
-def _linear_rgb(lightness: float, chroma: float, hue: float) -> tuple[float, float, float]:
+def _compute_linear_rgb(lightness: float, chroma: float, hue: float) -> tuple[float, float, float]:
     a, b = chroma * math.cos(math.radians(hue)), chroma * math.sin(math.radians(hue))
     long = (lightness + 0.3963377774 * a + 0.2158037573 * b) ** 3
     middle = (lightness - 0.1055613458 * a - 0.0638541728 * b) ** 3

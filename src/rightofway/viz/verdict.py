@@ -25,11 +25,11 @@ def give_verdict(plan: Plan) -> Report:
     stands still for ever leaves stops undone. Neither is a fault of laps without end.
     """
     is_excerpt = plan.run.status is not None and plan.run.status.kind == "excerpt of laps"
-    judge = _judge_excerpt if is_excerpt else partial(check, limit=LISTED_FAULTS)
+    judge = _check_excerpt if is_excerpt else partial(check, limit=LISTED_FAULTS)
     return plan.compute_once("verdict", lambda: judge(plan))
 
 
-def _judge_excerpt(plan: Plan) -> Report:
+def _check_excerpt(plan: Plan) -> Report:
     listed = check(plan, limit=LISTED_FAULTS).faults
     still = {robot for fault in listed if fault.kind in UNDONE for robot in fault.robots}
     ends = [int(track.enter[-1]) for robot, track in enumerate(plan.tracks) if robot not in still]

@@ -59,7 +59,7 @@ def read(text: str) -> ForeignPlan:
             if int(match[1]) != len(steps):
                 message = f"step {match[1]} stands where step {len(steps)} is expected"
                 faults.note(Location(line=number), f"{message} (give every step once, in order)")
-            steps.append(faults.attempt(Location(line=number), _cells, match[2]))
+            steps.append(faults.attempt(Location(line=number), _read_cells, match[2]))
             lines.append(number)
         elif sign and not steps:
             header[key] = value
@@ -68,7 +68,7 @@ def read(text: str) -> ForeignPlan:
             faults.note(Location(line=number), message)
     _check_counts(steps, lines, faults)
     faults.stop()
-    goals = _cells(header["goals"]) if header.get("goals") else []
+    goals = _read_cells(header["goals"]) if header.get("goals") else []
     if goals and len(goals) != len(steps[0] or ()):
         message = f"{len(goals)} for {len(steps[0] or ())} agents (give one for each)"
         raise InputError.at("goals", message)
@@ -82,7 +82,7 @@ def read(text: str) -> ForeignPlan:
     return ForeignPlan(agents=agents, map_name=header.get("map_file"))
 
 
-def _cells(text: str) -> list[Cell]:
+def _read_cells(text: str) -> list[Cell]:
     rest = _CELL.sub("", text)
     if rest:
         raise InputError.at("", f"{quote(rest)} is no cell (write cells as (x,y), with commas)")
@@ -107,14 +107,18 @@ def write(plan: Plan) -> str:
     """
     cells = make_cells(plan)
     starts = list(zip(cells.rows[:, 0].tolist(), cells.columns[:, 0].tolist(), strict=True))
-    lines = [f"agents={len(cells.names)}", f"starts={_text(starts)}", f"goals={_text(cells.goals)}"]
+    lines = [
+        f"agents={len(cells.names)}",
+        f"starts={_write_cells(starts)}",
+        f"goals={_write_cells(cells.goals)}",
+    ]
     lines.append("solution=")
     for step, (rows, columns) in enumerate(
         zip(cells.rows.T.tolist(), cells.columns.T.tolist(), strict=True)
     ):
-        lines.append(f"{step}:{_text(zip(rows, columns, strict=True))}")
+        lines.append(f"{step}:{_write_cells(zip(rows, columns, strict=True))}")
     return "\n".join(lines) + "\n"
 
 
-def _text(cells: Iterable[Cell]) -> str:
+def _write_cells(cells: Iterable[Cell]) -> str:
     return "".join(f"({column},{row})," for row, column in cells)

@@ -60,7 +60,7 @@ def read(text: str) -> ForeignPlan:
         if agent in paths:
             message = f"agent {agent} has a path in {{other}} already (take one out)"
             faults.note(Location(line=number), message, Location(line=paths[agent][0]))
-        paths[agent] = number, faults.attempt(Location(line=number), _visits, match[2])
+        paths[agent] = number, faults.attempt(Location(line=number), _read_visits, match[2])
     missing = next((number for number in range(len(paths)) if number not in paths), None)
     if missing is not None:
         faults.note("", f"agent {missing} has no path (give one for each agent, from 0 on)")
@@ -73,7 +73,7 @@ def read(text: str) -> ForeignPlan:
     return ForeignPlan(agents=agents)
 
 
-def _visits(text: str) -> Visits:
+def _read_visits(text: str) -> Visits:
     rest = _CELL.sub("", text)
     if rest:
         raise InputError.at("", f"{quote(rest)} is no cell (write (row,column)->(row,column)->…)")

@@ -99,11 +99,11 @@ def read(text: str) -> ForeignPlan:
         )
     counts = any(isinstance(path, str) and path.lstrip().startswith("[") for path in paths.value)
     steps_per_move = counter if counts else 1
-    errands = faults.attempt("", _errands, log) or {}
+    errands = faults.attempt("", _list_errands, log) or {}
     ways = [HEADINGS] if turns else [MOVES, EARLIER_MOVES]
-    read = [_all_visits(paths, starts, changes, steps_per_move, faults) for changes in ways]
+    read = [_trace_all_visits(paths, starts, changes, steps_per_move, faults) for changes in ways]
     faults.stop()
-    visits = max(read, key=lambda visits: _hits(visits, errands))
+    visits = max(read, key=lambda visits: _count_hits(visits, errands))
     agents = []
     for index, (cells, steps) in enumerate(visits):
         row, column = cells[-1].tolist()
@@ -117,7 +117,7 @@ def read(text: str) -> ForeignPlan:
     return ForeignPlan(agents=agents, steps_per_move=steps_per_move)
 
 
-def _all_visits(
+def _trace_all_visits(
     paths: Source,
     starts: Source,
     changes: Mapping[str, Cell],
@@ -129,18 +129,18 @@ def _all_visits(
     for path, start in zip(paths.read_items(), starts.read_items(), strict=False):
         begin = faults.attempt("", _start, start, changes)
         where = path.path
-        runs = faults.attempt(where, _runs, path.value, changes)
+        runs = faults.attempt(where, _split_runs, path.value, changes)
         if begin is None or runs is None:
             continue
         n_moves += int(runs[1].sum()) // steps_per_move
         if n_moves > MAX_MOVES:
             raise InputError.at(where, f"more than {MAX_MOVES} moves (read a part of the plan)")
-        visits = faults.attempt(where, _visits, begin, *runs, changes, steps_per_move)
+        visits = faults.attempt(where, _trace_visits, begin, *runs, changes, steps_per_move)
         all_visits += [] if visits is None else [visits]
     return all_visits
 
 
-def _visits(
+def _trace_visits(
     start: tuple[Cell, int],
     actions: NDArray[np.uint8],
     lengths: NDArray[np.int64],
@@ -150,7 +150,7 @@ def _visits(
     """Return the visits of an agent, from a cell and heading on, with an action in each run."""
     cell, heading = start
     ends = np.cumsum(lengths)
-    busy = ~np.isin(actions, _codes(WAITS))
+    busy = ~np.isin(actions, _list_codes(WAITS))
     progress = np.cumsum(np.where(busy, lengths, 0))  # steps of moves and turns so far
     at = np.flatnonzero(busy)
     broken = (np.diff(actions[at]) != 0) & (progress[at[:-1]] % steps_per_move != 0)
@@ -167,21 +167,21 @@ def _visits(
     table = np.zeros((256, 2), np.int64)
     if changes is HEADINGS:
         turns = np.zeros(256, np.int64)
-        turns[_codes(TURNS)] = list(TURNS.values())
+        turns[_list_codes(TURNS)] = list(TURNS.values())
         table[:4] = list(HEADINGS.values())
         moves = done == ord("F")
         done = ((heading + np.cumsum(turns[done])) % 4).astype(np.uint8)
     else:
-        table[_codes(changes)] = list(changes.values())
+        table[_list_codes(changes)] = list(changes.values())
     cells = np.cumsum(np.vstack([[cell], table[done[moves]]]), axis=0)
     return cells, np.concatenate(([0], steps[moves]))
 
 
-def _codes(letters: Iterable[str]) -> list[int]:
+def _list_codes(letters: Iterable[str]) -> list[int]:
     return [ord(letter) for letter in letters]
 
 
-def _hits(visits: Sequence[Visits], errands: Errands) -> int:
+def _count_hits(visits: Sequence[Visits], errands: Errands) -> int:
     """Return at how many of their errands the agents are when they finish them."""
     hits = 0
     for index, (cells, steps) in enumerate(visits):
@@ -209,20 +209,22 @@ def _start(start: Source, changes: Mapping[str, Cell]) -> tuple[Cell, int]:
     heading = parts[2] if changes is HEADINGS and len(parts) > 2 else start.make_child(2, "E")  # noqa: PLR2004
     if not isinstance(heading.value, str) or heading.value not in HEADINGS:
         raise heading.make_fault(f"{quote(heading.value)} is no heading (give E, N, W or S)")
-    return _cell(*parts[:2]), list(HEADINGS).index(heading.value)
+    return _make_cell(*parts[:2]), list(HEADINGS).index(heading.value)
 
 
-def _cell(row: Source, column: Source) -> Cell:
+def _make_cell(row: Source, column: Source) -> Cell:
     return row.read_whole(0, MAX_COORDINATE - 1), column.read_whole(0, MAX_COORDINATE - 1)
 
 
-def _runs(path: Any, changes: Mapping[str, Cell]) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
+def _split_runs(
+    path: Any, changes: Mapping[str, Cell]
+) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
     """Return the actions of a path, and for how many steps each is taken."""
     if not isinstance(path, str):
         raise InputError.at("", f'{quote(path)} is no path (give actions like "F,R,W")')
     bare = "".join(path.split())
     if bare.startswith("["):
-        actions, lengths = _counted(bare)
+        actions, lengths = _count_runs(bare)
     else:
         actions = [action for action in bare.split(",") if action]
         lengths = [1] * len(actions)
@@ -237,7 +239,7 @@ def _runs(path: Any, changes: Mapping[str, Cell]) -> tuple[NDArray[np.uint8], ND
     return np.frombuffer("".join(actions).encode(), np.uint8), np.array(lengths, np.int64)
 
 
-def _counted(bare: str) -> tuple[list[str], list[int]]:
+def _count_runs(bare: str) -> tuple[list[str], list[int]]:
     """Return the runs of all parts of a path of the round of 2026."""
     rest = _PART.sub("", bare)
     if rest:
@@ -259,15 +261,15 @@ def _counted(bare: str) -> tuple[list[str], list[int]]:
     return actions, lengths
 
 
-def _errands(log: Source) -> Errands:
+def _list_errands(log: Source) -> Errands:
     """Return the errands that each agent finishes, in order, with their steps."""
     faults, places = Faults(), dict[tuple[int, int], Cell]()
     for task in log.read_items_under("tasks"):
-        for number, cell in enumerate(faults.attempt("", _cells_of, task) or ()):
+        for number, cell in enumerate(faults.attempt("", _list_cells, task) or ()):
             places[task.value[0], number] = cell
     finished: list[tuple[int, int, tuple[int, int]]] = []  # step, agent, (task, number of errand)
     for index, event in enumerate(log.read_items_under("events")):
-        for row in faults.attempt("", _finished, event, index) or ():
+        for row in faults.attempt("", _list_finished, event, index) or ():
             if row[2] in places:
                 finished.append(row)
             else:
@@ -280,17 +282,17 @@ def _errands(log: Source) -> Errands:
     return errands
 
 
-def _cells_of(task: Source) -> list[Cell]:
+def _list_cells(task: Source) -> list[Cell]:
     """Return the places of a task: [id, row, column], or [id, released, [row, column, …]]."""
     parts = task.read_items()
     if len(parts) == 3 and type(parts[0].value) is int:  # noqa: PLR2004
         numbers = parts[2].read_items() if isinstance(parts[2].value, list) else parts[1:]
         if len(numbers) % 2 == 0:
-            return [_cell(*pair) for pair in zip(numbers[::2], numbers[1::2], strict=True)]
+            return [_make_cell(*pair) for pair in zip(numbers[::2], numbers[1::2], strict=True)]
     raise task.make_fault(f"{quote(task.value)} is no task (give [id, step, [row, column, …]])")
 
 
-def _finished(source: Source, agent: int) -> Iterator[tuple[int, int, tuple[int, int]]]:
+def _list_finished(source: Source, agent: int) -> Iterator[tuple[int, int, tuple[int, int]]]:
     """Yield the errands that an event reports as finished.
 
     In 2023 there is a list of [task, step, "finished"] for each agent; later, events are
@@ -333,7 +335,7 @@ def write(plan: Plan) -> str:
     for robot, itinerary in enumerate(plan.scenario.problem.itineraries):
         own: list[list[int | str]] = []
         assigned = 0
-        for stage, finished in zip(itinerary.stages, _served(plan, robot), strict=False):
+        for stage, finished in zip(itinerary.stages, _list_served(plan, robot), strict=False):
             own += [[len(tasks), assigned, "assigned"], [len(tasks), finished, "finished"]]
             tasks.append([len(tasks), *grid.get_cell(stage.vertex)])
             assigned = finished
@@ -356,7 +358,7 @@ def write(plan: Plan) -> str:
     return json.dumps(document) + "\n"
 
 
-def _served(plan: Plan, robot: int) -> Sequence[int]:
+def _list_served(plan: Plan, robot: int) -> Sequence[int]:
     """Return when each stop of a robot is done [ticks]."""
     itinerary, track = plan.scenario.problem.itineraries[robot], plan.tracks[robot]
     drive = compute_drives_along(plan.scenario.roadmap, itinerary, track.vertices.tolist())

@@ -52,7 +52,7 @@ def read(text: str) -> ForeignPlan:
     faults, agents = Faults(), list[Trajectory]()
     for key, states in schedule.read_entries():
         name = str(key)
-        visits = faults.attempt("", _visits, name, states)
+        visits = faults.attempt("", _read_visits, name, states)
         if visits:
             cells, steps = visits
             agents.append(Trajectory(name=name, cells=cells, steps=steps, location=states.location))
@@ -60,13 +60,13 @@ def read(text: str) -> ForeignPlan:
     return ForeignPlan(agents=agents)
 
 
-def _visits(name: str, states: Source) -> Visits:
+def _read_visits(name: str, states: Source) -> Visits:
     if not is_printable(name):
         raise states.make_fault(f"{quote(name)} is no name (give characters that can be printed)")
     faults, cells, steps = Faults(), list[Cell](), list[int]()
     latest = -1
     for state in states.read_items():
-        numbers = faults.attempt("", _numbers, state)
+        numbers = faults.attempt("", _read_numbers, state)
         if numbers is None:
             continue
         x, y, t = numbers
@@ -83,7 +83,7 @@ def _visits(name: str, states: Source) -> Visits:
     return own, np.array(steps, np.int64)[visits]
 
 
-def _numbers(state: Source) -> list[int]:
+def _read_numbers(state: Source) -> list[int]:
     """Return x, y and t of a state."""
     return [state.need(key).read_whole(0, MAX_STEP) for key in "xyt"]
 

@@ -117,7 +117,7 @@ def plan_of_trajectories(
     lines = load_map(map_file or _map_beside(scen or path, named))
     lines = tuple(line.replace("E", ".") for line in lines)
     _refuse_walls(foreign, lines)
-    scenario = _scenario(foreign, lines, rows)
+    scenario = _make_scenario(foreign, lines, rows)
     ticks = 1 / (scenario.problem.clock.tick * foreign.steps_per_move)  # that a step lasts
     grid = scenario.roadmap.grid
     assert grid is not None, "the map has rows"
@@ -135,7 +135,7 @@ def _map_beside(path: Path, named: str | None) -> Path:
     raise InputError.at("", f"its map {quote(name)} is not beside it (give it with --map FILE)")
 
 
-def _scenario(foreign: ForeignPlan, lines: Sequence[str], rows: Sequence[ScenRow]) -> Scenario:
+def _make_scenario(foreign: ForeignPlan, lines: Sequence[str], rows: Sequence[ScenRow]) -> Scenario:
     """Return the problem: the agents' own homes and stops, or those of a .scen file."""
     robots = []
     for number, agent in enumerate(foreign.agents):

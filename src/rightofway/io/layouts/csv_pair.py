@@ -30,13 +30,13 @@ LONGEST_HEADINGS = 10_000
 
 def recognizes(text: str) -> bool:
     """Return whether a text begins with the headings of nodes or of edges."""
-    headings = set(_headings(text))
+    headings = set(_read_headings(text))
     return {"x", "y"} <= headings or (
         any(name in headings for name in TAILS) and any(name in headings for name in HEADS)
     )
 
 
-def _headings(text: str) -> list[str]:
+def _read_headings(text: str) -> list[str]:
     first = text[:LONGEST_HEADINGS].partition("\n")[0]
     return [word.strip().strip('"').lower() for word in re.split("[,;\t]", first)]
 
@@ -49,22 +49,22 @@ def read(text: str, path: Path) -> Layout:
     InputError
         If the other file is not there, and with every row that cannot be used.
     """
-    beside = _beside(path, "x" in _headings(text))
+    beside = _find_partner(path, "x" in _read_headings(text))
     other = read_text(beside)
     if not recognizes(other):
         raise InputError.at("", "has no headings of nodes or edges (give name, x, y or from, to)",
                             str(beside))  # fmt: skip
-    nodes, edges = (text, other) if "x" in _headings(text) else (other, text)
+    nodes, edges = (text, other) if "x" in _read_headings(text) else (other, text)
     draft = LayoutDraft("CSV pair")
     reading = Reading(draft.begin_level(), draft)
-    for row in _rows(nodes):
+    for row in _read_rows(nodes):
         draft.attempt_vertex(find_name(row, *NAMES), _add_node, reading, row)
-    for row in _rows(edges):
+    for row in _read_rows(edges):
         draft.faults.attempt("", _add_edge, reading, row)
     return draft.make_layout()
 
 
-def _beside(path: Path, is_nodes: bool) -> Path:
+def _find_partner(path: Path, is_nodes: bool) -> Path:
     """Return the file of edges beside one of nodes, or the other way round."""
     own_words, other_words = (("nodes", "vertices", "points"), ("edges", "lanes", "links"))
     if not is_nodes:
@@ -80,7 +80,7 @@ def _beside(path: Path, is_nodes: bool) -> Path:
     raise InputError.at("", f"these are {mine} without their {wanted} ({remedy})")
 
 
-def _rows(text: str) -> Iterator[Source]:
+def _read_rows(text: str) -> Iterator[Source]:
     """Yield the rows as mappings from headings in lower case, without empty values."""
     first = text.partition("\n")[0]
     delimiter = max(",;\t", key=first.count)

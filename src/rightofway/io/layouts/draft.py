@@ -278,13 +278,13 @@ class LayoutDraft:
             name=level.name,
             vertices=tuple(level.vertices.values()),
             edges=edges,
-            stations=tuple(self._usable_stations(level)),
-            zones=tuple(self._usable_zones(level)),
+            stations=tuple(self._list_usable_stations(level)),
+            zones=tuple(self._list_usable_zones(level)),
             links=links,
             picture=level.picture,
         )
 
-    def _usable_stations(self, level: LevelDraft) -> list[Station]:
+    def _list_usable_stations(self, level: LevelDraft) -> list[Station]:
         """Return the stations with a vertex of the level; a name that is taken is left out."""
         stations: dict[str, Station] = {}
         for station in level.stations:
@@ -308,7 +308,7 @@ class LayoutDraft:
                     self.repair(mending, Fact("name with detail", name=name, what=owner.name))
         return vertices
 
-    def _usable_zones(self, level: LevelDraft) -> list[NamedZone]:
+    def _list_usable_zones(self, level: LevelDraft) -> list[NamedZone]:
         """Return the zones with vertices or lanes, each name once."""
         zones: dict[str, NamedZone] = {}
         for zone in level.zones:
@@ -370,7 +370,7 @@ class _LaneFinisher:
 
     def finish(self, elsewhere: set[str]) -> tuple[LaneTable, tuple[tuple[str, str], ...]]:
         """Return the lanes of the level, and the ends of those to other levels."""
-        is_kept, links = self._leave_out(elsewhere)
+        is_kept, links = self._drop_undrivable(elsewhere)
         lengths = self._choose_lengths(is_kept)
         lanes_kept = np.flatnonzero(is_kept)
         shapes, lengths = self._draw_curves(is_kept, lengths)
@@ -391,7 +391,7 @@ class _LaneFinisher:
             links,
         )
 
-    def _leave_out(self, elsewhere: set[str]) -> tuple[Bools, tuple[tuple[str, str], ...]]:
+    def _drop_undrivable(self, elsewhere: set[str]) -> tuple[Bools, tuple[tuple[str, str], ...]]:
         """Return the lanes that can be driven along, and the ends of those to other levels."""
         lanes, vertices = self.lanes, self.level.vertices
         links = list[tuple[str, str]]()
@@ -419,10 +419,10 @@ class _LaneFinisher:
                 message = f"speed limit {limits[kinds[lane]]} is not positive (give m/s)"
                 self.draft.faults.note(lanes.sources[lane].location, message)
         mending = Fact("lane to itself")
-        self._repair(is_loop, mending)
+        self._note_mended(is_loop, mending)
         return is_kept, tuple(links)
 
-    def _repair(self, lanes: Bools, mending: Fact) -> None:
+    def _note_mended(self, lanes: Bools, mending: Fact) -> None:
         """Note which lanes were mended, in the order of the file."""
         if lanes.any():
             numbers = np.flatnonzero(lanes).tolist()
@@ -442,10 +442,10 @@ class _LaneFinisher:
         has_length &= ~self._find_no_lengths(is_short)
         at_one_place = is_kept & (self.squares == 0)
         phrase = Fact("lane without length")
-        self._repair(at_one_place, phrase)
+        self._note_mended(at_one_place, phrase)
         is_short &= is_kept & has_length & ~at_one_place
         phrase = Fact("lane too short")
-        self._repair(is_short, phrase)
+        self._note_mended(is_short, phrase)
         lengths = np.where(has_length, np.maximum(given, straight), straight)
         return np.where(at_one_place, np.maximum(lengths, SHORTEST), lengths)
 
@@ -457,7 +457,7 @@ class _LaneFinisher:
             key: 0 if length is None else ceil(length * BILLION)
             for key, length in limit_loop(length_of.items(), READING)
         }
-        return _as_integers([whole[id(length)] for length in self.lanes.lengths])
+        return _convert_to_integers([whole[id(length)] for length in self.lanes.lengths])
 
     def _find_no_lengths(self, is_short: Bools) -> Bools:
         """Return lanes with an attribute that contradicts the positions of one lane.
@@ -495,7 +495,7 @@ class _LaneFinisher:
                 along = sum(measure_straight_length(square, step) for square in squares)
                 lengths[lane] = max(lengths[lane], int(along * BILLION))
         phrase = Fact("trajectory of other ends")
-        self._repair(lost, phrase)
+        self._note_mended(lost, phrase)
         return shapes, lengths
 
     def _connect_curve(self, lane: int, curve: Curve) -> list[Point] | None:
@@ -509,7 +509,7 @@ class _LaneFinisher:
         return [at for at, _ in groupby((tail, *inside, head))]
 
 
-def _as_integers(values: Sequence[int]) -> Integers:
+def _convert_to_integers(values: Sequence[int]) -> Integers:
     return np.array(values, np.int64)
 
 

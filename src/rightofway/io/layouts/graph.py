@@ -56,10 +56,10 @@ def make_layout_of_graph(graph: Any) -> Layout:
 
 def _add_node(reading: Reading, node: object, own: Source) -> None:
     name = Source(str(node), own.path).read_text()
-    add_vertex(reading, own, name, _position(node, own))
+    add_vertex(reading, own, name, _read_position(node, own))
 
 
-def _position(node: Any, own: Source) -> Point:
+def _read_position(node: Any, own: Source) -> Point:
     pair = own.get(*PAIRS) or Source(node, own.path)
     if own.get("x") and own.get("y"):
         return own.need("x").number(), own.need("y").number()

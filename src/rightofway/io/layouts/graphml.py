@@ -41,7 +41,7 @@ def read(root: Element) -> Layout:
     return draft.make_layout()
 
 
-def _attributes(element: Element, keys: dict[str, str]) -> Source:
+def _read_attributes(element: Element, keys: dict[str, str]) -> Source:
     """Return the values of an element by name in lower case; a key that is not declared counts."""
     attributes = {key.lower(): value for key, value in element.value.items()}
     for data in element.list_all("data"):
@@ -51,12 +51,12 @@ def _attributes(element: Element, keys: dict[str, str]) -> Source:
 
 
 def _add_node(reading: Reading, node: Element, keys: dict[str, str]) -> None:
-    own, name = _attributes(node, keys), node.need("id").read_text()
+    own, name = _read_attributes(node, keys), node.need("id").read_text()
     drawn, pair = next(node.list_descendants("Geometry"), None), own.get(*PAIRS)
     if own.get("x") and own.get("y"):
         at = read_both(own.need("x").number, own.need("y").number)
     elif pair is not None:
-        at = _pair(pair)
+        at = _read_pair(pair)
     elif drawn is not None:
         reading.draft.repair(Fact("node where it is drawn"), name)
         half = [(drawn.get(key) or Source(0)).number() / 2 for key in ("width", "height")]
@@ -67,7 +67,7 @@ def _add_node(reading: Reading, node: Element, keys: dict[str, str]) -> None:
     add_vertex(reading, own, name, at)
 
 
-def _pair(pair: Source) -> Point:
+def _read_pair(pair: Source) -> Point:
     """Return the point of a text like ``70,182`` or ``(70, 182)``."""
     numbers = re.split(r"[,;\s]+", pair.value.strip("()[] \t\n"))
     if len(numbers) not in {2, 3}:
@@ -76,7 +76,7 @@ def _pair(pair: Source) -> Point:
 
 
 def _add_edge(reading: Reading, edge: Element, keys: dict[str, str], is_directed: bool) -> None:
-    own, (tail, head) = _attributes(edge, keys), map(edge.value.get, ("source", "target"))
+    own, (tail, head) = _read_attributes(edge, keys), map(edge.value.get, ("source", "target"))
     if tail is None or head is None:
         edge.need("source" if tail is None else "target")
     directed = own.get("directed")

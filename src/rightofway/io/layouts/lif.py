@@ -80,7 +80,7 @@ def read(document: Any) -> Layout:
         draft.repair(Fact("number as text"), format_path(path))
     origins = [root] if root.get("origins") is None else root.need("origins").read_items()
     layouts = [layout for origin in origins for layout in origin.need("layouts").read_items()]
-    for part, name in zip(layouts, _level_names(layouts), strict=True):
+    for part, name in zip(layouts, _choose_level_names(layouts), strict=True):
         draft.faults.attempt("", _read_layout, part, name, draft)
     return draft.make_layout()
 
@@ -89,15 +89,15 @@ def _read_layout(part: Source, name: str, draft: LayoutDraft) -> None:
     level = draft.begin_level(name)
     for node in draft.attempt_vertex(None, lambda: part.need("nodes").read_items()) or []:
         draft.attempt_vertex(find_name(node, "nodeId"), _add_node, level, node, draft)
-    for edge in draft.faults.attempt("", _items, part, "edges", draft) or []:
+    for edge in draft.faults.attempt("", _list_items, part, "edges", draft) or []:
         draft.faults.attempt("", _add_edge, level, edge, draft)
-    for station in draft.faults.attempt("", _items, part, "stations", draft) or []:
+    for station in draft.faults.attempt("", _list_items, part, "stations", draft) or []:
         draft.faults.attempt("", _add_station, level, station, draft)
     if not draft.faults.found:
         _note_headings(part.read_items_under("stations"), draft)
 
 
-def _level_names(layouts: list[Source]) -> list[str]:
+def _choose_level_names(layouts: list[Source]) -> list[str]:
     """Return the levels' names where they differ, else the layouts' names."""
     for key in ("layoutLevelId", "layoutId"):
         layout_names = [layout.get(key) for layout in layouts]
@@ -107,7 +107,7 @@ def _level_names(layouts: list[Source]) -> list[str]:
     return [str(number) for number in range(1, len(layouts) + 1)]
 
 
-def _items(part: Source, key: str, draft: LayoutDraft) -> list[Source]:
+def _list_items(part: Source, key: str, draft: LayoutDraft) -> list[Source]:
     value = part.get(key)
     if value is None:
         mending = Fact("missing list", key=key)
@@ -166,13 +166,13 @@ def _add_edge(level: LevelDraft, edge: Source, draft: LayoutDraft) -> None:
     for properties in own:
         speed = properties.get(*SPEEDS)
         limit = None if speed is None else speed.number()
-        limit_and_curve = limit, _curve(properties, draft, name)
-        ways.setdefault(limit_and_curve, set()).update(_types(properties))
+        limit_and_curve = limit, _read_curve(properties, draft, name)
+        ways.setdefault(limit_and_curve, set()).update(_list_types(properties))
     for (limit, curve), types in ways.items():  # one lane for all types with one way
         level.connect(edge, tail, head, max_speed=limit, types=frozenset(types), curve=curve)
 
 
-def _types(own: Source) -> list[str]:
+def _list_types(own: Source) -> list[str]:
     """Return the vehicle types that properties are for: an id, or series of robots."""
     series = own.get("mobileRobotTypes")
     if series is None:
@@ -180,13 +180,13 @@ def _types(own: Source) -> list[str]:
     return [robot_type.need("seriesName").read_text() for robot_type in series.read_items()]
 
 
-def _curve(own: Source, draft: LayoutDraft, name: str) -> Curve | None:
+def _read_curve(own: Source, draft: LayoutDraft, name: str) -> Curve | None:
     """Return the curve of a trajectory, if there is one that can be read."""
     trajectory = own.get("trajectory")
     if trajectory is None:
         return None
     try:
-        nurbs = _nurbs(trajectory)
+        nurbs = _read_nurbs(trajectory)
         pieces = nurbs.cut_pieces()
     except (InputError, ValueError):
         mending = Fact("unreadable trajectory")
@@ -200,7 +200,7 @@ def _curve(own: Source, draft: LayoutDraft, name: str) -> Curve | None:
     return Curve(points, error)
 
 
-def _nurbs(trajectory: Source) -> Nurbs:
+def _read_nurbs(trajectory: Source) -> Nurbs:
     degree = trajectory.get("degree")
     controls = trajectory.need("controlPoints").read_items()
     knots = [float(knot.number()) for knot in trajectory.need("knotVector").read_items()]

@@ -103,11 +103,11 @@ def _add_edge(level: LevelDraft, feature: Source, draft: LayoutDraft) -> None:
         tail,
         head,
         max_speed=max_speed,
-        shape=_shape(feature.need("geometry"), draft, name),
+        shape=_read_shape(feature.need("geometry"), draft, name),
     )
 
 
-def _shape(geometry: Source, draft: LayoutDraft, name: str) -> tuple[Point, ...]:
+def _read_shape(geometry: Source, draft: LayoutDraft, name: str) -> tuple[Point, ...]:
     """Return the points between the ends of a line; a drawing that cannot be read is left out."""
     coordinates = geometry.get("coordinates")
     if coordinates is None:

@@ -79,8 +79,8 @@ class Nurbs:
         basis[np.arange(len(parameters)), span] = 1.0
         for p in range(1, self.degree + 1):
             left, right = knots[p:-1] - knots[: -p - 1], knots[p + 1 :] - knots[1:-p]
-            rise = _share(parameters[:, None] - knots[: -p - 1], left)
-            fall = _share(knots[p + 1 :] - parameters[:, None], right)
+            rise = _divide(parameters[:, None] - knots[: -p - 1], left)
+            fall = _divide(knots[p + 1 :] - parameters[:, None], right)
             basis = rise * basis[:, :-1] + fall * basis[:, 1:]
         weighted = basis * self.weights
         points: Points = weighted @ self.points / weighted.sum(axis=1)[:, None]
@@ -118,7 +118,7 @@ class Nurbs:
         """Return the ends of some pieces that are equally long along the curve."""
         first, last = self.knots[self.degree], self.knots[len(self.points)]
         samples = self.compute_points(np.linspace(first, last, max(SAMPLES, 20 * count)))
-        return _ends(samples, _along(samples), count)[1]
+        return _find_ends(samples, _measure_along(samples), count)[1]
 
 
 def make_bezier(points: Points) -> Nurbs:
@@ -127,7 +127,7 @@ def make_bezier(points: Points) -> Nurbs:
     return Nurbs(degree=len(points) - 1, knots=knots, points=points, weights=np.ones(len(points)))
 
 
-def _share(top: Points, bottom: NDArray[np.float64]) -> Points:
+def _divide(top: Points, bottom: NDArray[np.float64]) -> Points:
     """Return a quotient that is 0 where the divisor is 0."""
     safe = np.where(bottom > 0, bottom, 1.0)
     return np.where(bottom > 0, top / safe, 0.0)
@@ -135,16 +135,16 @@ def _share(top: Points, bottom: NDArray[np.float64]) -> Points:
 
 def _cut(samples: Points, chord_error: float) -> Points:
     """Return ends of the fewest pieces of equal length that are near to all samples."""
-    along = _along(samples)
+    along = _measure_along(samples)
     for count in range(1, MAX_PIECES + 1):
-        cuts, ends = _ends(samples, along, count)
+        cuts, ends = _find_ends(samples, along, count)
         piece = np.clip(np.searchsorted(cuts, along, side="right") - 1, 0, count - 1)
-        if _deviation(samples, ends[piece], ends[piece + 1]) <= MARGIN * chord_error:
+        if _measure_deviation(samples, ends[piece], ends[piece + 1]) <= MARGIN * chord_error:
             return ends
     raise ValueError(f"the curve needs more than {MAX_PIECES} pieces")
 
 
-def _along(samples: Points) -> NDArray[np.float64]:
+def _measure_along(samples: Points) -> NDArray[np.float64]:
     """Return how far along its samples each point of a curve is."""
     parameters: NDArray[np.float64] = np.concatenate(
         ([0.0], np.cumsum(np.hypot(*np.diff(samples, axis=0).T)))
@@ -152,13 +152,13 @@ def _along(samples: Points) -> NDArray[np.float64]:
     return parameters
 
 
-def _ends(samples: Points, along: Points, count: int) -> tuple[Points, Points]:
+def _find_ends(samples: Points, along: Points, count: int) -> tuple[Points, Points]:
     """Return where pieces of equal length end: how far along, and the points."""
     cuts = np.linspace(0.0, along[-1], count + 1)
     return cuts, np.column_stack([np.interp(cuts, along, axis) for axis in samples.T])
 
 
-def _deviation(points: Points, begin: Points, end: Points) -> float:
+def _measure_deviation(points: Points, begin: Points, end: Points) -> float:
     """Return the largest distance of points from their pieces."""
     chord = end - begin
     square = np.maximum((chord**2).sum(axis=1), np.finfo(float).tiny)

@@ -62,12 +62,12 @@ def read(document: Any, path: Path) -> Layout:
         _is_of_building(level.value) for _, level in root.need("levels").read_entries()
     )
     draft = LayoutDraft("Open-RMF building" if is_building else "Open-RMF navigation graph")
-    transforms = _transforms(root, draft) if is_building else {}
+    transforms = _compute_transforms(root, draft) if is_building else {}
     for name, part in root.need("levels").read_entries():
         level = draft.begin_level(name)
         draft.faults.attempt("", _read_level, level, part, transforms.get(name), draft)
         if is_building and root.value.get("coordinate_system") in IN_PIXELS:
-            level.picture = _picture(part, transforms[name], path.parent, draft)
+            level.picture = _read_picture(part, transforms[name], path.parent, draft)
     _note_doors(root, draft)
     _note_lifts(root, draft)
     return draft.make_layout()
@@ -112,7 +112,7 @@ def _note_lifts(root: Source, draft: LayoutDraft) -> None:
     draft.repair(note)
 
 
-def _picture(
+def _read_picture(
     level: Source, transform: Transform, folder: Path, draft: LayoutDraft
 ) -> Picture | None:
     """Return the picture that a level is drawn over, and where its pixels lie."""
@@ -227,7 +227,7 @@ def _add_lane(reading: _Reading, lane: Source, names: list[str | None], has_grap
     items = lane.read_items()
     if len(items) < 2:  # noqa: PLR2004 - from and to
         raise lane.make_fault("is no lane (give [from, to, {…}])")
-    tail, head = read_both(*(partial(_vertex, item, names) for item in items[:2]))
+    tail, head = read_both(*(partial(_read_vertex, item, names) for item in items[:2]))
     if tail is None or head is None:
         return  # the vertex has a fault of its own
     own = _own(lane, 2)
@@ -244,7 +244,7 @@ def _add_lane(reading: _Reading, lane: Source, names: list[str | None], has_grap
             groups.setdefault(_name_in(own, "mutex", lane), ([], []))[1].append((start, end))
 
 
-def _vertex(item: Source, names: list[str | None]) -> str | None:
+def _read_vertex(item: Source, names: list[str | None]) -> str | None:
     index = item.value
     if isinstance(index, bool) or not isinstance(index, int) or not 0 <= index < len(names):
         last = len(names) - 1
@@ -252,7 +252,7 @@ def _vertex(item: Source, names: list[str | None]) -> str | None:
     return names[index]
 
 
-def _transforms(root: Source, draft: LayoutDraft) -> dict[str, Transform]:
+def _compute_transforms(root: Source, draft: LayoutDraft) -> dict[str, Transform]:
     """Return for each level of a building how its points become metres of the site."""
     system = root.value.get("coordinate_system")
     levels = dict(root.need("levels").read_entries())
@@ -267,9 +267,9 @@ def _transforms(root: Source, draft: LayoutDraft) -> dict[str, Transform]:
     draft.faults.stop()
     base, transforms = scales.get(reference), dict[str, Transform]()
     for name, level in levels.items():
-        laid = None if name == reference else _overlay(levels[reference], level)
+        laid = None if name == reference else _compute_overlay(levels[reference], level)
         if laid is not None and base is not None:
-            transforms[name] = _transform_by(laid, base)
+            transforms[name] = _make_transform(laid, base)
             continue
         scale = scales[name] or base
         if scale is None:
@@ -278,12 +278,12 @@ def _transforms(root: Source, draft: LayoutDraft) -> dict[str, Transform]:
             continue
         if name != reference:
             draft.repair(Fact("level without fiducials"), name)
-        transforms[name] = _transform_by((1 + 0j, 0j), scale)
+        transforms[name] = _make_transform((1 + 0j, 0j), scale)
     draft.faults.stop()
     return transforms
 
 
-def _transform_by(laid: tuple[complex, complex], scale: Fraction) -> Transform:
+def _make_transform(laid: tuple[complex, complex], scale: Fraction) -> Transform:
     """Return how a pixel of a level becomes a point in metres; y is negated."""
     turn, shift = laid
 
@@ -317,7 +317,7 @@ def _scale(level: Source) -> Fraction | None:
     return Fraction(repr(sum(lengths) / len(lengths))) if lengths else None
 
 
-def _fiducials(level: Source) -> dict[str, complex]:
+def _read_fiducials(level: Source) -> dict[str, complex]:
     points, items = {}, level.read_items_under("fiducials")
     if len(items) > MAX_FIDUCIALS:
         message = f"{len(items)} fiducials are more than {MAX_FIDUCIALS} (a few are enough)"
@@ -330,7 +330,7 @@ def _fiducials(level: Source) -> dict[str, complex]:
     return points
 
 
-def _overlay(reference: Source, level: Source) -> tuple[complex, complex] | None:
+def _compute_overlay(reference: Source, level: Source) -> tuple[complex, complex] | None:
     """Return turn-and-scale and shift that lay a level's fiducials over those of another.
 
     Of all pairs of common fiducials, the turn is the circular mean of the differences of bearings,
@@ -341,7 +341,7 @@ def _overlay(reference: Source, level: Source) -> tuple[complex, complex] | None
     ----------
     Open-RMF, *rmf_building_map_tools*: ``Transform.set_from_fiducials`` in ``transform.py``.
     """
-    theirs, own = _fiducials(reference), _fiducials(level)
+    theirs, own = _read_fiducials(reference), _read_fiducials(level)
     common = [(to, own[name]) for name, to in theirs.items() if name in own]
     spans = [(to - to_2, at - at_2) for (to, at), (to_2, at_2) in combinations(common, 2)]
     if not spans or any(abs(to) == 0 or abs(at) == 0 for to, at in spans):

@@ -89,11 +89,11 @@ def read(document: Any, path: Path) -> Occupancy:
         thresholds = root.need("free_thresh").number(), root.need("occupied_thresh").number()
     if thresholds[0] > thresholds[1]:
         raise root.need("free_thresh").make_fault("is above occupied_thresh (mend one)")
-    values, largest, is_clear = _picture(root.need("image"), path)
+    values, largest, is_clear = _read_picture(root.need("image"), path)
     table = (
-        _raw_table(largest)
+        _make_raw_table(largest)
         if is_raw
-        else _table(largest, *thresholds, negate=negate is not None and negate.read_flag())
+        else _make_table(largest, *thresholds, negate=negate is not None and negate.read_flag())
     )
     pixels = table[values]
     if is_clear is not None and not is_raw:
@@ -117,7 +117,9 @@ def read(document: Any, path: Path) -> Occupancy:
     )
 
 
-def _table(largest: int, free: Fraction, occupied: Fraction, *, negate: bool) -> NDArray[np.uint8]:
+def _make_table(
+    largest: int, free: Fraction, occupied: Fraction, *, negate: bool
+) -> NDArray[np.uint8]:
     """Return what a pixel of each value shows; dark is occupied unless negated.
 
     Between the thresholds it is unknown (``trinary``) or costly (``scale``), and not free for us.
@@ -130,7 +132,7 @@ def _table(largest: int, free: Fraction, occupied: Fraction, *, negate: bool) ->
     return table
 
 
-def _raw_table(largest: int) -> NDArray[np.uint8]:
+def _make_raw_table(largest: int) -> NDArray[np.uint8]:
     """Return what a pixel of each value shows where values are occupancies from 0 to 100."""
     table = np.full(largest + 1, UNKNOWN, np.uint8)
     scaled = np.arange(largest + 1) * OPAQUE // largest
@@ -138,7 +140,7 @@ def _raw_table(largest: int) -> NDArray[np.uint8]:
     return table
 
 
-def _picture(image: Source, path: Path) -> tuple[NDArray[Any], int, NDArray[np.bool_] | None]:
+def _read_picture(image: Source, path: Path) -> tuple[NDArray[Any], int, NDArray[np.bool_] | None]:
     """Return the values of a picture's pixels, the largest possible one, and which are clear."""
     from PIL import Image
 
@@ -153,7 +155,7 @@ def _picture(image: Source, path: Path) -> tuple[NDArray[Any], int, NDArray[np.b
                     size = f"{picture.width} x {picture.height} pixels"
                     raise image.make_fault(f"{size} are more than {MAX_PIXELS} (give a part of it)")
                 picture.load()
-                return _values(picture)
+                return _read_values(picture)
     except InputError:
         raise
     except FileNotFoundError:
@@ -167,7 +169,7 @@ def _picture(image: Source, path: Path) -> tuple[NDArray[Any], int, NDArray[np.b
         raise image.make_fault(f"the picture cannot be read: {reason} (write it again)") from None
 
 
-def _values(picture: Image) -> tuple[NDArray[Any], int, NDArray[np.bool_] | None]:
+def _read_values(picture: Image) -> tuple[NDArray[Any], int, NDArray[np.bool_] | None]:
     if picture.mode.startswith("I"):
         wide = np.clip(np.asarray(picture), 0, GREY_16).astype(np.uint16)
         return wide, GREY_16, None

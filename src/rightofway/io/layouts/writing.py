@@ -148,27 +148,27 @@ def _name_curved(level: Level) -> list[str]:
     )
 
 
-def _lif(layout: Layout) -> str:
-    layouts = [_lif_level(level) for level in layout.levels]
+def _write_lif(layout: Layout) -> str:
+    layouts = [_make_lif_level(level) for level in layout.levels]
     about = {
         "projectIdentification": "layout",
         "creator": "rightofway",
         "exportTimestamp": "1970-01-01T00:00:00Z",
         "lifVersion": "1.0.0",
     }
-    return _json({"metaInformation": about, "layouts": layouts}) + "\n"
+    return _write_json({"metaInformation": about, "layouts": layouts}) + "\n"
 
 
-def _lif_level(level: Level) -> dict[str, Any]:
+def _make_lif_level(level: Level) -> dict[str, Any]:
     everybody = level.vehicle_types or (FREE_FOR_ALL,)
     at = {vertex.name: vertex.at for vertex in level.vertices}
     return {
         "layoutId": level.name or "0",
         "layoutVersion": "1",
         "layoutLevelId": level.name or "0",
-        "nodes": [_lif_node(vertex, everybody) for vertex in level.vertices],
+        "nodes": [_make_lif_node(vertex, everybody) for vertex in level.vertices],
         "edges": [
-            _lif_edge(edge, number, sorted(edge.types or everybody), at)
+            _make_lif_edge(edge, number, sorted(edge.types or everybody), at)
             for number, edge in enumerate(level.edges)
         ],
         "stations": [
@@ -178,7 +178,7 @@ def _lif_level(level: Level) -> dict[str, Any]:
     }
 
 
-def _json(value: dict[str, Any], margin: str = "\n") -> str:
+def _write_json(value: dict[str, Any], margin: str = "\n") -> str:
     """Return JSON with one node, edge, station or feature on a line."""
     if LISTS.isdisjoint(value):
         return format_json_line(value)
@@ -186,7 +186,7 @@ def _json(value: dict[str, Any], margin: str = "\n") -> str:
     parts = []
     for key, child in value.items():
         if key in LISTS and child:
-            rows = f",{inner}  ".join(_json(item, f"{inner}  ") for item in child)
+            rows = f",{inner}  ".join(_write_json(item, f"{inner}  ") for item in child)
             text = f"[{inner}  {rows}{inner}]"
         else:
             text = format_json_line(child)
@@ -194,7 +194,7 @@ def _json(value: dict[str, Any], margin: str = "\n") -> str:
     return f"{{{inner}{f',{inner}'.join(parts)}{margin}}}"
 
 
-def _lif_node(vertex: LayoutVertex, types: Sequence[str]) -> dict[str, Any]:
+def _make_lif_node(vertex: LayoutVertex, types: Sequence[str]) -> dict[str, Any]:
     actions = [
         {"actionType": name, "requirementType": "CONDITIONAL", "blockingType": "HARD"}
         for name in ("startCharging", "stopCharging")
@@ -209,14 +209,14 @@ def _lif_node(vertex: LayoutVertex, types: Sequence[str]) -> dict[str, Any]:
     }
 
 
-def _lif_edge(
+def _make_lif_edge(
     edge: LayoutEdge, number: int, types: Sequence[str], at: Mapping[str, Point]
 ) -> dict[str, Any]:
     more: dict[str, Any] = {}
     if edge.max_speed is not None:
         more["maxSpeed"] = float(edge.max_speed)
     if edge.chord_error is not None:
-        more["trajectory"] = _trajectory(edge, at)
+        more["trajectory"] = _make_trajectory(edge, at)
     return {
         "edgeId": f"{edge.tail}-{edge.head} {number}",
         "startNodeId": edge.tail,
@@ -227,7 +227,7 @@ def _lif_edge(
     }
 
 
-def _trajectory(edge: LayoutEdge, at: Mapping[str, Point]) -> dict[str, Any]:
+def _make_trajectory(edge: LayoutEdge, at: Mapping[str, Point]) -> dict[str, Any]:
     """Return the curve of an edge as straight lines between its points: a NURBS of degree 1."""
     points = [at[edge.tail], *edge.shape, at[edge.head]]
     last = len(points) - 1
@@ -238,20 +238,21 @@ def _trajectory(edge: LayoutEdge, at: Mapping[str, Point]) -> dict[str, Any]:
     }
 
 
-def _nav2(layout: Layout) -> str:
+def _write_nav2(layout: Layout) -> str:
     level = layout.levels[0]
     are_numbers = all(_is_number(vertex.name) for vertex in level.vertices)
     ids = {
         vertex.name: int(vertex.name) if are_numbers else number
         for number, vertex in enumerate(level.vertices)
     }
-    at = {vertex.name: _pair(vertex.at) for vertex in level.vertices}
+    at = {vertex.name: _make_pair(vertex.at) for vertex in level.vertices}
     first = max([9_999, *ids.values()]) + 1
     nodes = [
-        _feature({"id": ids[name], "frame": "map"}, "Point", point) for name, point in at.items()
+        _make_feature({"id": ids[name], "frame": "map"}, "Point", point)
+        for name, point in at.items()
     ]
     edges = [
-        _feature(
+        _make_feature(
             {
                 "id": number,
                 "startid": ids[edge.tail],
@@ -259,28 +260,29 @@ def _nav2(layout: Layout) -> str:
                 **({"metadata": {"speed_limit": float(edge.max_speed)}} if edge.max_speed else {}),
             },
             "LineString",
-            [at[edge.tail], *map(_pair, edge.shape), at[edge.head]],
+            [at[edge.tail], *map(_make_pair, edge.shape), at[edge.head]],
         )
         for number, edge in enumerate(level.edges, start=first)
     ]
     return (
-        _json({"type": "FeatureCollection", "name": "graph", "features": [*nodes, *edges]}) + "\n"
+        _write_json({"type": "FeatureCollection", "name": "graph", "features": [*nodes, *edges]})
+        + "\n"
     )
 
 
-def _feature(properties: dict[str, Any], kind: str, coordinates: Any) -> dict[str, Any]:
+def _make_feature(properties: dict[str, Any], kind: str, coordinates: Any) -> dict[str, Any]:
     geometry = {"type": kind, "coordinates": coordinates}
     return {"type": "Feature", "properties": properties, "geometry": geometry}
 
 
-def _pair(point: tuple[Fraction, Fraction]) -> list[float]:
+def _make_pair(point: tuple[Fraction, Fraction]) -> list[float]:
     return [float(point[0]), float(point[1])]
 
 
 def _open_rmf(layout: Layout) -> str:
     import yaml
 
-    levels = {level.name or "L1": _rmf_level(level) for level in layout.levels}
+    levels = {level.name or "L1": _make_rmf_level(level) for level in layout.levels}
     return str(
         yaml.safe_dump(
             {"building_name": "site", "levels": levels},
@@ -291,7 +293,7 @@ def _open_rmf(layout: Layout) -> str:
     )
 
 
-def _rmf_level(level: Level) -> dict[str, Any]:
+def _make_rmf_level(level: Level) -> dict[str, Any]:
     numbers = {vertex.name: number for number, vertex in enumerate(level.vertices)}
     zones = level.zones[::-1]  # the first zone of a place stands
     of_vertex = {name: zone.name for zone in zones for name in zone.vertices}
@@ -299,7 +301,7 @@ def _rmf_level(level: Level) -> dict[str, Any]:
     return {
         "vertices": [
             [
-                *_pair(vertex.at),
+                *_make_pair(vertex.at),
                 {
                     "name": vertex.name,
                     **({"is_charger": True} if vertex.is_charging else {}),
@@ -333,7 +335,7 @@ NODE_KEYS_OF_PASSED = {"pass": "boolean"}
 EDGE_KEYS = {"length": "double", "max_speed": "double"}
 
 
-def _graphml(layout: Layout) -> str:
+def _write_graphml(layout: Layout) -> str:
     from xml.sax.saxutils import quoteattr  # here, because it imports urllib
 
     level = layout.levels[0]
@@ -348,20 +350,20 @@ def _graphml(layout: Layout) -> str:
         ]
     lines.append('  <graph id="G" edgedefault="directed">')
     for vertex in level.vertices:
-        x, y = _pair(vertex.at)
+        x, y = _make_pair(vertex.at)
         data = {"x": x, "y": y, "parking": vertex.is_parking, "charging": vertex.is_charging,
                 "pass": vertex.is_passed}  # fmt: skip
-        lines.append(f"    <node id={quoteattr(vertex.name)}>{_data(data)}</node>")
+        lines.append(f"    <node id={quoteattr(vertex.name)}>{_write_data(data)}</node>")
     for edge in level.edges:
         ends = f"source={quoteattr(edge.tail)} target={quoteattr(edge.head)}"
         data = {"length": float(edge.length)}
         if edge.max_speed is not None:
             data["max_speed"] = float(edge.max_speed)
-        lines.append(f"    <edge {ends}>{_data(data)}</edge>")
+        lines.append(f"    <edge {ends}>{_write_data(data)}</edge>")
     return "\n".join([*lines, "  </graph>", "</graphml>", ""])
 
 
-def _data(values: dict[str, Any]) -> str:
+def _write_data(values: dict[str, Any]) -> str:
     from xml.sax.saxutils import escape
 
     return "".join(
@@ -373,12 +375,12 @@ def _data(values: dict[str, Any]) -> str:
 
 LAYOUT_WRITERS: dict[str, LayoutWriter] = {
     "lif": LayoutWriter(
-        summary="LIF 1.0.0", write=_lif,
+        summary="LIF 1.0.0", write=_write_lif,
         says=frozenset({"names of vertices", "levels", "stations", "charging places",
                         "vehicle types", "curves that robots drive along"}),
     ),
     "nav2": LayoutWriter(
-        summary="route graph of Nav2, GeoJSON", write=_nav2, says=frozenset({"drawn curves"}),
+        summary="route graph of Nav2, GeoJSON", write=_write_nav2, says=frozenset({"drawn curves"}),
     ),
     "open-rmf": LayoutWriter(
         summary="navigation graph of Open-RMF", write=_open_rmf,
@@ -386,7 +388,7 @@ LAYOUT_WRITERS: dict[str, LayoutWriter] = {
                         "zones", PASSED_VERTICES}),
     ),
     "graphml": LayoutWriter(
-        summary="GraphML, metres", write=_graphml,
+        summary="GraphML, metres", write=_write_graphml,
         says=frozenset({"names of vertices", "parking places", "charging places",
                         "lanes longer than the straight line", PASSED_VERTICES}),
     ),

@@ -45,7 +45,7 @@ class Element(Source):
                 yield from child.list_descendants(name)
 
 
-def _without_namespaces(attributes: dict[str, str]) -> dict[str, str]:
+def _strip_namespaces(attributes: dict[str, str]) -> dict[str, str]:
     for key in attributes:
         if " " in key:
             return {key.rpartition(" ")[2]: value for key, value in attributes.items()}
@@ -94,7 +94,7 @@ def parse_xml(text: str) -> Element:
             check_work(READING)
         if len(opened) > MAX_DEPTH or count > most:
             raise _make_size_fault(line, most if count > most else None)
-        element = Element(_without_namespaces(attributes), (), line, local_names[name], [])
+        element = Element(_strip_namespaces(attributes), (), line, local_names[name], [])
         opened[-1].children.append(element)
         opened.append(element)
 

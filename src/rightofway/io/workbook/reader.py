@@ -57,13 +57,13 @@ def load_workbook_scenario(path: Path | str) -> Loaded:
     path = Path(path)
     with name_file(str(path)):
         faults, notes = Faults(), list[Fact]()
-        document = _document(read_sheets(path, SHEETS, faults), faults, notes)
+        document = _make_document(read_sheets(path, SHEETS, faults), faults, notes)
         with document.locate():
             loaded = read_scenario(document.part, path.parent)
         return Loaded(scenario=loaded.scenario, notes=(*notes, *loaded.notes))
 
 
-def _document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[Fact]) -> CellDocument:
+def _make_document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[Fact]) -> CellDocument:
     """Return the scenario document of the sheets, and where each place of it stands."""
     from rightofway.io.scenario.shape import ClosureDocument, RobotDocument
 
@@ -73,13 +73,13 @@ def _document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[Fact]) ->
     if "map" in sheets and "vertices" in sheets:
         faults.note("map", "a map and vertices are given (take one of the two sheets out)")
     elif "map" in sheets:
-        grid = faults.attempt("", _grid, sheets["map"], notes)
+        grid = faults.attempt("", _read_grid, sheets["map"], notes)
         if grid is not None:
             lines, offset, grid_cells = grid
             document["map"] = {"grid": lines}
             cells |= grid_cells
     elif "vertices" in sheets and "edges" in sheets:
-        drawn = _roadmap(sheets["vertices"], sheets["edges"])
+        drawn = _read_roadmap(sheets["vertices"], sheets["edges"])
         document["map"] = {"roadmap": drawn.part}
         cells |= drawn.cells
         faults.add(drawn.faults)
@@ -89,7 +89,7 @@ def _document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[Fact]) ->
     if "robots" in sheets:
         sheet = sheets["robots"]
         robots = read_robots_of_rows(
-            _rows(sheet, offset), sheet.locate_cell, list_keys(RobotDocument)
+            _read_rows(sheet, offset), sheet.locate_cell, list_keys(RobotDocument)
         )
         document["robots"] = robots.part
         cells |= {("robots",): sheet.location, **robots.cells}
@@ -102,7 +102,7 @@ def _document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[Fact]) ->
     if "closures" in sheets:
         sheet, known = sheets["closures"], list_keys(ClosureDocument)
         closures = read_records(
-            _rows(sheet, offset), sheet.locate_cell, ("closures",), known, noun="a closure"
+            _read_rows(sheet, offset), sheet.locate_cell, ("closures",), known, noun="a closure"
         )
         document["closures"] = closures.part
         cells |= closures.cells
@@ -112,7 +112,7 @@ def _document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[Fact]) ->
     return CellDocument(part=document, cells=cells, faults=faults.found)
 
 
-def _grid(
+def _read_grid(
     sheet: Sheet, notes: list[Fact]
 ) -> tuple[list[str], tuple[int, int], dict[Steps, Where]] | None:
     """Return the rows of a map, its first row and column, and the cells of its rows."""
@@ -155,13 +155,16 @@ def _grid(
     return lines, (top, left), cells
 
 
-def _rows(sheet: Sheet, offset: tuple[int, int]) -> Iterator[Row]:
+def _read_rows(sheet: Sheet, offset: tuple[int, int]) -> Iterator[Row]:
     """Yield the rows of a sheet whose places may be cells of the map."""
     for number, values in sheet.list_rows():
-        yield number, {column: _in_map(value, offset) for column, value in values.items()}
+        yield (
+            number,
+            {column: _convert_reference(value, offset) for column, value in values.items()},
+        )
 
 
-def _in_map(value: Any, offset: tuple[int, int]) -> Any:
+def _convert_reference(value: Any, offset: tuple[int, int]) -> Any:
     """Return what a cell holds; for a reference to a cell of the map its row and column there."""
     cell = find_reference(value) if isinstance(value, str) else None
     if cell is None:
@@ -214,7 +217,7 @@ def _add_rules(
         document["map"] |= parts["map"]
 
 
-def _roadmap(vertices: Sheet, edges: Sheet) -> CellDocument:
+def _read_roadmap(vertices: Sheet, edges: Sheet) -> CellDocument:
     """Return the roadmap of a sheet of vertices and a sheet of edges."""
     from rightofway.io.scenario.shape import EdgeDocument
 

@@ -98,7 +98,7 @@ def read_sheets(path: Path, wanted: Collection[str], faults: Faults) -> dict[str
     InputError
         If the file is no workbook, or has none of these sheets.
     """
-    data = _content(path)
+    data = _read_content(path)
     sheets: dict[str, Sheet] = {}
     with _open_workbook(data, cached=False) as workbook:
         for name in workbook.sheetnames:
@@ -107,17 +107,17 @@ def read_sheets(path: Path, wanted: Collection[str], faults: Faults) -> dict[str
                 if key in sheets:
                     faults.note(Location(cell=name), f"two sheets are called {key} (take one out)")
                     continue
-                merged = _merged_cells(data, workbook[name])
+                merged = _list_merged_cells(data, workbook[name])
                 for cells in merged:
                     where = Location(cell=f"{name}!{cells}")
                     faults.note(where, "these cells are merged (unmerge them)")
-                sheets[key] = _sheet(workbook[name], faults, data)
+                sheets[key] = _read_sheet(workbook[name], faults, data)
         if not sheets:
-            raise _no_sheet(workbook.sheetnames, wanted)
+            raise _make_no_sheet(workbook.sheetnames, wanted)
     return sheets
 
 
-def _content(path: Path) -> bytes:
+def _read_content(path: Path) -> bytes:
     data = bytes(read_content(path, MAX_BYTES))
     if data.startswith(OLD_OFFICE):
         message = "has a password, or is an old .xls file (save it as .xlsx without a password)"
@@ -131,11 +131,11 @@ def _content(path: Path) -> bytes:
     if "content.xml" in names:
         raise InputError.at("", "this is an OpenDocument file (save it as .xlsx)")
     if size > MAX_BYTES:
-        raise _too_long()
+        raise _make_too_long()
     return data
 
 
-def _too_long() -> InputError:
+def _make_too_long() -> InputError:
     message = f"its content is longer than {MAX_BYTES} bytes (is it the right file?)"
     return InputError.at("", message)
 
@@ -151,14 +151,14 @@ def _open_workbook(data: bytes, *, cached: bool) -> Iterator[Any]:
                 io.BytesIO(data), read_only=True, data_only=cached, keep_links=False
             )
         except Exception as error:  # noqa: BLE001 (a broken file may raise anything there)
-            raise _broken(error) from None
+            raise _make_broken(error) from None
     try:
         yield workbook
     finally:
         workbook.close()
 
 
-def _broken(error: Exception) -> InputError:
+def _make_broken(error: Exception) -> InputError:
     reason = " ".join(str(error).split()) or type(error).__name__
     message = (
         f"the workbook is broken: {quote(reason)} (open it in a spreadsheet, and save it again)"
@@ -166,7 +166,7 @@ def _broken(error: Exception) -> InputError:
     return InputError.at("", message)
 
 
-def _no_sheet(names: list[str], wanted: Collection[str]) -> InputError:
+def _make_no_sheet(names: list[str], wanted: Collection[str]) -> InputError:
     near = [(name, find_nearest(name.strip().lower(), wanted)) for name in names]
     meant = next((f"did you mean {near!r} by {name!r}?" for name, near in near if near), "")
     remedy = meant or "rightofway new FILE.xlsx writes a workbook to begin with"
@@ -174,22 +174,22 @@ def _no_sheet(names: list[str], wanted: Collection[str]) -> InputError:
     return InputError.at("", f"no sheet is called map or robots; there is {listed} ({remedy})")
 
 
-def _merged_cells(data: bytes, worksheet: Any) -> list[str]:
+def _list_merged_cells(data: bytes, worksheet: Any) -> list[str]:
     """Return the ranges of merged cells; a streamed sheet does not tell them."""
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             xml = archive.read(worksheet._worksheet_path)  # noqa: SLF001
     except Exception as error:  # noqa: BLE001 (openpyxl reads no further than a sheet ends)
-        raise _broken(error) from None
+        raise _make_broken(error) from None
     return [reference.decode() for reference in MERGED.findall(xml)]
 
 
-def _sheet(worksheet: Any, faults: Faults, data: bytes) -> Sheet:
+def _read_sheet(worksheet: Any, faults: Faults, data: bytes) -> Sheet:
     """Read the cells of a sheet; note those that hold no value."""
     sheet = Sheet(name=worksheet.title)
     formulas: dict[Position, str] = {}
     try:
-        for row in _rows(worksheet):
+        for row in _read_rows(worksheet):
             for cell in row:
                 if cell.value is None and not getattr(cell, "has_style", False):
                     continue
@@ -204,13 +204,13 @@ def _sheet(worksheet: Any, faults: Faults, data: bytes) -> Sheet:
     except InputError:
         raise
     except Exception as error:  # noqa: BLE001 (a broken file may raise anything there)
-        raise _broken(error) from None
+        raise _make_broken(error) from None
     if formulas:
         _keep_computed(sheet, formulas, faults, data)
     return sheet
 
 
-def _rows(worksheet: Any) -> Iterator[Any]:
+def _read_rows(worksheet: Any) -> Iterator[Any]:
     """Yield the rows of a sheet, empty ones too, with the cells up to the last one of each."""
     seen = 0
     worksheet.reset_dimensions()  # what the file claims may be wrong
@@ -231,7 +231,7 @@ def _keep_computed(
     """
     computed = set()
     with _open_workbook(data, cached=True) as workbook:
-        for row in _rows(workbook[sheet.name]):
+        for row in _read_rows(workbook[sheet.name]):
             for cell in row:
                 position = (getattr(cell, "row", 0), getattr(cell, "column", 0))
                 if position not in formulas:
@@ -284,7 +284,7 @@ def _keep(sheet: Sheet, position: Position, value: Any, kind: str, faults: Fault
     elif isinstance(value, bool | int):
         sheet.values[position] = value
     elif isinstance(value, float):
-        number = _exact(value)
+        number = _restore_exact(value)
         if number is None:
             faults.note(place, f"{value} is not a number (write a number)")
         else:
@@ -293,7 +293,7 @@ def _keep(sheet: Sheet, position: Position, value: Any, kind: str, faults: Fault
         sheet.values[position] = str(value).strip()
 
 
-def _exact(value: float) -> int | Fraction | None:
+def _restore_exact(value: float) -> int | Fraction | None:
     """Return the number that a user meant by a decimal of 15 digits: 0.333333333333333 is 1/3."""
     if value != value or value in {float("inf"), float("-inf")}:  # noqa: PLR0124 (NaN)
         return None
@@ -317,14 +317,16 @@ def _is_dark(cell: Any) -> bool | None:
     elif colour.type == "indexed":
         from openpyxl.styles.colors import COLOR_INDEX  # type: ignore[import-untyped]
 
-        light = _lightness(COLOR_INDEX[colour.indexed] if colour.indexed < len(COLOR_INDEX) else "")
+        light = _measure_lightness(
+            COLOR_INDEX[colour.indexed] if colour.indexed < len(COLOR_INDEX) else ""
+        )
     else:
-        light = _lightness(str(colour.rgb))
+        light = _measure_lightness(str(colour.rgb))
     tint = float(colour.tint or 0)
     return light * (1 + tint) < DARK if tint < 0 else light + (255 - light) * tint < DARK
 
 
-def _lightness(rgb: str) -> float:
+def _measure_lightness(rgb: str) -> float:
     if not re.fullmatch("[0-9A-Fa-f]{6,8}", rgb):
         return 0
     red, green, blue = (int(rgb[-6:][k : k + 2], 16) for k in (0, 2, 4))

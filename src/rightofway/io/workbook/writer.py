@@ -26,7 +26,7 @@ Hint = tuple[str, str, str]
 """A key, what it is, and the choices with commas between, if it has a few."""
 
 
-def _hints_of(attributes: Sequence[Attribute]) -> Iterator[Hint]:
+def _list_hints(attributes: Sequence[Attribute]) -> Iterator[Hint]:
     for attribute in attributes:
         yield attribute.key, attribute.description, ",".join(attribute.words)
 
@@ -36,13 +36,13 @@ ROBOT_HINTS: tuple[Hint, ...] = (
     ("home", "where it begins and ends: a cell of the map like map!A1, or N0, [0, 2], a name", ""),
     ("target", "where it works, written like home; for several places use stop 1, stop 2, …", ""),
     ("work", "how long it works there; empty is 0", ""),
-    *_hints_of(ROBOT_ATTRIBUTES),
+    *_list_hints(ROBOT_ATTRIBUTES),
     ("size", "[length, width] instead of a radius: the circle around it [length unit]", ""),
 )
 """Empty cells of a robot follow the rules."""
 
 RULE_HINTS: tuple[Hint, ...] = (
-    *_hints_of(RULE_ATTRIBUTES),
+    *_list_hints(RULE_ATTRIBUTES),
     ("cell_size", "side of a cell of the map", ""),
     ("y", "down, or up: which way y grows", "down,up"),
     ("origin", "[x, y] of the map's lower left corner on the site", ""),
@@ -184,7 +184,7 @@ def _write_robots(sheet: Any, robots: Sequence[dict[str, Any]]) -> None:
     keys = [*usual[:2], *stops, *usual[2:]]
     rows = []
     for robot in robots:
-        cells = {key: _cell(value) for key, value in robot.items() if key != "stops"}
+        cells = {key: _convert_to_cell(value) for key, value in robot.items() if key != "stops"}
         trip = robot.get("stops") or [{"at": robot.get("target"), "work": robot.get("work")}]
         for number, stop in enumerate(trip if stops else (), 1):
             cells[f"stop {number}"], cells[f"work {number}"] = stop["at"], stop.get("work")
@@ -203,10 +203,10 @@ def _write_rules(sheet: Any, given: dict[str, Any]) -> None:
 
     _write_table(sheet, ["rule", "value", "what it is"], [])
     more = [key for key in given if key not in {hint[0] for hint in RULE_HINTS}]
-    hints = (*RULE_HINTS, *((key, _description(MapDocument, key), "") for key in more))
+    hints = (*RULE_HINTS, *((key, _find_description(MapDocument, key), "") for key in more))
     for row, (key, text, choices) in enumerate(hints, 2):
         sheet.cell(row, 1, key)
-        sheet.cell(row, 2, _cell(given.get(key))).number_format = "@"
+        sheet.cell(row, 2, _convert_to_cell(given.get(key))).number_format = "@"
         sheet.cell(row, 3, text)
         _add_hint(sheet, f"B{row}", key, text, choices)
     for letter, width in zip("ABC", (14, 14, 80), strict=True):
@@ -217,9 +217,13 @@ def _write_closures(sheet: Any, closures: Sequence[dict[str, Any]]) -> None:
     from rightofway.io.scenario.shape import ClosureDocument
 
     keys = ["at", "edge", "from", "until", "radius"]
-    _write_table(sheet, keys, [[_cell(closure.get(key)) for key in keys] for closure in closures])
+    _write_table(
+        sheet, keys, [[_convert_to_cell(closure.get(key)) for key in keys] for closure in closures]
+    )
     for letter, key in zip("ABCDE", keys, strict=True):
-        _add_hint(sheet, f"{letter}2:{letter}{ROWS}", key, _description(ClosureDocument, key), "")
+        _add_hint(
+            sheet, f"{letter}2:{letter}{ROWS}", key, _find_description(ClosureDocument, key), ""
+        )
 
 
 def _write_roadmap(workbook: Any, roadmap: dict[str, Any]) -> None:
@@ -228,16 +232,18 @@ def _write_roadmap(workbook: Any, roadmap: dict[str, Any]) -> None:
     for name, vertex in roadmap["vertices"].items():
         x, y = vertex["at"] if isinstance(vertex, dict) else vertex
         more = (
-            {key: _cell(vertex[key]) for key in vertex if key != "at"}
+            {key: _convert_to_cell(vertex[key]) for key in vertex if key != "at"}
             if isinstance(vertex, dict)
             else {}
         )
         spots = {key: "true" for key in SPOTS if name in roadmap.get(key, ())}
-        rows.append({"name": name, "x": _cell(x), "y": _cell(y), **more, **spots})
+        rows.append(
+            {"name": name, "x": _convert_to_cell(x), "y": _convert_to_cell(y), **more, **spots}
+        )
     heads = list(dict.fromkeys(chain(("name", "x", "y"), *rows)))
     _write_table(vertices, heads, [[row.get(key) for key in heads] for row in rows])
     keys = list(dict.fromkeys(["from", "to", "length", "both_ways", *chain(*roadmap["edges"])]))
-    ways = [[_cell(edge.get(key)) for key in keys] for edge in roadmap["edges"]]
+    ways = [[_convert_to_cell(edge.get(key)) for key in keys] for edge in roadmap["edges"]]
     _write_table(edges, keys, ways)
     hint = "true: it can be driven back"
     _add_hint(edges, f"D2:D{max(ROWS, len(ways) + 1)}", "both_ways", hint, "true,false")
@@ -281,13 +287,13 @@ def _add_hint(
     rule.add(cells)
 
 
-def _description(model: Any, key: str) -> str:
+def _find_description(model: Any, key: str) -> str:
     """Return what a document says of a key."""
     fields = {field.alias or name: field for name, field in model.model_fields.items()}
     return fields[key].description or "" if key in fields else ""
 
 
-def _cell(value: Any) -> Any:
+def _convert_to_cell(value: Any) -> Any:
     """Return a value of a document as a cell holds it."""
     if isinstance(value, bool):
         return "true" if value else "false"

@@ -51,7 +51,7 @@ async def stop_drive(studio: InStudio, number: DriveNumber) -> dict[str, Any]:
     return (await studio.drives.stop(number)).describe()
 
 
-def _watched(request: Request, number: int) -> Watched:
+def _find_watched(request: Request, number: int) -> Watched:
     state = request.app.state
     is_alone = hasattr(state, "drives")  # the page of one fleet, without a studio
     drives: dict[int, Watched] = state.drives if is_alone else state.studio.drives.pages
@@ -63,7 +63,7 @@ def _watched(request: Request, number: int) -> Watched:
 @router.get("/drives/{number}/")
 async def get_page(request: Request, number: int) -> HTMLResponse:
     """Return the page of a fleet."""
-    page = await _watched(request, number).make_page_aside()
+    page = await _find_watched(request, number).make_page_aside()
     policy = page.partition('http-equiv="Content-Security-Policy" content="')[2].partition('"')[0]
     return HTMLResponse(page, headers={"content-security-policy": policy})
 
@@ -72,7 +72,7 @@ async def get_page(request: Request, number: int) -> HTMLResponse:
 async def get_stream(request: Request, number: int) -> StreamingResponse:
     """Send what happens as server-sent events, from the last one on that the page has."""
     known = request.headers.get("last-event-id", request.query_params.get("known", ""))
-    frames = _watched(request, number).stream_frames(known)
+    frames = _find_watched(request, number).stream_frames(known)
     return StreamingResponse(frames, media_type="text/event-stream")
 
 
@@ -81,4 +81,4 @@ def give_order(
     request: Request, number: int, order: Annotated[dict[str, Any], Body()]
 ) -> dict[str, Any]:
     """Ask the control of a fleet for something."""
-    return dict(_watched(request, number).give_order(order))
+    return dict(_find_watched(request, number).give_order(order))

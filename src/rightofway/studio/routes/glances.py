@@ -36,7 +36,7 @@ def list_examples() -> dict[str, Any]:
 @router.get("/examples/{name:path}", tags=["files"])
 async def get_example(studio: InStudio, name: Named) -> dict[str, Any]:
     """Return an example as a document that names no other file."""
-    result, _ = await studio.ask("example", name=_known(name))
+    result, _ = await studio.ask("example", name=_require_known(name))
     return {"kind": "scenario", **result}
 
 
@@ -52,7 +52,7 @@ async def get_glance(
     Of a file that cannot be read, ``trouble`` says why; a list has no such faults. The answer is
     kept until the file changes.
     """
-    arguments, revision = _asked(studio, source, name)
+    arguments, revision = _read_question(studio, source, name)
 
     async def make() -> bytes:
         try:
@@ -69,7 +69,7 @@ async def get_glance(
     return Response(content, media_type="application/json")
 
 
-def _asked(studio: Studio, source: Source, name: str) -> tuple[dict[str, Any], object]:
+def _read_question(studio: Studio, source: Source, name: str) -> tuple[dict[str, Any], object]:
     """Return the arguments of the task, and what changes with what is looked at."""
     if source == "files":
         stat = studio.workspace.find_existing(name).stat()
@@ -79,10 +79,10 @@ def _asked(studio: Studio, source: Source, name: str) -> tuple[dict[str, Any], o
         if draft is None:
             raise Refused(f"there is no draft {name!r} (see the list of drafts)", 404)
         return {"document": draft["document"]}, draft["saved"]
-    return {"path": str(find_examples_folder() / f"{_known(name)}.yaml")}, None
+    return {"path": str(find_examples_folder() / f"{_require_known(name)}.yaml")}, None
 
 
-def _known(name: str) -> str:
+def _require_known(name: str) -> str:
     known = list_scenario_examples()
     if name not in known:
         raise Refused(f"there is no example {name!r} (there are {', '.join(known)})", 404)

@@ -45,28 +45,28 @@ about = APIRouter()
 @router.get("/")
 async def get_index(request: Request) -> Response:
     """Return the page."""
-    return _file(request, "studio/assets/index.html")
+    return _send_file(request, "studio/assets/index.html")
 
 
 @router.get("/studio/assets/{path:path}")
 async def get_asset(request: Request, path: str) -> Response:
     """Return a file of the page."""
-    return _file(request, f"studio/assets/{path}")
+    return _send_file(request, f"studio/assets/{path}")
 
 
 @router.get("/viz/page/assets/{path:path}")
 async def get_viewer_asset(request: Request, path: str) -> Response:
     """Return a file of the viewer."""
-    return _file(request, f"viz/page/assets/{path}")
+    return _send_file(request, f"viz/page/assets/{path}")
 
 
 @router.get("/languages.json")
 async def send_languages(request: Request) -> Response:
     """Return the sentences of the library in other languages."""
-    return _file(request, "languages.json")
+    return _send_file(request, "languages.json")
 
 
-def _file(request: Request, path: str) -> Response:
+def _send_file(request: Request, path: str) -> Response:
     """Return a file, or that the browser has it already."""
     content = read_page_file(path)
     headers = {"cache-control": "no-cache", "etag": f'"{crc32(content):08x}-{__version__}"'}
@@ -82,15 +82,15 @@ def read_page_file(path: str) -> bytes:
         return make_style_sheet().encode()
     if path == "languages.json":
         return as_compact_json(read_tables()).encode()
-    text = _text(path)
+    text = _read_text(path)
     if path == "studio/assets/index.html":  # else a browser asks for modules one after another
-        modules = order_scripts("studio/assets/main", _text)
+        modules = order_scripts("studio/assets/main", _read_text)
         links = (f'<link rel="modulepreload" href="/{module}.js">' for module in modules)
         text = text.replace("</head>", "\n".join([*links, "</head>"]))
     return text.encode()
 
 
-def _text(path: str) -> str:
+def _read_text(path: str) -> str:
     folder = next(name for name in FOLDERS if path.startswith(f"{name}/"))
     parts = path.removeprefix(f"{folder}/").split("/")
     asset_file = files(FOLDERS[folder]).joinpath("assets", *parts)

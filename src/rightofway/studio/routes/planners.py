@@ -30,11 +30,11 @@ def list_planners() -> dict[str, Any]:
                 "options": [
                     {
                         "name": option.name,
-                        "default": _plain(option.default),
+                        "default": _convert_to_plain(option.default),
                         "summary": option.summary,
                         "choices": list(option.choices),
-                        "least": _plain(option.least),
-                        "most": None if option.most is None else _plain(option.most),
+                        "least": _convert_to_plain(option.least),
+                        "most": None if option.most is None else _convert_to_plain(option.most),
                         "whole": option.is_whole,
                     }
                     for option in spec.options
@@ -45,7 +45,7 @@ def list_planners() -> dict[str, Any]:
     }
 
 
-def _plain(value: str | int | Fraction) -> str | int:
+def _convert_to_plain(value: str | int | Fraction) -> str | int:
     """Return the value of an option as JSON has it."""
     return format_number(value) if isinstance(value, Fraction) else value
 

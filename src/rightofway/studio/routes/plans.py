@@ -59,15 +59,15 @@ async def get_run_payload(
     """Return what the viewer plays: the plan, or the plan so far, perhaps beside others."""
     run = studio.runs.get(number)
     if replay is not None:
-        content = await _replayed(studio, run, replay)
+        content = await _make_replay(studio, run, replay)
     elif run.has_payload and not other:
         content = await studio.runs.read_blob(number, "payload")
     else:
-        content = await _played(studio, "payload", run, other)
+        content = await _make_played(studio, "payload", run, other)
     return answer_zipped(request, content)
 
 
-async def _replayed(studio: Studio, run: Run, replay: int) -> bytes:
+async def _make_replay(studio: Studio, run: Run, replay: int) -> bytes:
     """Return what the viewer plays of one run of a simulation."""
     most = run.request.get("runs", 0)
     if replay >= most:
@@ -86,12 +86,12 @@ async def get_run_page(
     other: Others = [],  # noqa: B006 (FastAPI copies it)
 ) -> Response:
     """Return the page of the plan, perhaps beside others, as `rightofway show` writes it."""
-    content = await _played(studio, "page", studio.runs.get(number), other)
+    content = await _make_played(studio, "page", studio.runs.get(number), other)
     headers = {"content-security-policy": ALONE}
     return answer_zipped(request, content, "text/html; charset=utf-8", headers)
 
 
-async def _played(studio: Studio, task: str, run: Run, others: Sequence[int]) -> bytes:
+async def _make_played(studio: Studio, task: str, run: Run, others: Sequence[int]) -> bytes:
     """Return the payload or the page of the plan that a run has now, perhaps beside others."""
     runs = [run, *map(studio.runs.get, others)]
     shown = describe_shown(runs)
@@ -142,7 +142,7 @@ async def export_run(
     if other and form != "html":
         raise Refused(f"plans are compared on a page (ask for html, not {form})", 422)
     if form == "html":
-        content = await _played(studio, "page", studio.runs.get(number), other)
+        content = await _make_played(studio, "page", studio.runs.get(number), other)
     else:
         plan = await studio.runs.read_blob(number, "plan")
         origin = await find_origin(studio, studio.runs.get(number))
@@ -208,7 +208,7 @@ async def get_run_changes(studio: InStudio, number: RunNumber) -> dict[str, Any]
     one.
     """
     run = studio.runs.get(number)
-    before = _before(studio, run)
+    before = _find_before(studio, run)
     if before is None or not run.revision:
         return {"before": None, "changes": []}
 
@@ -223,7 +223,7 @@ async def get_run_changes(studio: InStudio, number: RunNumber) -> dict[str, Any]
     return dict(json.loads(await studio.played.get(("changes", before.number, number), make)))
 
 
-def _before(studio: Studio, run: Run) -> Run | None:
+def _find_before(studio: Studio, run: Run) -> Run | None:
     earlier = [
         other for other in studio.runs.list_all() if other.number < run.number and other.revision
     ]

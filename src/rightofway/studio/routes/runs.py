@@ -115,7 +115,7 @@ async def stream_run_events(studio: InStudio, number: RunNumber) -> StreamingRes
     lower bound or a message. ``plan``: there is a better plan so far; get its payload. The stream
     ends when the run is over.
     """
-    return await _stream(studio.runs.listen(number))
+    return await _make_stream(studio.runs.listen(number))
 
 
 @router.get("/events", tags=["runs"], response_class=StreamingResponse)
@@ -125,29 +125,29 @@ async def stream_all_events(studio: InStudio) -> StreamingResponse:
     First come ``runs``, the list; then ``run``, ``progress`` and ``plan`` as for one run, and
     ``deleted``. A page needs no other stream: browsers have six connections to a server.
     """
-    return await _stream(studio.runs.listen_to_all())
+    return await _make_stream(studio.runs.listen_to_all())
 
 
 class _Stream(StreamingResponse):
     """Events as lines; their listener is free as soon as nothing more can be sent."""
 
     def __init__(self, first: Event | None, events: AsyncGenerator[Event | None]) -> None:
-        super().__init__(self._lines(first), media_type="text/event-stream")
+        super().__init__(self._yield_lines(first), media_type="text/event-stream")
         self._events = events
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         async with aclosing(self._events):
             await super().__call__(scope, receive, send)
 
-    async def _lines(self, first: Event | None) -> AsyncIterator[str]:
-        yield _line(first)
+    async def _yield_lines(self, first: Event | None) -> AsyncIterator[str]:
+        yield _write_line(first)
         async for event in self._events:
-            yield _line(event)
+            yield _write_line(event)
 
 
-async def _stream(events: AsyncGenerator[Event | None]) -> StreamingResponse:
+async def _make_stream(events: AsyncGenerator[Event | None]) -> StreamingResponse:
     return _Stream(await anext(events), events)
 
 
-def _line(event: Event | None) -> str:
+def _write_line(event: Event | None) -> str:
     return ":\n\n" if event is None else f"event: {event[0]}\ndata: {json.dumps(event[1])}\n\n"

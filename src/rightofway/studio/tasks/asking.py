@@ -28,7 +28,7 @@ def explain_losses(_emit: Emit, blobs: Blobs, *, robot: str | None = None) -> Re
     words = Words(plan=plan, quantities=plan.scenario.quantities)
     wanted = None if robot is None else _index(plan, "robot", robot)
     answers = [
-        _loss_data(words, loss)
+        _make_loss(words, loss)
         for lost in compute_lost_time(plan)
         if wanted in {None, lost.robot}
         for loss in lost.losses
@@ -66,7 +66,7 @@ def show_groups(_emit: Emit, blobs: Blobs, *, decision: int) -> Result:
     return (None, zip_text(as_compact_json(data)))
 
 
-def _loss_data(words: Words, loss: Loss) -> dict[str, Any]:
+def _make_loss(words: Words, loss: Loss) -> dict[str, Any]:
     name = words.plan.scenario.roadmap.name
     because = [
         {
@@ -75,7 +75,7 @@ def _loss_data(words: Words, loss: Loss) -> dict[str, Any]:
             "reason": (reason := explain_decision(words, words.plan.run.decisions[index])),
             "phrase": to_parts(Phrase("{first} {second}", first=story, second=reason)),
         }
-        for index in _decisions_behind(words.plan, loss)
+        for index in _list_decisions_behind(words.plan, loss)
     ]
     return {
         "kind": loss.kind,
@@ -93,7 +93,7 @@ def _loss_data(words: Words, loss: Loss) -> dict[str, Any]:
     }
 
 
-def _decisions_behind(plan: Plan, loss: Loss) -> list[int]:
+def _list_decisions_behind(plan: Plan, loss: Loss) -> list[int]:
     """Return by index the decisions that a loss follows from, in order; none where none is kept.
 
     That is the last decision on both robots at a place of the loss, and decisions of the same wait

@@ -42,15 +42,15 @@ def deal_robots(
     there are some; then homes are no stations.
     """
     with locate_faults("speeds"):
-        rates = [_speed(speed) for speed in speeds]
-    roadmap = _roadmap(document, folder, rates)
+        rates = [_read_speed(speed) for speed in speeds]
+    roadmap = _read_roadmap(document, folder, rates)
     part = find_strong_parts(list_ways(roadmap))[0]
     if robots > len(part):
         message = (
             f"{robots} are more than the {len(part)} places that reach each other (give fewer)"
         )
         raise InputError.at("robots", message)
-    homes, targets = _drawn(part, f"homes {seed}"), _drawn(part, f"targets {seed}")
+    homes, targets = _draw_places(part, f"homes {seed}"), _draw_places(part, f"targets {seed}")
     if between == "stations":
         drawing = roadmap.drawing
         stations = {int(at) for _, at in drawing.stations}
@@ -75,14 +75,14 @@ def deal_robots(
     return ({"robots": fleet},)
 
 
-def _speed(given: Any) -> Fraction:
+def _read_speed(given: Any) -> Fraction:
     try:
         return read_positive(given)
     except ValueError as error:
         raise InputError.at("", str(error)) from None
 
 
-def _roadmap(document: dict[str, Any], folder: str, speeds: list[Fraction]) -> Roadmap:
+def _read_roadmap(document: dict[str, Any], folder: str, speeds: list[Fraction]) -> Roadmap:
     with locate_faults("units"):
         units = validate(UnitsDocument, document.get("units") or {}).get_given("length", "time")
     with locate_faults("map"):
@@ -92,7 +92,7 @@ def _roadmap(document: dict[str, Any], folder: str, speeds: list[Fraction]) -> R
     return roadmap.roadmap
 
 
-def _drawn(part: Sequence[int], part_name: str) -> list[int]:
+def _draw_places(part: Sequence[int], part_name: str) -> list[int]:
     """Return places in an order that depends on words alone, on every machine and every Python."""
     draw = random.Random(part_name)  # noqa: S311 (no secret depends on it)
     return sorted(part, key=lambda _: draw.random())

@@ -56,25 +56,25 @@ def open_file(_emit: Emit, _blobs: Blobs, *, path: str, count: int | None = None
             {"kind": "layout", "document": {**as_plain(document), "robots": []}, "notes": notes},
         )
     if file.suffix.lower() in {".scen", *WORKBOOKS}:
-        return (_of_loaded("scenario", load_with_notes(file, count)),)
+        return (_make_document("scenario", load_with_notes(file, count)),)
     try:
         loaded = load_either(file, count)
     except InputError:
-        return (_with_faults(file),)
+        return (_read_with_faults(file),)
     if isinstance(loaded, Plan):
         return (
             {"kind": "plan", "figures": compute_figures(loaded)},
             format_plan(loaded).encode(),
         )
-    return ({**_of_loaded("scenario", loaded), "document": read_document(file)},)
+    return ({**_make_document("scenario", loaded), "document": read_document(file)},)
 
 
-def _of_loaded(kind: str, loaded: Loaded) -> dict[str, Any]:
+def _make_document(kind: str, loaded: Loaded) -> dict[str, Any]:
     document = as_plain(dump_scenario(loaded.scenario))
     return {"kind": kind, "document": document, "notes": to_parts(write_notes(loaded.notes))}
 
 
-def _with_faults(file: Path) -> dict[str, Any]:
+def _read_with_faults(file: Path) -> dict[str, Any]:
     """Return a scenario that has faults, to be mended in the studio; what is none is refused."""
     with open_document(file) as document:
         if isinstance(document, dict) and isinstance(document.get("map"), dict):
@@ -104,10 +104,10 @@ def load_document(document: Any, folder: str) -> Loaded:
     try:
         return read_scenario(document, Path(folder))
     except InputError as error:
-        raise InputError(_named(error.faults, document)) from None
+        raise InputError(_name_faults(error.faults, document)) from None
 
 
-def _named(faults: Sequence[InputFault], document: Any) -> list[InputFault]:
+def _name_faults(faults: Sequence[InputFault], document: Any) -> list[InputFault]:
     """Return faults with the names of list items; lines mean nothing here."""
     located = locate(faults, json.dumps(document))
     return [fault.place_at(replace(fault.location, line=None)) for fault in located]

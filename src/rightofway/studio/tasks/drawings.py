@@ -34,7 +34,7 @@ def as_drawn(plan: Plan, origin: Origin | None) -> Plan:
     """
     if origin is None:
         return plan
-    roadmap = _roadmap_of(json.dumps(origin["document"]), origin["folder"])
+    roadmap = _read_roadmap(json.dumps(origin["document"]), origin["folder"])
     if roadmap is None or roadmap != plan.scenario.roadmap:
         return plan
     drawn = replace(plan.scenario.roadmap, drawing=roadmap.drawing)
@@ -42,7 +42,7 @@ def as_drawn(plan: Plan, origin: Origin | None) -> Plan:
 
 
 @lru_cache(maxsize=4)
-def _roadmap_of(document: str, folder: str) -> Roadmap | None:
+def _read_roadmap(document: str, folder: str) -> Roadmap | None:
     try:
         return load_document(json.loads(document), folder).scenario.roadmap
     except InputError:  # a file that it names is gone

@@ -80,13 +80,13 @@ def survey_document(
     if identifies:
         answer["scenario"] = None if loaded is None or faults else compute_digest(loaded.scenario)
     if site is not None:
-        drawn = _drawn(site)
+        drawn = _draw_site(site)
         colours = choose_colours(1 + max(kept_robots, default=0))
         for robot, index in zip(drawn["robots"], kept_robots, strict=False):
             robot |= {"index": index, "colour": colours[index]}
         answer["site"] = {**drawn, "closures": closures}
     if site is not None and inspects:
-        inspection = _inspected(site)
+        inspection = _get_inspection(site)
         said = describe_site(site, inspection)
         answer |= {
             "findings": [_make_finding_data(site, finding) for finding in inspection.findings],
@@ -102,7 +102,7 @@ def _make_finding_data(site: Site, finding: Finding) -> dict[str, Any]:
     return {**export_finding(site, finding), "phrases": phrases}
 
 
-def _inspected(site: Site) -> Inspection:
+def _get_inspection(site: Site) -> Inspection:
     """Inspect a site; the findings of the latest ones are kept."""
     gist = site.gist
     if gist not in _findings:
@@ -121,12 +121,12 @@ def read_readable(
     It is without what has faults, and None where the map has some.
     """
     try:
-        return load_document(document, folder), list(_robots(document)), ()
+        return load_document(document, folder), list(_list_robots(document)), ()
     except InputError as error:
-        return *_without(document, folder, error.faults), error.faults
+        return *_read_without(document, folder, error.faults), error.faults
 
 
-def _drawn(site: Site) -> SiteData:
+def _draw_site(site: Site) -> SiteData:
     """Return a site for the editor, which has the picture of a scenario in its own memory."""
     roadmap = site.roadmap
     picture, background = roadmap.drawing.picture, find_background(roadmap)
@@ -138,12 +138,12 @@ def _drawn(site: Site) -> SiteData:
     return drawn
 
 
-def _robots(document: dict[str, Any]) -> range:
+def _list_robots(document: dict[str, Any]) -> range:
     robots = document.get("robots")
     return range(len(robots) if isinstance(robots, list) else 0)
 
 
-def _without(
+def _read_without(
     document: dict[str, Any], folder: str, faults: Sequence[InputFault]
 ) -> tuple[Loaded | None, list[int]]:
     """Return the scenario without what has faults, and which robots it has; or None, and none.
@@ -159,8 +159,10 @@ def _without(
     for key in ("closures", "rules"):
         if any(fault.path[:1] == (key,) for fault in faults):
             rest.pop(key, None)
-    drawn = [_mended(document["robots"][at], wrong.get(at, set())) for at in _robots(document)]
-    whole = [None if at in wrong else document["robots"][at] for at in _robots(document)]
+    drawn = [
+        _make_mended(document["robots"][at], wrong.get(at, set())) for at in _list_robots(document)
+    ]
+    whole = [None if at in wrong else document["robots"][at] for at in _list_robots(document)]
     for robots in (drawn, whole):
         kept_robots = [index for index, robot in enumerate(robots) if robot is not None]
         if kept_robots:
@@ -173,7 +175,7 @@ def _without(
     return None, []
 
 
-def _mended(robot: Any, wrong: set[str]) -> Any:
+def _make_mended(robot: Any, wrong: set[str]) -> Any:
     """Return a robot without the keys that are wrong; it stays at home without a stop."""
     if not isinstance(robot, dict) or wrong & {"name", "home"}:
         return robot if not wrong else None

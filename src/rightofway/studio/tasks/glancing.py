@@ -28,7 +28,9 @@ def glance_at(
 
     A scenario with faults is looked at without what has faults.
     """
-    kind, glance = _file(Path(path)) if document is None else ("scenario", _document(document, "."))
+    kind, glance = (
+        _read_file(Path(path)) if document is None else ("scenario", _read_document(document, "."))
+    )
     site = max((site for _, site in glance.sites), key=lambda candidate: candidate.roadmap.n_edges)
     about = {
         "kind": kind,
@@ -40,7 +42,7 @@ def glance_at(
     return (about, make_preview(site, theme=DARK if dark else LIGHT))
 
 
-def _file(file: Path) -> tuple[str, Sites]:
+def _read_file(file: Path) -> tuple[str, Sites]:
     if is_layout(file):
         return "layout", read_sites(file, Choice())
     try:
@@ -51,13 +53,13 @@ def _file(file: Path) -> tuple[str, Sites]:
         document = read_document(file)
         if not isinstance(document, dict) or "map" not in document:
             raise
-        return "scenario", _document(document, str(file.parent))
+        return "scenario", _read_document(document, str(file.parent))
     if isinstance(loaded, Plan):
         return "plan", make_sites(loaded.scenario, ())
     return "scenario", make_sites(loaded.scenario, loaded.notes)
 
 
-def _document(document: dict[str, Any], folder: str) -> Sites:
+def _read_document(document: dict[str, Any], folder: str) -> Sites:
     loaded, _, faults = read_readable(document, folder)
     if loaded is not None:
         return make_sites(loaded.scenario, loaded.notes)

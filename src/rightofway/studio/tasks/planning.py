@@ -40,13 +40,13 @@ class PlanningProgress:
 
     def report(self, message: Fact | str) -> None:
         """Send the English sentence of a fact."""
-        self._emit({"message": str(message), "seconds": self._seconds()})
+        self._emit({"message": str(message), "seconds": self._measure_seconds()})
 
     def take_plan(self, plan: Plan) -> None:
         """Send what a plan costs, and the plan too where that does not take too much time."""
         if not give_verdict(plan).ok:
             return  # only plans that the judge has passed are shown
-        self.best, seconds = plan, self._seconds()
+        self.best, seconds = plan, self._measure_seconds()
         event = {
             "seconds": seconds,
             "flowtime": plan.flowtime,
@@ -56,10 +56,10 @@ class PlanningProgress:
             self._emit(event)
             return
         self._emit({**event, "figures": compute_figures(plan)}, format_plan(plan).encode())
-        ended = self._seconds()
+        ended = self._measure_seconds()
         self._next = ended + (ended - seconds) * (1 / SHARE_OF_SENDING - 1)
 
-    def _seconds(self) -> float:
+    def _measure_seconds(self) -> float:
         return round(time.monotonic() - self._began, 3)
 
 
@@ -75,16 +75,16 @@ def plan(
     """Plan a document; ``start`` is the run whose plan, a blob, it starts from."""
     scenario = load_document(document, folder).scenario
     old = None if start is None else parse_plan(parse_json(blobs[0].decode()))
-    return _searched(emit, lambda progress: solve(scenario, start=old, **settings, **progress))
+    return _run_search(emit, lambda progress: solve(scenario, start=old, **settings, **progress))
 
 
 def improve(emit: Emit, blobs: Blobs, **settings: Any) -> Result:
     """Make a plan better."""
     given = parse_plan(parse_json(blobs[0].decode()))
-    return _searched(emit, lambda progress: improved(given, **settings, **progress))
+    return _run_search(emit, lambda progress: improved(given, **settings, **progress))
 
 
-def _searched(emit: Emit, search: Callable[[dict[str, Any]], Plan]) -> Result:
+def _run_search(emit: Emit, search: Callable[[dict[str, Any]], Plan]) -> Result:
     """Return the plan of a search; a stop returns the best plan of any planner."""
     progress = PlanningProgress(emit)
     keep = {"report": progress.report, "on_plan": progress.take_plan, "keep_best": True}

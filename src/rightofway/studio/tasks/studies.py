@@ -38,7 +38,7 @@ RANKS = 1000
 """Runs that the report lists from the best to the worst; of more, evenly spaced ones."""
 
 
-def _repeated(
+def _run_laps(
     scenario: Scenario,
     emit: Emit,
     *,
@@ -73,7 +73,7 @@ def make_laps(emit: Emit, _blobs: Blobs, *, document: Any, folder: str, **settin
     from rightofway.model.steady_state import keep_within
 
     scenario = load_document(document, folder).scenario
-    run = _repeated(scenario, emit, **settings)
+    run = _run_laps(scenario, emit, **settings)
     shown, steady = make_excerpt(run)
     payload = as_compact_json(make_payload(shown, steady=steady)).encode()
     text = report_laps(run, scenario.quantities)
@@ -111,12 +111,12 @@ def make_laps_if(
         wanted = read_exact(value)
     except ValueError as error:
         raise InputError.at("value", str(error)) from None
-    run = _repeated(_changed(scenario, kind, robot, stop, wanted), emit, **settings)
+    run = _run_laps(_change_value(scenario, kind, robot, stop, wanted), emit, **settings)
     answer = to_parts(make_laps_data(run, by_visit=False))
     return ({key: answer[key] for key in ("groups", "throughput_per_hour")},)
 
 
-def _changed(
+def _change_value(
     scenario: Scenario, kind: str, robot: str | None, stop: int | None, value: Fraction
 ) -> Scenario:
     """Return a scenario with one value of a robot or the headway changed."""

@@ -76,18 +76,18 @@ def read(blob: bytes) -> Plan:
 
 def make_plan_payload(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
     """Return what the viewer plays: one plan, or several side by side."""
-    plan, *others = _titled(blobs, shown)
+    plan, *others = _list_titled(blobs, shown)
     played = make_payload(plan[0], title=plan[1], others=others)
     return (None, zip_text(as_compact_json(played)))
 
 
 def make_plan_page(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
     """Return the page that plays a plan, or several."""
-    plan, *others = _titled(blobs, shown)
+    plan, *others = _list_titled(blobs, shown)
     return (None, zip_text(make_page(plan[0], title=plan[1], others=others)))
 
 
-def _titled(blobs: Blobs, shown: Sequence[Shown]) -> list[tuple[Plan, str]]:
+def _list_titled(blobs: Blobs, shown: Sequence[Shown]) -> list[tuple[Plan, str]]:
     """Return plans with their titles, and with the seconds and drawings that files do not keep."""
     payloads = []
     for blob, titles in zip(blobs, shown, strict=True):
@@ -122,7 +122,7 @@ def compare_plans(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Resul
     Costs in ``time`` are in time units, too: the ticks of two scenarios may differ. ``comparison``
     is what the page of the plans has: figures, changes of the scenarios, times in one tick.
     """
-    titled = _titled(blobs, shown)
+    titled = _list_titled(blobs, shown)
     plans, titles = [plan for plan, _ in titled], [title for _, title in titled]
     comparison = compare(plans, titles)
     data = make_comparison_data(comparison)

@@ -120,7 +120,7 @@ def make_background_data(roadmap: Roadmap, background: Background) -> Background
     InputError
         If the file is no picture that can be read.
     """
-    href, columns, rows = _data_uri(background.picture)
+    href, columns, rows = _make_data_uri(background.picture)
     place = place_of(roadmap, background, columns, rows)
     return {**place, "href": href, "opacity": background.opacity}
 
@@ -172,7 +172,7 @@ def place_background(roadmap: Roadmap, background: Background) -> BackgroundData
     return cast("BackgroundData", {"opacity": background.opacity, **place})
 
 
-def _data_uri(path: str | os.PathLike[str]) -> tuple[str, int, int]:
+def _make_data_uri(path: str | os.PathLike[str]) -> tuple[str, int, int]:
     """Return a picture as data URI, and its size [pixels]."""
     from PIL import Image
 
@@ -183,7 +183,7 @@ def _data_uri(path: str | os.PathLike[str]) -> tuple[str, int, int]:
             content = io.BytesIO()
             if kind is None or max(columns, rows) > MOST_PIXELS:
                 kind = None
-                converted = image.convert(_mode(image))
+                converted = image.convert(_choose_mode(image))
                 converted.thumbnail((MOST_PIXELS, MOST_PIXELS))
                 converted.save(content, "png")
             else:
@@ -200,7 +200,7 @@ def explain_unreadable(path: str | os.PathLike[str]) -> InputError:
     return InputError.at(str(path), message)
 
 
-def _mode(image: Image) -> str:
+def _choose_mode(image: Image) -> str:
     """Return the mode that a PNG keeps the colours of a picture in."""
     if "A" in image.getbands() or "transparency" in image.info:
         return "RGBA"

@@ -107,7 +107,7 @@ def make_document(
     parts = {
         "title": html.escape(about).encode("ascii", "xmlcharrefreplace").decode(),
         "policy": f"default-src 'none'; img-src data:; {own * connects}"
-        f"style-src {_hash(style)}; script-src {' '.join(map(_hash, scripts))}",
+        f"style-src {_compute_hash(style)}; script-src {' '.join(map(_compute_hash, scripts))}",
         "style": style,
         "payload": as_script(payload),
         "scripts": "\n".join(f"<script>{script}</script>" for script in scripts),
@@ -213,6 +213,6 @@ def make_style_sheet() -> str:
     return "\n".join([*themes, read_asset("style.css")])
 
 
-def _hash(text: str) -> str:
+def _compute_hash(text: str) -> str:
     digest = base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
     return f"'sha256-{digest}'"

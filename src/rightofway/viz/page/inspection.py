@@ -71,7 +71,7 @@ def make_inspection_page(
         "notes": to_parts(write_notes(notes)),
         "names": {severity: to_parts(name_severity(severity)) for severity in SEVERITIES},
         "headings": {severity: to_parts(write_heading(severity)) for severity in SEVERITIES},
-        "levels": [_level(*level, background) for level in levels],
+        "levels": [_make_level(*level, background) for level in levels],
     }
     said = [(level["sentences"], level["findings"]) for level in payload["levels"]]
     others = payload["description"], payload["notes"], payload["names"], payload["headings"]
@@ -151,7 +151,7 @@ def make_site_data(site: Site, background: Background | None = None) -> SiteData
     }
 
 
-def _level(
+def _make_level(
     name: str, site: Site, inspection: Inspection, background: Background | None
 ) -> LevelData:
     robot_of = {robot.name: index for index, robot in enumerate(site.robots)}

@@ -43,7 +43,7 @@ def map_data(
     data: dict[str, Any] = {
         "width": round(plane.width, decimals),
         "height": round(plane.height, decimals),
-        "frame": _frame(plane, roadmap),
+        "frame": _make_frame(plane, roadmap),
     }
     if grid is not None:
         data["rows"] = grid.as_lines()
@@ -61,14 +61,18 @@ def map_data(
     drawing = roadmap.drawing
     sides = () if roadmap.sides is None else roadmap.drawn_sides / plane.unit
     marks = {
-        "obstacles": [] if grid is None else _obstacles(roadmap, grid),
+        "obstacles": [] if grid is None else _list_obstacles(roadmap, grid),
         "sides": np.round(sides, decimals).tolist(),
-        "limits": _limits(roadmap),
+        "limits": _list_limits(roadmap),
         "passed": [] if roadmap.passing is None else sorted(roadmap.passing.vertices),
         "zones": [(zone.name, list(zone.vertices), list(zone.edges)) for zone in roadmap.zones],
-        "joints": _joints(roadmap),
+        "joints": _list_joints(roadmap),
         "curves": [
-            [tail, head, *np.round(_drawn(plane, roadmap, points), decimals).ravel().tolist()]
+            [
+                tail,
+                head,
+                *np.round(_convert_to_drawing(plane, roadmap, points), decimals).ravel().tolist(),
+            ]
             for tail, head, points in drawing.curves
             if not room  # robots with a size are judged on straight lanes
         ],
@@ -90,7 +94,7 @@ def compute_differences(numbers: Iterable[int]) -> list[int]:
     return first_differences
 
 
-def _frame(plane: Plane, roadmap: Roadmap) -> FrameData:
+def _make_frame(plane: Plane, roadmap: Roadmap) -> FrameData:
     """Return where (0, 0) of the drawing lies on the site, and the length of its unit there."""
     left, top = map(Fraction, plane.corner)
     x, y = roadmap.frame.to_site((left, top))
@@ -103,14 +107,16 @@ def _frame(plane: Plane, roadmap: Roadmap) -> FrameData:
     return {**data, "yaw": float(roadmap.frame.yaw)} if roadmap.frame.yaw else data
 
 
-def _drawn(plane: Plane, roadmap: Roadmap, points: Sequence[Point]) -> NDArray[np.float64]:
+def _convert_to_drawing(
+    plane: Plane, roadmap: Roadmap, points: Sequence[Point]
+) -> NDArray[np.float64]:
     """Return where points of the site are in the drawing; shape (n, 2)."""
     at = [[float(part) for part in roadmap.frame.to_plane(point)] for point in points]
     in_units: NDArray[np.float64] = (np.array(at) - plane.corner) / plane.unit
     return in_units
 
 
-def _obstacles(roadmap: Roadmap, grid: Grid) -> list[ObstacleRow]:
+def _list_obstacles(roadmap: Roadmap, grid: Grid) -> list[ObstacleRow]:
     """Return the named obstacles: name, left, top, width and height in the drawing."""
     size, rows = grid.cell_size, list[ObstacleRow]()
     low = grid.rows * size - size / 2
@@ -123,13 +129,13 @@ def _obstacles(roadmap: Roadmap, grid: Grid) -> list[ObstacleRow]:
     return rows
 
 
-def _joints(roadmap: Roadmap) -> list[list[int]]:
+def _list_joints(roadmap: Roadmap) -> list[list[int]]:
     """Return the vertices between the pieces of each split lane, once for both directions."""
     joints = {min(lane.joints, lane.joints[::-1]): None for lane in roadmap.lanes}
     return [list(map(int, vertices)) for vertices in joints]
 
 
-def _limits(roadmap: Roadmap) -> list[tuple[str, list[int]]]:
+def _list_limits(roadmap: Roadmap) -> list[tuple[str, list[int]]]:
     """Return the speed limits, each with its edges."""
     edges = defaultdict[str, list[int]](list)
     for edge in range(roadmap.n_edges):

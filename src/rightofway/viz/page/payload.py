@@ -133,16 +133,16 @@ def make_payload(
         "headway": scenario.problem.booking_rules.headway,
         "booksAhead": scenario.problem.booking_rules.books_ahead,
         "map": map_data(scenario.roadmap, room=measure_room(scenario), background=background),
-        "line": _line(plan, [other for other, _ in others]),
-        "robots": _robots(plan, trips, metrics, lost),
+        "line": _trace_line(plan, [other for other, _ in others]),
+        "robots": _list_robots(plan, trips, metrics, lost),
         "losses": [
-            _loss(scenario.roadmap, loss, book.add(describe_loss(words, loss)))
+            _make_loss(scenario.roadmap, loss, book.add(describe_loss(words, loss)))
             for robot_losses in lost
             for loss in robot_losses.losses
         ],
-        "faults": _faults(plan, give_verdict(plan), book),
-        "planner": _planner(plan),
-        "decisions": [_decision(decision, words, book) for decision in run.decisions],
+        "faults": _make_faults(plan, give_verdict(plan), book),
+        "planner": _make_planner(plan),
+        "decisions": [_make_decision(decision, words, book) for decision in run.decisions],
         "reroutes": [
             {
                 "robot": reroute.robot,
@@ -160,12 +160,12 @@ def make_payload(
     if names.is_measured:
         payload["places"] = [(vertex, book.add(name)) for vertex, name in names.of_robots.items()]
     if forced := list_forced_losses(plan):
-        payload["forcedLosses"] = [_forced_loss(loss, words, book) for loss in forced]
+        payload["forcedLosses"] = [_make_forced_loss(loss, words, book) for loss in forced]
     if steady:
-        payload["steady"] = _steady(plan, steady, book)
+        payload["steady"] = _list_steady(plan, steady, book)
         payload["laps"] = [robot.laps or scenario.rules.laps for robot in scenario.robots]
     if steady and actual is None:
-        payload["end"] = _last_tick_of_all(trips, payload["steady"])
+        payload["end"] = _find_last_tick(trips, payload["steady"])
     if scenario.closures:
         payload["closures"] = [
             make_closure_data(closure, scenario) for closure in scenario.closures
@@ -173,10 +173,10 @@ def make_payload(
     if scenario.rules.clearance:
         payload["clearance"] = float(scenario.rules.clearance)
     if actual is not None:
-        payload["floor"] = _execution(plan, actual, trips, words, book)
+        payload["floor"] = _make_execution(plan, actual, trips, words, book)
     if no_plan is not None:
         payload["noPlan"] = True
-        payload["faults"] = _blockages(scenario, no_plan, book)
+        payload["faults"] = _make_blockages(scenario, no_plan, book)
     said = book.entries, payload["planner"], payload["reroutes"], payload.get("closures")
     payload["translations"] = find_translations(*said)
     if others:
@@ -234,7 +234,7 @@ def _refuse_other_kinds(
         read_at(("others", index, 1), read_label, other[1])
 
 
-def _blockages(scenario: Scenario, no_plan: NoPlanExists, book: PhraseBook) -> FaultsData:
+def _make_blockages(scenario: Scenario, no_plan: NoPlanExists, book: PhraseBook) -> FaultsData:
     """Return why there is no plan, as faults with the robots and vertices that they concern."""
     robot_of = {robot.name: index for index, robot in enumerate(scenario.robots)}
     name, writer = book.add(Phrase("no plan")), FactWriter(scenario)
@@ -268,7 +268,7 @@ def make_closure_data(closure: Closure, scenario: Scenario) -> ClosureData:
     }
 
 
-def _planner(plan: Plan) -> PlannerData:
+def _make_planner(plan: Plan) -> PlannerData:
     run = plan.run
     method = "" if run.status is None else FactWriter(plan.scenario).write(run.status)
     if run.improvement is not None:
@@ -279,7 +279,7 @@ def _planner(plan: Plan) -> PlannerData:
     return data
 
 
-def _line(plan: Plan, others: Sequence[Plan]) -> list[tuple[int, float]]:
+def _trace_line(plan: Plan, others: Sequence[Plan]) -> list[tuple[int, float]]:
     """Return the places over time of a small fleet: vertex and distance along the line.
 
     Other plans on the same map may visit other places, which come after.
@@ -295,7 +295,7 @@ def _line(plan: Plan, others: Sequence[Plan]) -> list[tuple[int, float]]:
     return [(int(vertex), round(place, DECIMALS)) for vertex, place in places.items()]
 
 
-def _robots(
+def _list_robots(
     plan: Plan, trips: Sequence[Trip], metrics: Metrics, lost: Sequence[LostTime]
 ) -> list[RobotData]:
     edge_ticks = [itinerary.edge_ticks for itinerary in plan.scenario.problem.itineraries]
@@ -321,14 +321,14 @@ def _robots(
         if robot.radius:
             robot_data["radius"] = float(robot.radius)
         if any(trip.turns):
-            robot_data["turns"] = _sparse(trip.turns)
+            robot_data["turns"] = _list_sparse(trip.turns)
         if min(trip.served) < 0:
             robot_data["stands"] = True
         robots.append(robot_data)
     return robots
 
 
-def _forced_loss(loss: ForcedLoss, words: Words, book: PhraseBook) -> ForcedLossData:
+def _make_forced_loss(loss: ForcedLoss, words: Words, book: PhraseBook) -> ForcedLossData:
     plan, place = words.plan, words.name_place(loss.vertex)
     head = summarize_forced_loss(plan.scenario, loss, words.quantities)
     text = describe_forced_loss(plan.scenario, loss, words.quantities, place)
@@ -343,7 +343,7 @@ def _forced_loss(loss: ForcedLoss, words: Words, book: PhraseBook) -> ForcedLoss
     }
 
 
-def _decision(decision: Decision, words: Words, book: PhraseBook) -> DecisionData:
+def _make_decision(decision: Decision, words: Words, book: PhraseBook) -> DecisionData:
     head, detail = summarize_decision(words, decision)
     return {
         "head": book.add(head),
@@ -365,7 +365,7 @@ def _decision(decision: Decision, words: Words, book: PhraseBook) -> DecisionDat
     }
 
 
-def _steady(plan: Plan, steady: Sequence[SteadyState], book: PhraseBook) -> list[SteadyData]:
+def _list_steady(plan: Plan, steady: Sequence[SteadyState], book: PhraseBook) -> list[SteadyData]:
     names, groups = [robot.name for robot in plan.scenario.robots], list[SteadyData]()
     refuse_unknown_robots(steady, names, list(map(len, plan.tracks)))
     for group in steady:
@@ -373,7 +373,7 @@ def _steady(plan: Plan, steady: Sequence[SteadyState], book: PhraseBook) -> list
             "robots": list(group.robots),
             "start": group.start,
             "period": group.period,
-            "until": min(_until(group, plan.tracks[robot]) for robot in group.robots),
+            "until": min(_find_until(group, plan.tracks[robot]) for robot in group.robots),
             "critical": list(group.critical),
         }
         if pieces := list_pieces_of_plan(plan, group):
@@ -386,7 +386,7 @@ def _steady(plan: Plan, steady: Sequence[SteadyState], book: PhraseBook) -> list
     return groups
 
 
-def _last_tick_of_all(trips: Sequence[Trip], groups: Sequence[SteadyData]) -> int:
+def _find_last_tick(trips: Sequence[Trip], groups: Sequence[SteadyData]) -> int:
     """Return the tick at which the first robot ends its laps; robots that stand still have none."""
     untils = {robot: group["until"] for group in groups for robot in group["robots"]}
     ends: list[int] = [
@@ -397,7 +397,7 @@ def _last_tick_of_all(trips: Sequence[Trip], groups: Sequence[SteadyData]) -> in
     return max(1, min(ends))
 
 
-def _until(group: SteadyState, track: Track) -> int:
+def _find_until(group: SteadyState, track: Track) -> int:
     """Return the tick up to which a robot repeats its previous period.
 
     The first visit that is missing or begins at another tick ends the repetition at the visit
@@ -415,27 +415,27 @@ def _until(group: SteadyState, track: Track) -> int:
     return int(track.enter[again - 1 + repeated])
 
 
-def _execution(
+def _make_execution(
     plan: Plan, actual: ExecutionTrace, trips: Sequence[Trip], words: Words, book: PhraseBook
 ) -> FloorData:
     if len(actual.tracks) != len(plan.tracks):
         counts = f"{len(actual.tracks)} for {len(plan.tracks)} robots"
         raise InputError.at(("actual", "tracks"), f"{counts} (give one for each)")
     still = actual.stoppages or ((),) * len(trips)
-    stays = tuple(map(_executed_stays, actual.tracks, actual.dwell, actual.drive, still))
+    stays = tuple(map(_measure_executed_stays, actual.tracks, actual.dwell, actual.drive, still))
     driven = make_trips(replace(plan, tracks=actual.tracks, steady=()))
     waits = [stay.waits for stay in plan.stays]
 
     def unplanned(loss: Loss) -> int:
         robot = loss.robot
-        return _unplanned(loss, plan.tracks[robot], actual.tracks[robot], waits[robot])
+        return _measure_unplanned(loss, plan.tracks[robot], actual.tracks[robot], waits[robot])
 
     robots = []
     for planned, taken, dwell, drive, stoppages, completion in zip(
         trips, driven, actual.dwell, actual.drive, still, actual.completion, strict=True
     ):
         is_planned = taken.vertices == planned.vertices[: len(taken.vertices)]
-        stages, turns = _executed_duties(planned if is_planned else taken, dwell)
+        stages, turns = _list_executed_duties(planned if is_planned else taken, dwell)
         robot: DrivenData = {
             "stages": stages,
             "enter": compute_differences(taken.enter),
@@ -452,7 +452,7 @@ def _execution(
         "end": max(1, *(stay.completion for stay in stays), *filter(None, actual.completion)),
         "robots": robots,
         "losses": [
-            _loss(
+            _make_loss(
                 plan.scenario.roadmap,
                 loss,
                 book.add(describe_executed_loss(words, loss, unplanned(loss))),
@@ -462,7 +462,7 @@ def _execution(
     }
 
 
-def _unplanned(loss: Loss, planned: Track, taken: Track, waits: NDArray[np.int64]) -> int:
+def _measure_unplanned(loss: Loss, planned: Track, taken: Track, waits: NDArray[np.int64]) -> int:
     """Return how much longer the waits of a loss were than planned, 0 on another way [ticks]."""
     first = int(np.searchsorted(taken.enter, loss.tick, "right")) - 1
     after = int(np.searchsorted(taken.enter, loss.end, "left"))
@@ -471,7 +471,7 @@ def _unplanned(loss: Loss, planned: Track, taken: Track, waits: NDArray[np.int64
     return int(loss.ticks - waits[first:after].sum())
 
 
-def _executed_stays(
+def _measure_executed_stays(
     track: Track, dwell: NDArray[np.int64], drive: NDArray[np.int64], still: Stoppages
 ) -> Stays:
     """Return the parts of each visit; a stoppage counts as dwell, not as a wait."""
@@ -494,7 +494,9 @@ def _executed_stays(
     )
 
 
-def _executed_duties(trip: Trip, dwell: NDArray[np.int64]) -> tuple[list[StageRow], list[TurnRow]]:
+def _list_executed_duties(
+    trip: Trip, dwell: NDArray[np.int64]
+) -> tuple[list[StageRow], list[TurnRow]]:
     """Return stages and turns; each takes its share of the executed duration of its visit."""
     reached, last = len(dwell), len(trip.vertices) - 1
     planned = np.zeros(reached, np.int64)
@@ -510,22 +512,22 @@ def _executed_duties(trip: Trip, dwell: NDArray[np.int64]) -> tuple[list[StageRo
         for stage, visit in zip(trip.stages, trip.served, strict=True)
     ]
     scaled = (round(ticks * share) for ticks, share in zip(trip.turns, pace, strict=False))
-    return stages, _sparse(scaled)
+    return stages, _list_sparse(scaled)
 
 
-def _sparse(numbers: Iterable[int]) -> list[TurnRow]:
+def _list_sparse(numbers: Iterable[int]) -> list[TurnRow]:
     """Return the index and the value of each number that is not 0."""
     return [(index, number) for index, number in enumerate(numbers) if number]
 
 
-def _loss(roadmap: Roadmap, loss: Loss, text: int) -> LossRow:
+def _make_loss(roadmap: Roadmap, loss: Loss, text: int) -> LossRow:
     vertex, until, towards = map(roadmap.get_drawn, (loss.vertex, loss.until_vertex, loss.towards))
     freed = None if loss.freed is None else roadmap.get_drawn(loss.freed)
     places, times = (vertex, until, towards, freed), (loss.tick, loss.end, loss.ticks)
     return (LOSSES.index(loss.kind), loss.robot, loss.for_robot, *places, *times, text)
 
 
-def _faults(plan: Plan, report: Report, book: PhraseBook) -> FaultsData:
+def _make_faults(plan: Plan, report: Report, book: PhraseBook) -> FaultsData:
     known = range(plan.scenario.roadmap.n_drawn)
     described = ((fault, describe_fault(fault)) for fault in report.faults)
     return {

@@ -44,7 +44,7 @@ def bundle_of(plan: Plan) -> dict[str, Any]:
         raise NotImplementedError
     from rightofway.viz.raster.picture import make_png
 
-    shown = _widget_class()(payload=make_payload_text(plan))._repr_mimebundle_()
+    shown = _make_widget_class()(payload=make_payload_text(plan))._repr_mimebundle_()
     widget = shown[0] if isinstance(shown, tuple) else shown
     picture = base64.b64encode(make_png(plan)).decode()
     return {
@@ -70,7 +70,7 @@ def make_widget_module() -> str:
 
 
 @cache
-def _widget_class() -> Any:
+def _make_widget_class() -> Any:
     widgets, traits = import_module("anywidget"), import_module("traitlets")
     members = {"_esm": make_widget_module(), "payload": traits.Unicode().tag(sync=True)}
     return type("PlanWidget", (widgets.AnyWidget,), members)

@@ -76,17 +76,19 @@ class Pen:
 
     def draw_line(self, points: Sequence[Point], colour: str, width: float) -> None:
         """Draw a line through points."""
-        self.draw.line([self._at(point) for point in points], colour, self._thick(width), "curve")
+        self.draw.line(
+            [self._locate(point) for point in points], colour, self._measure_thick(width), "curve"
+        )
 
     def fill_box(self, corner: Point, opposite: Point, colour: str) -> None:
         """Fill a rectangle; boxes that share a side neither overlap nor leave a gap."""
-        x0, y0, x1, y1 = map(round, (*self._at(corner), *self._at(opposite)))
+        x0, y0, x1, y1 = map(round, (*self._locate(corner), *self._locate(opposite)))
         self.draw.rectangle((x0, y0, max(x1 - 1, x0), max(y1 - 1, y0)), colour)
 
     def draw_picture(self, picture: Image.Image, place: PlaceData, opacity: float) -> None:
         """Lay a picture over what is drawn; ``place`` as `place_of` returns it."""
         scale, turn = self.scale * self.fineness, place.get("turn", 0.0)
-        left, top = self._at((place["x"], place["y"]))
+        left, top = self._locate((place["x"], place["y"]))
         fine = picture.width / place["width"] / scale  # pixels of the picture for one of the image
         if fine >= 2:  # noqa: PLR2004 - else every second pixel would be left out
             picture = picture.convert("RGBA").reduce(int(fine))
@@ -103,14 +105,16 @@ class Pen:
     def fill_disc(self, middle: Point, radius: float, colour: str) -> None:
         """Fill a circle; one that an outline around it leaves no radius is not drawn."""
         if radius > 0:
-            self.draw.ellipse(self._around(middle, radius), colour)
+            self.draw.ellipse(self._make_box(middle, radius), colour)
 
     def draw_ring(
         self, middle: Point, radius: float, turns: tuple[float, float], colour: str, width: float
     ) -> None:
         """Draw a part of a circle, clockwise from the top [turns]; the line lies inside."""
         begin, end = (360 * turn - 90 for turn in turns)
-        self.draw.arc(self._around(middle, radius), begin, end, colour, self._thick(width))
+        self.draw.arc(
+            self._make_box(middle, radius), begin, end, colour, self._measure_thick(width)
+        )
 
     def draw_square(
         self,
@@ -122,36 +126,36 @@ class Pen:
     ) -> None:
         """Draw a square with round corners; the line of its edge lies inside."""
         corner = side * CORNER * self.scale * self.fineness
-        thick = self._thick(width) if edge else 0
-        self.draw.rounded_rectangle(self._around(middle, side / 2), corner, fill, edge, thick)
+        thick = self._measure_thick(width) if edge else 0
+        self.draw.rounded_rectangle(self._make_box(middle, side / 2), corner, fill, edge, thick)
 
     def fill_polygon(self, points: Sequence[Point], colour: str) -> None:
         """Fill a polygon."""
-        self.draw.polygon([self._at(point) for point in points], colour)
+        self.draw.polygon([self._locate(point) for point in points], colour)
 
     def write_text(self, at: Point, text: str, colour: str, *, size: float) -> None:
         """Write a line from its left middle on; ``size`` in pixels of the picture."""
         text = text.encode("utf-8", "replace").decode()  # a lone surrogate cannot be drawn
-        font = _font(round(size * self.fineness))
-        self.draw.text(self._at(at), text, colour, font, "lm")
+        font = _load_font(round(size * self.fineness))
+        self.draw.text(self._locate(at), text, colour, font, "lm")
 
     def measure_text(self, text: str, size: float) -> float:
         """Return how wide a text is [units]."""
-        font = _font(round(size * self.fineness))
+        font = _load_font(round(size * self.fineness))
         return self.draw.textlength(text, font) / self.fineness / self.scale
 
-    def _at(self, point: Point) -> Point:
+    def _locate(self, point: Point) -> Point:
         (x, y), (left, top) = point, self.origin
         return (left + x * self.scale) * self.fineness, (top + y * self.scale) * self.fineness
 
-    def _around(self, middle: Point, radius: float) -> tuple[float, float, float, float]:
+    def _make_box(self, middle: Point, radius: float) -> tuple[float, float, float, float]:
         x, y = middle
-        return (*self._at((x - radius, y - radius)), *self._at((x + radius, y + radius)))
+        return (*self._locate((x - radius, y - radius)), *self._locate((x + radius, y + radius)))
 
-    def _thick(self, width: float) -> int:
+    def _measure_thick(self, width: float) -> int:
         return max(round(width * self.scale * self.fineness), 1)
 
 
 @cache
-def _font(size: int) -> ImageFont.FreeTypeFont | ImageFont.ImageFont:
+def _load_font(size: int) -> ImageFont.FreeTypeFont | ImageFont.ImageFont:
     return ImageFont.load_default(size)

@@ -38,12 +38,12 @@ def _lines(scene: Scene, width: float) -> Iterator[str]:
     count = "1 fault" if verdict.total == 1 else f"{verdict.total} faults"
     yield f"{count}: do not run this plan"
     for fault in verdict.faults[:MOST_LISTED]:
-        yield from _wrapped(str(fault), width)
+        yield from _wrap_lines(str(fault), width)
     if verdict.total > MOST_LISTED:
         yield f"… and {verdict.total - MOST_LISTED} more"
 
 
-def _wrapped(sentence: str, width: float) -> Iterator[str]:
+def _wrap_lines(sentence: str, width: float) -> Iterator[str]:
     """Yield the lines of a sentence that are at most so wide [pixels]."""
     pen = Pen(Image.new("RGB", (1, 1)), origin=(0, 0), scale=1, fineness=1)
     line = ""

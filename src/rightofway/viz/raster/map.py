@@ -41,24 +41,24 @@ def draw_ground(pen: Pen, scene: Scene, sizes: Sizes, *, routes: bool) -> None:
     for robot in range(len(scene.trips)) if routes else ():
         _route(pen, scene, sizes, robot)
     for robot in range(len(scene.trips)):
-        _home(pen, scene, sizes, robot)
-    _stops(pen, scene, sizes)
+        _draw_home(pen, scene, sizes, robot)
+    _draw_stops(pen, scene, sizes)
 
 
 def draw_roadmap(pen: Pen, scene: Ground, sizes: LaneSizes) -> None:
     """Draw cells or lanes, and the picture of the site."""
     if scene.roadmap.grid is not None:
-        _grid(pen, scene, scene.roadmap.grid)
-        _picture(pen, scene)
+        _draw_grid(pen, scene, scene.roadmap.grid)
+        _draw_picture(pen, scene)
     elif scene.roadmap.sides is not None:
-        _squares(pen, scene, scene.roadmap.drawn_sides / scene.plane.unit / 2)
-        _picture(pen, scene)
+        _draw_squares(pen, scene, scene.roadmap.drawn_sides / scene.plane.unit / 2)
+        _draw_picture(pen, scene)
     else:
-        _picture(pen, scene)
-        _network(pen, scene, sizes)
+        _draw_picture(pen, scene)
+        _draw_network(pen, scene, sizes)
 
 
-def _picture(pen: Pen, scene: Ground) -> None:
+def _draw_picture(pen: Pen, scene: Ground) -> None:
     """Draw the picture of the site; over cells, as these have no gaps."""
     background = find_background(scene.roadmap)
     if background is None:
@@ -74,7 +74,7 @@ def _picture(pen: Pen, scene: Ground) -> None:
         raise explain_unreadable(background.picture) from None
 
 
-def _grid(pen: Pen, scene: Ground, grid: Grid) -> None:
+def _draw_grid(pen: Pen, scene: Ground, grid: Grid) -> None:
     lines, theme, hair = grid.as_lines(), scene.theme, pen.hairline
     right, bottom = len(lines[0]) - 0.5, len(lines) - 0.5
     pen.fill_box((-0.5, -0.5), (right, bottom), theme.floor)
@@ -90,7 +90,7 @@ def _grid(pen: Pen, scene: Ground, grid: Grid) -> None:
     pen.draw_line(border, theme.wall, hair)
 
 
-def _squares(pen: Pen, scene: Ground, halves: NDArray[np.float64]) -> None:
+def _draw_squares(pen: Pen, scene: Ground, halves: NDArray[np.float64]) -> None:
     """Draw the cells of a quadtree; half their sides are given."""
     corner = (scene.plane.width - 0.5, scene.plane.height - 0.5)
     pen.fill_box((-0.5, -0.5), corner, scene.theme.wall)
@@ -100,10 +100,10 @@ def _squares(pen: Pen, scene: Ground, halves: NDArray[np.float64]) -> None:
         pen.fill_box((x - inner, y - inner), (x + inner, y + inner), scene.theme.floor)
 
 
-def _network(pen: Pen, scene: Ground, sizes: LaneSizes) -> None:
+def _draw_network(pen: Pen, scene: Ground, sizes: LaneSizes) -> None:
     """Draw lanes: broad where both ways are driven, narrower with arrow heads for one way."""
     theme, edges = scene.theme, set(scene.edges)
-    _zones(pen, scene, sizes)
+    _draw_zones(pen, scene, sizes)
     for tail, head in scene.edges:
         is_one_way = (head, tail) not in edges
         width = sizes.lane * (0.7 if is_one_way else 1) * pen.hairline
@@ -112,13 +112,13 @@ def _network(pen: Pen, scene: Ground, sizes: LaneSizes) -> None:
             pen.fill_disc(scene.points[end], width / 2, theme.wall)
     for tail, head in scene.edges:
         if (head, tail) not in edges:
-            _arrows(pen, scene, sizes, scene.points[tail], scene.points[head])
+            _draw_arrows(pen, scene, sizes, scene.points[tail], scene.points[head])
     for point in scene.points:
         pen.fill_disc(point, sizes.vertex * pen.hairline, theme.muted)
         pen.fill_disc(point, (sizes.vertex - 1.25) * pen.hairline, theme.paper)
 
 
-def _zones(pen: Pen, scene: Ground, sizes: LaneSizes) -> None:
+def _draw_zones(pen: Pen, scene: Ground, sizes: LaneSizes) -> None:
     """Draw the members of each zone as a band."""
     colour, width = scene.fade(scene.theme.zone, 0.35), sizes.zone * pen.hairline
     for zone in scene.roadmap.zones:
@@ -128,7 +128,7 @@ def _zones(pen: Pen, scene: Ground, sizes: LaneSizes) -> None:
             pen.fill_disc(scene.points[vertex], width / 2, colour)
 
 
-def _arrows(pen: Pen, scene: Ground, sizes: LaneSizes, tail: Point, head: Point) -> None:
+def _draw_arrows(pen: Pen, scene: Ground, sizes: LaneSizes, tail: Point, head: Point) -> None:
     (x, y), right, down = tail, head[0] - tail[0], head[1] - tail[1]
     size = min(max(sizes.lane * 0.32, 3), 5)
     length = math.hypot(right, down) * pen.scale
@@ -176,7 +176,7 @@ def to_the_right(points: Sequence[Point], aside: float) -> list[Point]:
     return around
 
 
-def _home(pen: Pen, scene: Scene, sizes: Sizes, robot: int) -> None:
+def _draw_home(pen: Pen, scene: Scene, sizes: Sizes, robot: int) -> None:
     """Draw a tinted frame."""
     colour, home = scene.colours[robot], scene.points[scene.trips[robot].vertices[0]]
     half = sizes.homes[robot]
@@ -185,7 +185,7 @@ def _home(pen: Pen, scene: Scene, sizes: Sizes, robot: int) -> None:
     pen.draw_square(home, side, None if has_size else scene.fade(colour, 0.12), colour, width)
 
 
-def _stops(pen: Pen, scene: Scene, sizes: Sizes) -> None:
+def _draw_stops(pen: Pen, scene: Scene, sizes: Sizes) -> None:
     """Draw a diamond for each stop; those of several robots stand side by side."""
     robots_at: dict[int, list[int]] = {}
     for robot, trip in enumerate(scene.trips):
@@ -211,11 +211,11 @@ def draw_robots(pen: Pen, scene: Scene, sizes: Sizes, tick: float) -> None:
     ring in red is round each robot that has part in a fault.
     """
     moments = [trip.locate(tick) for trip in scene.trips]
-    middles = [_middle(scene, moment) for moment in moments]
+    middles = [_locate_middle(scene, moment) for moment in moments]
     for robot, (moment, middle) in enumerate(zip(moments, middles, strict=True)):
         has_size = scene.plan.scenario.robots[robot].radius > 0
         radius = sizes.robots[robot] * pen.hairline
-        _robot(pen, scene, moment, Disc(middle, radius, scene.colours[robot], has_size))
+        _draw_robot(pen, scene, moment, Disc(middle, radius, scene.colours[robot], has_size))
     for robot in scene.faulty:
         has_size = scene.plan.scenario.robots[robot].radius > 0
         wide = sizes.robots[robot] + 4 if has_size else sizes.robots[robot] * FAULT_RING
@@ -223,7 +223,7 @@ def draw_robots(pen: Pen, scene: Scene, sizes: Sizes, tick: float) -> None:
         pen.draw_ring(middles[robot], radius, WHOLE, scene.theme.held, radius * 0.15)
 
 
-def _middle(scene: Scene, moment: Moment) -> Point:
+def _locate_middle(scene: Scene, moment: Moment) -> Point:
     (x, y), (to_x, to_y) = scene.points[moment.tail], scene.points[moment.head]
     return x + (to_x - x) * moment.share, y + (to_y - y) * moment.share
 
@@ -237,7 +237,7 @@ class Disc(NamedTuple):
     has_size: bool
 
 
-def _robot(pen: Pen, scene: Scene, moment: Moment, disc: Disc) -> None:
+def _draw_robot(pen: Pen, scene: Scene, moment: Moment, disc: Disc) -> None:
     (middle, radius, colour, has_size), activity = disc, moment.activity
     dial, dial_width = (
         radius * DIAL["size" if has_size else "point"],

@@ -67,11 +67,11 @@ def make_png(
     _refuse_scale(scale)
     scene, fineness = Scene(plan, theme), PICTURE_FINENESS
     if scale is None:
-        scale = _fitting_scale(scene, PICTURE_WIDTH, LARGEST_CELL)
+        scale = _choose_scale(scene, PICTURE_WIDTH, LARGEST_CELL)
     width, height = _map_size(scene, scale)
     faults = FaultList(scene, width)
-    image = _blank(scene, (width, height + round(faults.height)), fineness)
-    first = _margin(scene, scale) + scale / 2
+    image = _make_blank(scene, (width, height + round(faults.height)), fineness)
+    first = _measure_margin(scene, scale) + scale / 2
     pen = Pen(image, origin=(first, first), scale=scale, fineness=fineness)
     sizes = compute_sizes(scene, scale)
     draw_ground(pen, scene, sizes, routes=True)
@@ -165,8 +165,8 @@ def write_gif(
     scene = Scene(plan, theme)
     frames = min(FRAMES_PER_TICK * scene.end + 1, max_frames)
     step = Fraction(scene.end, frames - 1)
-    scale = _fitting_scale(scene, FILM_WIDTH, LARGEST_FILM_CELL) if scale is None else scale
-    pictures = _pictures(scene, scale, [float(frame * step) for frame in range(frames)])
+    scale = _choose_scale(scene, FILM_WIDTH, LARGEST_FILM_CELL) if scale is None else scale
+    pictures = _draw_pictures(scene, scale, [float(frame * step) for frame in range(frames)])
     durations = [FRAME_MILLISECONDS] * (frames - 1) + [LAST_MILLISECONDS]
     content = io.BytesIO()
     next(pictures).save(
@@ -182,11 +182,11 @@ def write_gif(
     return Film(frames=frames, ticks_per_frame=step, seconds=sum(durations) / 1000)
 
 
-def _pictures(scene: Scene, scale: float, ticks: Sequence[float]) -> Iterator[Image.Image]:
+def _draw_pictures(scene: Scene, scale: float, ticks: Sequence[float]) -> Iterator[Image.Image]:
     """Yield a picture for each instant, all in one palette of 255 colours."""
-    margin = _margin(scene, scale)
+    margin = _measure_margin(scene, scale)
     origin = (margin + scale / 2, margin + scale / 2)
-    ground = _blank(scene, _map_size(scene, scale), FILM_FINENESS)
+    ground = _make_blank(scene, _map_size(scene, scale), FILM_FINENESS)
     pen = Pen(ground, origin=origin, scale=scale, fineness=FILM_FINENESS)
     sizes = compute_sizes(scene, scale)
     draw_ground(pen, scene, sizes, routes=False)
@@ -207,24 +207,24 @@ def _refuse_scale(scale: float | None) -> None:
         read_at("scale", make_range_reader(0, MOST_PIXELS), scale)
 
 
-def _fitting_scale(scene: Scene, width: int, largest: float) -> float:
+def _choose_scale(scene: Scene, width: int, largest: float) -> float:
     """Return the pixels for a cell that make a picture of about this width."""
     return min(max((width - 2 * MARGIN) / max(scene.plane.width, scene.plane.height), 2), largest)
 
 
 def _map_size(scene: Scene, scale: float) -> tuple[int, int]:
     """Return the size of the map with its margins [pixels]."""
-    plane, margins = scene.plane, 2 * _margin(scene, scale)
+    plane, margins = scene.plane, 2 * _measure_margin(scene, scale)
     return round(plane.width * scale) + margins, round(plane.height * scale) + margins
 
 
-def _margin(scene: Scene, scale: float) -> int:
+def _measure_margin(scene: Scene, scale: float) -> int:
     """Return the margin of a map: robots at its border may reach beyond it [pixels]."""
     largest = max(float(robot.radius) for robot in scene.plan.scenario.robots)
     return MARGIN + max(math.ceil((largest / scene.plane.unit - 0.5) * scale), 0)
 
 
-def _blank(scene: Scene, size: tuple[int, int], fineness: int) -> Image.Image:
+def _make_blank(scene: Scene, size: tuple[int, int], fineness: int) -> Image.Image:
     """Return an empty picture, `fineness` times as large; one without a pixel is refused."""
     width, height = size
     if min(size) <= 2 * MARGIN or width * height > MOST_PIXELS:

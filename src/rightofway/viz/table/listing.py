@@ -72,9 +72,9 @@ class Listing:
 
     def list_rows(self) -> Iterator[tuple[Value, ...]]:
         """Yield the rows as numbers and text, times in the unit of their heading."""
-        yield from zip(*(self._numbers(column) for column in self.columns), strict=True)
+        yield from zip(*(self._list_numbers(column) for column in self.columns), strict=True)
 
-    def _numbers(self, column: ListColumn) -> Iterator[Value]:
+    def _list_numbers(self, column: ListColumn) -> Iterator[Value]:
         for value in column.values:
             if column.kind != "time" or not isinstance(value, int) or self.quantities.in_ticks:
                 yield value
@@ -92,7 +92,7 @@ class Listing:
             all.
         """
         columns = [
-            self._cells(column, heading, max_lines)
+            self._write_cells(column, heading, max_lines)
             for column, heading in zip(self.columns, self.list_headings(), strict=True)
             if column.for_people
         ]
@@ -105,10 +105,10 @@ class Listing:
             lines.append(f"… and {more} more rows (-o FILE.txt or -o FILE.csv writes all)")
         return "\n".join(lines)
 
-    def _cells(self, column: ListColumn, heading: str, max_lines: int | None) -> list[str]:
+    def _write_cells(self, column: ListColumn, heading: str, max_lines: int | None) -> list[str]:
         """Return two lines of heading and the cells of a column, equally wide."""
         words, _, unit = heading.partition(" [")
-        values = (self._written(value, column.kind) for value in column.values[:max_lines])
+        values = (self._write_value(value, column.kind) for value in column.values[:max_lines])
         cells = [words, f"[{unit}" if unit else "", *values]
         width = max(map(measure_text, cells))
         gaps = [" " * (width - measure_text(cell)) for cell in cells]
@@ -116,7 +116,7 @@ class Listing:
             return [cell + gap for cell, gap in zip(cells, gaps, strict=True)]
         return [gap + cell for cell, gap in zip(cells, gaps, strict=True)]
 
-    def _written(self, value: Value, kind: str) -> str:
+    def _write_value(self, value: Value, kind: str) -> str:
         if kind == "time" and isinstance(value, int):
             return self.quantities.format_cell(value)
         text = "" if value is None else str(value)

@@ -67,13 +67,13 @@ def write_result(plan: Plan, path: str | os.PathLike[str]) -> None:
 def make_result(plan: Plan) -> bytes:
     """Return the workbook of `write_result`."""
     workbook = openpyxl.Workbook(write_only=True)
-    summary = _sheet(workbook, "summary")
-    diagram, left_out = _sheet(workbook, "diagram"), list[tuple[str, str]]()
+    summary = _add_sheet(workbook, "summary")
+    diagram, left_out = _add_sheet(workbook, "diagram"), list[tuple[str, str]]()
     try:
         table = make_table(plan)
         table = table.limit_columns(min(MAX_TICKS_OF_SHEET, MAX_CELLS // len(table.rows)))
-        write_table(_sheet(workbook, "time and space"), table)
-        write_legend(_sheet(workbook, "legend"), table)
+        write_table(_add_sheet(workbook, "time and space"), table)
+        write_legend(_add_sheet(workbook, "legend"), table)
     except InputError as error:
         left_out.append(("time and space", f"is left out: {error.faults[0].message}"))
     quantities = plan.scenario.quantities
@@ -86,15 +86,15 @@ def make_result(plan: Plan) -> bytes:
         tabulate_decisions(plan),
     ):
         try:
-            write_list(_sheet(workbook, listing.title), listing)
+            write_list(_add_sheet(workbook, listing.title), listing)
         except InputError as error:
             left_out.append((listing.title, f"is left out: {error.faults[0].message}"))
-    _write_diagram(diagram, _sheet(workbook, "diagram data"), plan)
+    _write_diagram(diagram, _add_sheet(workbook, "diagram data"), plan)
     _write_summary(summary, plan, left_out)
     return make_archive(workbook.save)
 
 
-def _sheet(workbook: Any, title: str) -> Any:
+def _add_sheet(workbook: Any, title: str) -> Any:
     """Add a sheet that is printed on paper as wide as the sheet."""
     sheet = workbook.create_sheet(title)
     sheet.page_setup.orientation = "landscape"
@@ -107,7 +107,7 @@ def _sheet(workbook: Any, title: str) -> Any:
 
 def _write_summary(sheet: Any, plan: Plan, more: Sequence[tuple[str, str]]) -> None:
     """Write what the plan costs, then a row for each robot: where its completion time goes."""
-    rows, robots = [*_figures(plan), *more], _robots(plan)
+    rows, robots = [*_list_figures(plan), *more], _list_robots(plan)
     headings = robots.list_headings()
     widen(sheet, 1, 1, {*(key for key, _ in rows), *map(str, robots.columns[0].values)})
     for number, heading in enumerate(headings[1:], 2):
@@ -124,7 +124,7 @@ def _write_summary(sheet: Any, plan: Plan, more: Sequence[tuple[str, str]]) -> N
         sheet.append([None if value is None else make_cell(sheet, value) for value in row])
 
 
-def _figures(plan: Plan) -> Iterator[tuple[str, str]]:
+def _list_figures(plan: Plan) -> Iterator[tuple[str, str]]:
     quantities, count = plan.scenario.quantities, len(plan.tracks)
     status = "" if plan.run.status is None else f": {plan.run.status}"
     yield "planner", f"{plan.run.name}{status}"
@@ -140,7 +140,7 @@ def _figures(plan: Plan) -> Iterator[tuple[str, str]]:
     yield "waiting in all", quantities.format_duration(metrics.waiting)
 
 
-def _robots(plan: Plan) -> Listing:
+def _list_robots(plan: Plan) -> Listing:
     names = [robot.name for robot in plan.scenario.robots]
     times = {"completes": list(plan.completions)}
     try:
@@ -181,7 +181,7 @@ def _write_diagram(sheet: Any, data: Any, plan: Plan) -> None:
     chart.x_axis.crosses = "min"
     chart.y_axis.delete = bool(line)  # the names of the places stand there instead
     chart.y_axis.title = None if line else "place"
-    chart.y_axis.majorGridlines.spPr = _stroke(GRID_GREY)
+    chart.y_axis.majorGridlines.spPr = _make_stroke(GRID_GREY)
     if line:
         names = [scenario.roadmap.name(vertex) for vertex in line]
         left = min(NAME_SHARE * (2 + max(map(len, names))), 0.3)
@@ -200,12 +200,12 @@ def _write_diagram(sheet: Any, data: Any, plan: Plan) -> None:
     ):
         points = [
             (float(at * tick), rows.get(vertex, cells[vertex] if cells else vertex))
-            for at, vertex in _line(trip)
+            for at, vertex in _trace_line(trip)
         ][:MOST_POINTS]
         first = len(columns) + 1
         columns += [[f"{robot.name} time", *(x for x, _ in points)]]
         columns += [[robot.name, *(y for _, y in points)]]
-        series = _series(data, first, 2, len(points) + 1)
+        series = _make_series(data, first, 2, len(points) + 1)
         series.graphicalProperties.line.solidFill = colour.lstrip("#").upper()
         series.graphicalProperties.line.width = 22_000  # EMU, 12 700 to a point
         chart.series.append(series)
@@ -222,7 +222,7 @@ def _write_diagram(sheet: Any, data: Any, plan: Plan) -> None:
     sheet.append([f"Places over time, {words}. A robot that stands still is a level line."])
 
 
-def _line(trip: Any) -> Iterator[tuple[int, int]]:
+def _trace_line(trip: Any) -> Iterator[tuple[int, int]]:
     """Yield the corners of a robot's line: when, and at which vertex."""
     yield trip.enter[0], trip.vertices[0]
     for visit, begin, end, activity in trip.trace_all_phases():
@@ -231,7 +231,7 @@ def _line(trip: Any) -> Iterator[tuple[int, int]]:
             yield end, trip.vertices[visit + 1]
 
 
-def _series(data: Any, column: int, first: int, last: int) -> Any:
+def _make_series(data: Any, column: int, first: int, last: int) -> Any:
     """Return the series of two columns of a sheet, named by the heading of the second one."""
     x = charts.Reference(data, min_col=column, min_row=first, max_row=last)
     y = charts.Reference(data, min_col=column + 1, min_row=first - 1, max_row=last)
@@ -248,7 +248,7 @@ def _name_places(
     for row, name in enumerate(names):
         first = len(columns) + 1
         columns += [["place", 0], [name, row]]
-        series = _series(data, first, 2, 2)
+        series = _make_series(data, first, 2, 2)
         series.graphicalProperties.line.noFill = True
         series.dLbls = charts.label.DataLabelList()
         series.dLbls.showSerName, series.dLbls.position = True, "l"
@@ -259,7 +259,7 @@ def _name_places(
     ]
 
 
-def _stroke(colour: str) -> Any:
+def _make_stroke(colour: str) -> Any:
     properties = charts.shapes.GraphicalProperties()
     properties.line.solidFill = colour
     return properties

@@ -270,7 +270,7 @@ def make_table(
     shown = choose_robots(plan.scenario, robots)
     fleets: Fleets = (("planned", free_running(plan)), ("final", plan.tracks))
     order = [(robot, fleet) for robot in shown for fleet in fleets]
-    table = _table(plan.scenario, order, (first_tick, last_tick), quantities)
+    table = _make_table(plan.scenario, order, (first_tick, last_tick), quantities)
     return replace(table, step=step)
 
 
@@ -308,7 +308,7 @@ def make_table_of_groups(
         (kind, group) for kind, group in zip(kinds, groups, strict=True) if group is not None
     ]
     order = [(robot, fleet) for fleet in fleets for robot in robots]
-    table = _table(plan.scenario, order, (first_tick, last_tick), quantities)
+    table = _make_table(plan.scenario, order, (first_tick, last_tick), quantities)
     return replace(table, step=step)
 
 
@@ -326,7 +326,7 @@ def end_of(plan: Plan, robots: Sequence[str] | None = None) -> Tick:
     return max(end[robot] for end in ends for robot in shown)
 
 
-def _table(
+def _make_table(
     scenario: Scenario,
     order: Sequence[tuple[int, tuple[RowKind, Sequence[Track]]]],
     window: tuple[int, int | None],
@@ -335,14 +335,14 @@ def _table(
     """Make a table of rows in an order: a robot in a fleet of tracks."""
     fleets = dict(fleet for _, fleet in order)
     stays = {kind: find_stays(scenario, tracks) for kind, tracks in fleets.items()}
-    marked = {kind: _marks(scenario, tracks, stays[kind]) for kind, tracks in fleets.items()}
+    marked = {kind: _find_marks(scenario, tracks, stays[kind]) for kind, tracks in fleets.items()}
     ends = [stays[kind][robot].completion for robot, (kind, _) in order]
-    first, last = _window(*window, max(ends))
+    first, last = _choose_window(*window, max(ends))
     rows = []
     for (robot, (kind, tracks)), end in zip(order, ends, strict=True):
         spans = [marked[kind][mark].get(robot, []) for mark in MARKS]
         shown = first, min(last, end) + 1
-        runs = tuple(_runs(scenario.roadmap, tracks[robot], shown, spans))
+        runs = tuple(_split_runs(scenario.roadmap, tracks[robot], shown, spans))
         rows.append(Row(robot=scenario.robots[robot].name, kind=kind, runs=runs))
     return TimeSpaceTable(
         first_tick=first,
@@ -379,7 +379,7 @@ def choose_robots(scenario: Scenario, names: Sequence[str] | None) -> list[int]:
     return [index for index, name in enumerate(all_names) if not names or name in names]
 
 
-def _window(first: int, last: int | None, end: Tick) -> tuple[Tick, Tick]:
+def _choose_window(first: int, last: int | None, end: Tick) -> tuple[Tick, Tick]:
     if first < 0:
         raise InputError.at("first_tick", f"{first} is negative (give 0 or more)")
     if last is not None and last < first:
@@ -391,7 +391,7 @@ def _window(first: int, last: int | None, end: Tick) -> tuple[Tick, Tick]:
     return Tick(first), end if last is None else Tick(last)
 
 
-def _marks(
+def _find_marks(
     scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
 ) -> dict[Mark, dict[int, Spans]]:
     """Return when robots collide, swap or wait, by mark and robot."""
@@ -413,7 +413,7 @@ def _marks(
     return spans
 
 
-def _runs(
+def _split_runs(
     roadmap: Roadmap, track: Track, window: tuple[int, int], spans_by_mark: Sequence[Spans]
 ) -> Iterator[CellRun]:
     """Yield the runs of a track in a window; of several marks, the first of `MARKS` is shown."""

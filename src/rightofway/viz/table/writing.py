@@ -65,27 +65,27 @@ def as_text(table: TimeSpaceTable, width: int = 80, max_lines: int | None = MAX_
     labels = [f"{row.robot} {row.kind}" for row in table.rows]
     names = max(map(measure_text, (table.heading, *labels)))
     room = width - names - len(GAP) + 1
-    size = _column(table)
+    size = _measure_column(table)
     if max_lines is not None and table.step == 1:
         blocks_shown = max(max_lines // (len(labels) + 2), 1)
-        table = _shorter(table, blocks_shown * (room // (size + len("* "))))
-        size = _column(table)
+        table = _reduce_columns(table, blocks_shown * (room // (size + len("* "))))
+        size = _measure_column(table)
     columns = max(room // (size + len("* ")), 1)
     blocks: list[str] = []
     lines, longest = 0, 0
     for begin in range(0, len(table.ticks), columns):
         if max_lines is not None and blocks and lines + len(labels) + 2 > max_lines:
             break
-        block = list(_block(table, labels, table.ticks[begin : begin + columns], names, size))
+        block = list(_write_block(table, labels, table.ticks[begin : begin + columns], names, size))
         blocks.append("\n".join(block[:max_lines]))
         lines, longest = lines + len(block) + 1, max(longest, len(block))
     rows_are_cut = max_lines is not None and longest > max_lines
     columns_shown = min(len(blocks) * columns, len(table.ticks))
-    hints = _hints(table, columns_shown, rows_are_cut=rows_are_cut)
-    return "\n\n".join((*blocks, *_legend(table, max(width, LEGEND_WIDTH)), *hints))
+    hints = _write_hints(table, columns_shown, rows_are_cut=rows_are_cut)
+    return "\n\n".join((*blocks, *_write_legend(table, max(width, LEGEND_WIDTH)), *hints))
 
 
-def _shorter(table: TimeSpaceTable, columns: int) -> TimeSpaceTable:
+def _reduce_columns(table: TimeSpaceTable, columns: int) -> TimeSpaceTable:
     """Return a table of at most that number of columns, or the fewest that hide little."""
     if len(table.ticks) <= columns:
         return table
@@ -94,32 +94,32 @@ def _shorter(table: TimeSpaceTable, columns: int) -> TimeSpaceTable:
     return min(longer, table.keep_changes(), key=lambda candidate: len(candidate.ticks))
 
 
-def _column(table: TimeSpaceTable) -> int:
+def _measure_column(table: TimeSpaceTable) -> int:
     """Return how wide places and times are."""
     places = {str(run.cell.place) for row in table.rows for run in row.runs}
     times = {table.describe_time(tick) for tick in table.ticks[-2:]}
     return max(map(measure_text, (*places, *times)))
 
 
-def _block(
+def _write_block(
     table: TimeSpaceTable, labels: list[str], ticks: Sequence[int], names: int, size: int
 ) -> Iterator[str]:
-    yield _line(
+    yield _write_line(
         table.heading, [Cell(table.describe_time(tick), None) for tick in ticks], names, size
     )
     for label, row in zip(labels, table.rows, strict=True):
         cells = row.list_cells_at(ticks, table.step)
         if cells:
-            yield _line(label, cells, names, size)
+            yield _write_line(label, cells, names, size)
 
 
-def _line(label: str, cells: list[Cell], names: int, size: int) -> str:
+def _write_line(label: str, cells: list[Cell], names: int, size: int) -> str:
     texts = ((str(cell.place), SIGNS[cell.mark]) for cell in cells)
     columns = " ".join(" " * (size - measure_text(place)) + place + sign for place, sign in texts)
     return f"{label}{' ' * (names - measure_text(label))}{GAP}{columns}".rstrip()
 
 
-def _legend(table: TimeSpaceTable, width: int) -> Iterator[str]:
+def _write_legend(table: TimeSpaceTable, width: int) -> Iterator[str]:
     marks = {run.cell.mark for row in table.rows for run in row.runs}
     notes = [f"{SIGNS[mark]} {meaning}" for mark, meaning in MEANINGS.items() if mark in marks]
     quantities = replace(table.quantities, in_ticks=False)
@@ -142,7 +142,7 @@ def _legend(table: TimeSpaceTable, width: int) -> Iterator[str]:
         yield "\n".join(lines)
 
 
-def _hints(table: TimeSpaceTable, ticks: int, *, rows_are_cut: bool) -> Iterator[str]:
+def _write_hints(table: TimeSpaceTable, ticks: int, *, rows_are_cut: bool) -> Iterator[str]:
     """Yield what a cut text leaves out, and how to see it."""
     missing = ["rows"] if rows_are_cut else []
     if ticks < len(table.ticks):
