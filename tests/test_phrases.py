@@ -144,7 +144,7 @@ FACTS = {"Fact", "Status", "RerouteReason"}
 REFUSED = {"message", "remedy", "hint", "fault"}
 """Names of variables for the parts of an error."""
 
-MOST_LITERALS = {"cli": 11, "planners": 11, "report": 0}
+MOST_LITERALS = {"planners": 11, "report": 0}
 """How many parts of errors and help a room makes in other ways; the numbers may only fall."""
 
 

@@ -12,7 +12,6 @@ import click
 from rightofway.cli.completion import complete_files
 from rightofway.cli.options import Whole, as_json_option, require_writable
 from rightofway.cli.terminal import put_json, put_report, say, say_written
-from rightofway.phrases import Phrase
 from rightofway.report.lines import Table
 
 if TYPE_CHECKING:
@@ -66,20 +65,13 @@ def bench(
             _run(cases, results, jobs=jobs, dask=dask)
         except KeyboardInterrupt:
             done = sum(case.key in results.rows for case in cases)
-            say(
-                Phrase(
-                    "{file} has {done} of {number} cases; the same command goes on from here",
-                    file=output,
-                    done=str(done),
-                    number=str(len(cases)),
-                )
-            )
+            say(f"{output} has {done} of {len(cases)} cases; the same command goes on from here")
             raise
         rows = [results.rows[case.key] for case in cases]
     say_written(output)
     _summarize(rows, output, as_json=as_json)
     if report:
-        write_report(rows, report, Phrase("Benchmark results: {file}", file=Path(suite).name))
+        write_report(rows, report, f"Benchmark results: {Path(suite).name}")
         say_written(report)
     return 1 if any(row["valid"] is False for row in rows) else 0
 
@@ -91,21 +83,12 @@ def _run(cases: Sequence[Case], results: Results, *, jobs: int | None, dask: str
     left = {case.key: case for case in cases if case.key not in results.rows}
     done = len(cases) - len(left)
     if done:
-        say(
-            Phrase(
-                "{done} of {number} cases are there already",
-                done=str(done),
-                number=str(len(cases)),
-            )
-        )
+        say(f"{done} of {len(cases)} cases are there already")
         commit = describe_machine()["commit"]
         earlier = [results.rows[case.key]["commit"] for case in cases if case.key not in left]
         others = sum(known != commit for known in earlier)
         if others:
-            text = Phrase(
-                "{number} of them by another commit (give another -o to run them again)",
-                number=str(others),
-            )
+            text = f"{others} of them by another commit (give another -o to run them again)"
             say(text)
     if not left:
         return
@@ -139,5 +122,5 @@ def _summarize(rows: Sequence[Row], output: str, *, as_json: bool) -> None:
         ratio = f"{group.ratio.median:.3f}" if group.ratio else ""
         seconds = f"{group.seconds.median:.2f}" if group.seconds else ""
         lines.append((name, f"{group.solved}/{group.cases}", ratio, seconds))
-    headings = (Phrase("planner"), Phrase("solved"), Phrase("ratio"), Phrase("first plan [s]"))
+    headings = ("planner", "solved", "ratio", "first plan [s]")
     put_report([Table(headings, lines)])

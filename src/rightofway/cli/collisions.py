@@ -19,7 +19,7 @@ from rightofway.cli.options import (
 from rightofway.cli.tables import describe_clock, put_lists
 from rightofway.cli.terminal import choose_deadline, put_json, show_progress
 from rightofway.errors import InputError
-from rightofway.phrases import Phrase, say_count
+from rightofway.phrases import say_count
 
 if TYPE_CHECKING:
     from rightofway.metrics import NamedCollision, NamedCollisions
@@ -35,7 +35,7 @@ Examples:
 """
 
 
-LEGEND = Phrase(
+LEGEND = (
     "before, left: conflicts of the whole fleet before and after the decision, counted tick by"
     " tick\nif i, if j: conflicts left if robot i waits, and if robot j waits"
 )
@@ -116,7 +116,7 @@ def collisions(
             parts.append(LEGEND)
         if plan is not None:
             remaining = name_collisions(scenario, plan.tracks)
-            parts.append(Phrase("Left in the plan: {collisions}.", collisions=_counted(remaining)))
+            parts.append(f"Left in the plan: {_counted(remaining)}.")
             parts += _texts([tabulate_collisions(remaining, quantities)])
         click.echo("\n\n".join(parts))
 
@@ -133,11 +133,10 @@ def _refuse_length(listed: NamedCollisions) -> None:
 def _headline(listed: NamedCollisions, ticks: int, *, is_planned: bool) -> str:
     number = _counted(listed)
     if ticks and listed:
-        counted_ticks = say_count(ticks, "tick", "ticks")
-        number = Phrase("{collisions}, in {ticks}", collisions=number, ticks=counted_ticks)
+        number += f", in {say_count(ticks, 'tick', 'ticks')}"
     if is_planned:
-        return Phrase("On the routes of the plan, without waits: {collisions}.", collisions=number)
-    return Phrase("On the shortest routes, without waits: {collisions}.", collisions=number)
+        return f"On the routes of the plan, without waits: {number}."
+    return f"On the shortest routes, without waits: {number}."
 
 
 def _texts(lists: Sequence[Listing]) -> list[str]:
@@ -148,9 +147,9 @@ def _counted(listed: NamedCollisions) -> str:
     kinds = listed.count_kinds()
     collisions = say_count(kinds["collision"], "collision", "collisions")
     swaps = say_count(kinds["swap"], "swap", "swaps")
-    text = Phrase("{first} and {last}", first=collisions, last=swaps)
+    text = f"{collisions} and {swaps}"
     near = say_count(kinds["too near"], "near miss", "near misses")
-    return Phrase("{first}, {second}", first=text, second=near) if kinds["too near"] else text
+    return f"{text}, {near}" if kinds["too near"] else text
 
 
 def _collision_data(

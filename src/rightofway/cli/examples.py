@@ -12,7 +12,6 @@ from rightofway.cli.options import require_writable
 from rightofway.cli.terminal import say, say_written
 from rightofway.errors import InputError, find_nearest
 from rightofway.files import write_whole
-from rightofway.phrases import Phrase
 from rightofway.report.examples import (
     SUFFIXES,
     find_examples_folder,
@@ -63,7 +62,7 @@ def new(file: str) -> None:
     if Path(file).exists():
         raise InputError.at("", "the file exists (give another name, or remove it)", file)
     TEMPLATES[Path(file).suffix.lower()](file)
-    say(Phrase("wrote {file} (edit it, then: rightofway plan {file} --page plan.html)", file=file))
+    say(f"wrote {file} (edit it, then: rightofway plan {file} --page plan.html)")
 
 
 @click.command(epilog=EXAMPLES_EXAMPLES, short_help="List, print or copy the example files.")
@@ -142,4 +141,4 @@ def _copy_all(target: Path) -> None:
             copy.parent.mkdir(parents=True, exist_ok=True)
             write_whole(copy, path.read_bytes())
     door = str(target / "door.yaml")
-    say(Phrase("wrote {file} (for example: rightofway plan {door})", file=str(target), door=door))
+    say(f"wrote {target} (for example: rightofway plan {door})")

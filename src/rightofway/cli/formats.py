@@ -15,7 +15,6 @@ from rightofway.cli.options import ListingCommand, require_writable
 from rightofway.cli.outputs import put_text, write
 from rightofway.cli.terminal import put_json, say, say_of, say_written
 from rightofway.errors import InputError, find_nearest
-from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
     from rightofway.model import Plan, Scenario
@@ -223,11 +222,11 @@ def _write_plan(plan: Plan, path: str, name: str | None) -> None:
         if any(len(own) > 1 or own[0].work for own in stages):
             say_of(
                 path,
-                Phrase("work, turning and ways back are left out, only cells and steps are kept"),
+                "work, turning and ways back are left out, only cells and steps are kept",
             )
         if plan.scenario.problem.clock.tick != 1:
             step = plan.scenario.quantities.format_duration(1)
-            say_of(path, Phrase("a step lasts {time}", time=step))
+            say_of(path, f"a step lasts {step}")
     elif path == "-" or path.lower().endswith((".json", ".xlsx")):
         write(plan, path)
     else:
@@ -244,7 +243,7 @@ def _write_scenario(scenario: Scenario, path: str) -> None:
     else:
         write_scenario(scenario, path)
         if path.lower().endswith(".xlsx") and scenario.roadmap.obstacles:
-            text = Phrase("the names of obstacles are left out (a map sheet has no place for them)")
+            text = "the names of obstacles are left out (a map sheet has no place for them)"
             say_of(path, text)
         say_written(path)
 
@@ -260,7 +259,7 @@ def _write_pair(scenario: Scenario, path: Path) -> None:
     write_map(scenario.roadmap, map_path)
     for loss in losses:
         say_of(path, loss)
-    say(Phrase("wrote {file} and {other}", file=str(path), other=str(map_path)))
+    say(f"wrote {path} and {map_path}")
 
 
 @click.command(epilog="Example:  rightofway schema scenario > scenario.schema.json")

@@ -11,7 +11,6 @@ import click
 from rightofway.cli.options import require_writable
 from rightofway.cli.terminal import complain, say, say_written
 from rightofway.files import write_whole
-from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
     from rightofway.model import Plan
@@ -70,7 +69,7 @@ def make_page_option(content: str) -> Decorator:
     )  # fmt: skip
 
 
-def put_page(plan: Plan, path: str, *, said: Phrase | None = None, **extras: Any) -> None:
+def put_page(plan: Plan, path: str, *, said: str | None = None, **extras: Any) -> None:
     """Write a page that plays a plan, and name the faults that it shows.
 
     ``said`` is the message that the page is written; ``extras`` are those of `write_page`.
@@ -78,7 +77,7 @@ def put_page(plan: Plan, path: str, *, said: Phrase | None = None, **extras: Any
     from rightofway.viz import write_page
 
     write_page(plan, path, **extras)
-    say(said or Phrase("wrote {file}", file=path))
+    say(said or f"wrote {path}")
     complain_of_faults(plan, path)
 
 
@@ -90,8 +89,7 @@ def complain_of_faults(plan: Plan, path: str) -> None:
     verdict = give_verdict(plan)
     if not verdict.ok:
         first = write_fault(verdict.faults[0])
-        values = {"faults": summarize_report(verdict), "first": first}
-        complain(Phrase("{file} shows {faults}; {first}", file=path, **values))
+        complain(f"{path} shows {summarize_report(verdict)}; {first}")
 
 
 def refuse_outputs(source: str, output: str | None, *, as_json: bool) -> None:

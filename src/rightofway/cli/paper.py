@@ -11,7 +11,6 @@ import click
 
 from rightofway.cli.options import Whole, as_json_option, choose_quantities
 from rightofway.cli.terminal import put_json, put_report
-from rightofway.phrases import Phrase
 from rightofway.report.examples import find_examples_folder, read_first_sentence
 
 if TYPE_CHECKING:
@@ -40,7 +39,7 @@ class _Row:
     def verdict(self) -> str:
         if self.published is None:
             return ""
-        return Phrase("equal") if self.published == self.ours else Phrase("differs")
+        return "equal" if self.published == self.ours else "differs"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -77,7 +76,7 @@ def paper(tables: tuple[int, ...], *, log: bool, as_json: bool) -> int:
         for table in compared:
             _print(table, log=log)
         rows = str(len(verdicts))
-        put_report(Phrase("{equal} of {rows} published rows equal", equal=str(equal), rows=rows))
+        put_report(f"{equal} of {rows} published rows equal")
     return 0 if equal == len(verdicts) else 1
 
 
@@ -123,7 +122,7 @@ def _print(table: _Table, *, log: bool) -> None:
     ticks = range(table.first_tick, table.first_tick + max(len(row.ours) for row in table.rows))
     cells = [str(cell) for row in table.rows for cell in row.ours]
     width = 1 + max(len(cell) for cell in [*cells, str(ticks[-1])])
-    put_report([Phrase("{title} ({scenario}).", title=title, scenario=table.scenario), ""])
+    put_report([f"{title} ({table.scenario}).", ""])
     put_report(_line("tick", "", ticks, width))
     for row in table.rows:
         head = f"{row.robot} {row.kind}"
@@ -132,7 +131,7 @@ def _print(table: _Table, *, log: bool) -> None:
             head = ""
         put_report(f"{_line(head, 'ours', row.ours, width)}  {row.verdict}".rstrip())
     for fault in check(table.plan).faults:
-        text = Phrase("The published method leaves this: {fault}.", fault=write_fault(fault))
+        text = f"The published method leaves this: {write_fault(fault)}."
         put_report(["", text])
     if log:
         put_report(

@@ -44,7 +44,6 @@ from rightofway.cli.terminal import (
     show_progress,
 )
 from rightofway.errors import NoPlanExists
-from rightofway.phrases import Phrase
 from rightofway.planners import DEFAULT_PLANNER, IMPROVER, Feature, PlannerSpec, find, find_all
 
 if TYPE_CHECKING:
@@ -276,7 +275,7 @@ def _run(
         )
     write(plan, output)
     if page:
-        said = Phrase("wrote {file} (open it in a browser)", file=page)
+        said = f"wrote {page} (open it in a browser)"
         put_page(plan, page, said=said, title=make_title(source))
     if output != "-":
         quantities = choose_quantities(plan.scenario, in_ticks=in_ticks)
@@ -294,12 +293,7 @@ def _run(
     judged = check(plan)
     if judged.ok:
         return 0
-    complain(
-        Phrase(
-            "the plan still has {faults} (--planner two-level has none)",
-            faults=summarize_report(judged),
-        )
-    )
+    complain(f"the plan still has {summarize_report(judged)} (--planner two-level has none)")
     return 1
 
 
@@ -325,7 +319,7 @@ def write_no_plan(problem: Any, page: str | None, title: str, *, as_json: bool) 
             from rightofway.viz import write_page
 
             write_page(put_fleet_at_home(problem), page, no_plan=error, title=title)
-            say(Phrase("wrote {file} (it shows where robots are blocked)", file=page))
+            say(f"wrote {page} (it shows where robots are blocked)")
         raise
 
 

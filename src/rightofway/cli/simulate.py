@@ -26,7 +26,6 @@ from rightofway.cli.terminal import (
     put_report,
     show_progress,
 )
-from rightofway.phrases import Phrase
 
 EXAMPLES = """\b
 Examples:
@@ -105,11 +104,6 @@ def simulate(
     if page:
         played = outcome.find_typical_run() if run is None else run
         trace = outcome.trace(played)
-        said = Phrase(
-            "wrote {file}: run {number} of {runs}",
-            file=page,
-            number=str(played),
-            runs=str(outcome.runs),
-        )
+        said = f"wrote {page}: run {played} of {outcome.runs}"
         put_page(outcome.plan, page, said=said, actual=trace, title=make_title(plan))
     return 1 if outcome.collisions or outcome.deadlocks else 0

@@ -24,7 +24,6 @@ from rightofway.cli.options import (
 from rightofway.cli.terminal import measure_width, put_json, say_written
 from rightofway.errors import InputError
 from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase, chain_items
 from rightofway.values import format_number
 
 if TYPE_CHECKING:
@@ -302,12 +301,10 @@ def _print_groups(
     i, j = (plan.scenario.robots[robot].name for robot in decision.robots)
     place = PlaceNames(plan.scenario, numbered=True)(decision.vertices[0])
     moment = shown.quantities.format_moment(decision.tick)
-    meeting = {"robot": i, "other": j, "place": place, "moment": moment}
-    text = Phrase("{robot} and {other} meet at {place} at {moment}.", **meeting)
-    first = Phrase("Decision {number}: {text}", number=str(number), text=text)
+    first = f"Decision {number}: {i} and {j} meet at {place} at {moment}."
     waits = plan.scenario.robots[decision.waits].name
-    last = Phrase("{robot} waits ({level} level).", robot=waits, level=decision.level)
-    words = [first, chain_items([*groups.sums, last], "{first}\n{second}")]
+    last = f"{waits} waits ({decision.level} level)."
+    words = [first, "\n".join([*groups.sums, last])]
     _put_table(
         groups.table, output, as_json=as_json, words=words, more={"completions": groups.completions}
     )

@@ -17,7 +17,6 @@ import click
 from rightofway.deadline import Deadline
 from rightofway.errors import escape_text
 from rightofway.facts import Fact
-from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
     from rightofway.report.lines import Part
@@ -72,12 +71,12 @@ def say(message: str) -> None:
 
 def say_of(path: object, text: str) -> None:
     """Say something about a file."""
-    say(Phrase("{file}: {text}", file=str(path), text=text))
+    say(f"{path}: {text}")
 
 
 def say_written(path: object) -> None:
     """Say that a file is written."""
-    say(Phrase("wrote {file}", file=str(path)))
+    say(f"wrote {path}")
 
 
 def complain(message: str) -> None:
@@ -124,9 +123,9 @@ def show_progress(
     def show(message: Fact | str) -> None:
         latest[0] = str(message)
         passed = f"{time.monotonic() - began:.1f}"
-        seconds = Phrase("{time} s", time=passed)
+        seconds = f"{passed} s"
         if limit is not None:
-            seconds = Phrase("{time} of {limit} s", time=passed, limit=format_decimal(limit))
+            seconds = f"{passed} of {format_decimal(limit)} s"
         line = ", ".join(filter(None, [seconds, latest[0]]))
         while len(line) >= measure_width() and ", " in line:
             line = line.rpartition(", ")[0]

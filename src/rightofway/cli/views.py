@@ -36,7 +36,6 @@ from rightofway.cli.terminal import (
     show_progress,
 )
 from rightofway.errors import InputError
-from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
     from rightofway.check import Report
@@ -189,7 +188,7 @@ def show(
         with show_progress(LIMIT) as report:
             opened = solve(opened, time_limit=LIMIT, report=report)
         text = describe_planning(opened, opened.scenario.quantities)
-        say(Phrase("{file}: {text}", file=plan, text=text))
+        say(f"{plan}: {text}")
     first, *titles = _titles([plan, *others])
     extras: dict[str, Any] = {
         "title": first,
@@ -272,7 +271,7 @@ def _write(plan: Plan, path: str, extras: dict[str, Any]) -> None:
     if path.lower().endswith(".gif"):
         film = write_gif(plan, path)
         apart = plan.scenario.quantities.format_duration(film.ticks_per_frame)
-        say(Phrase("{number} frames, {time} apart", number=str(film.frames), time=apart))
+        say(f"{film.frames} frames, {apart} apart")
         say_written(path)
     else:
         put_page(plan, path, **extras)

@@ -16,7 +16,6 @@ from fastapi import FastAPI
 
 from rightofway.errors import InputError
 from rightofway.io.content import find_remedy_for_missing
-from rightofway.phrases import Phrase
 from rightofway.studio.app import create_app, create_watch
 from rightofway.studio.connections import AT_ONCE, Connection, allow_descriptors
 from rightofway.studio.guard import Access
@@ -122,7 +121,7 @@ def serve_watch(
     thread = threading.Thread(target=server.run, args=([listener],), daemon=True)
     with contextlib.closing(listener):
         thread.start()
-        say(Phrase("watch it: {address}", address=f"http://{_name_host(host)}:{actual}/{query}"))
+        say(f"watch it: http://{_name_host(host)}:{actual}/{query}")
         try:
             yield
         finally:
