@@ -6,9 +6,8 @@ import pytest
 from pytest_benchmark.fixture import BenchmarkFixture
 
 from rightofway.model import BookingRules, Scenario
-from rightofway.planners.lacam import build_timetable
-from rightofway.planners.routing import find_shortest_routes
-from rightofway.precedence import PrecedenceGraph
+from rightofway.precedence import PrecedenceGraph, build_timetable
+from rightofway.repair.routing import find_shortest_routes
 from rightofway.search import Bookings, Distances, find_earliest_track, plan_by_lacam
 from tests.builders.fleets import random_fleet
 
@@ -69,6 +68,6 @@ def test_search_for_the_fleet(benchmark: BenchmarkFixture, scenario: Scenario) -
     def plan_in_steps() -> None:
         tracks = plan_by_lacam(scenario.problem.as_steps(), spreads=False)
         assert tracks is not None
-        build_timetable(scenario, tracks)
+        build_timetable(scenario.problem, tracks)
 
     benchmark(plan_in_steps)

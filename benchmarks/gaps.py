@@ -20,7 +20,7 @@ from benchmarks.common import IMAGES, RESULTS, plain_axes, save_figure
 from rightofway.errors import GaveUp
 from rightofway.metrics import compute_alone_completions, measure
 from rightofway.model import Plan, Route, Rules, Scenario
-from rightofway.planners.routing import clear_routes, find_shortest_routes
+from rightofway.repair.routing import clear_routes, find_shortest_routes
 from rightofway.search import Distances
 from tests.builders.fleets import random_fleet
 from tests.oracles.fixed_routes import Optimum, best_on, routes_of

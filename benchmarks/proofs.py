@@ -29,7 +29,7 @@ from rightofway.bench.fleets import make_scenario_document
 from rightofway.errors import GaveUp
 from rightofway.io import parse_scenario
 from rightofway.model import Objective, OutcomeKind, Rules, Scenario
-from rightofway.planners.bounds import prove_bound
+from rightofway.repair.bounds import prove_bound
 
 SPEEDS = (Fraction(1), Fraction(1, 2), Fraction(1, 3), Fraction(1, 5))
 EQUAL = (Fraction(1),)

@@ -47,13 +47,13 @@ from rightofway.planners import (
     find,
 )
 from rightofway.planners.features import refuse_unknown
-from rightofway.planners.objectives import (
+from rightofway.planners.registry import name_able
+from rightofway.repair.objectives import (
     compute_value,
     find_objective,
     list_weights,
     measure_worth,
 )
-from rightofway.planners.registry import name_able
 from rightofway.values import format_number, make_range_reader, read_at
 
 __all__ = ["improve", "solve"]
@@ -223,8 +223,8 @@ def _run(
 ) -> Plan:
     """Plan and judge; ``old`` is a plan of the scenario before it was changed."""
     # These load the native core: not for help.
-    from rightofway.planners.impossible import refuse_closed_ways, refuse_stranded
-    from rightofway.planners.warm_start import compare_with_start
+    from rightofway.repair.impossible import refuse_closed_ways, refuse_stranded
+    from rightofway.resume.warm_start import compare_with_start
     from rightofway.search import compute_least_completions
 
     seconds_per_visit = read_at("seconds_per_visit", make_range_reader(0, 3600), seconds_per_visit)
@@ -317,8 +317,8 @@ def _written_options(task: Task) -> dict[str, Any]:
 
 def _going_on(spec: PlannerSpec, task: Task, old: Plan) -> Draft:
     """Return the draft of a planner that starts from an old plan, or from nothing if it must."""
-    from rightofway.planners.impossible import refuse_closed_ways
-    from rightofway.planners.warm_start import make_first_plan
+    from rightofway.repair.impossible import refuse_closed_ways
+    from rightofway.resume.warm_start import make_first_plan
 
     tracks = make_first_plan(task, old)
     if tracks is None:

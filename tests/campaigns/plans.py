@@ -28,8 +28,8 @@ from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.io import format_plan, format_scenario
 from rightofway.metrics import derive_outcome
 from rightofway.model import Objective, Plan, Scenario, Tick
-from rightofway.planners.bounds import prove_bound
 from rightofway.precedence import ReleaseGraph
+from rightofway.repair.bounds import prove_bound
 from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import ALL, QUICK, STRICT, broken, by_both_judges, knows
 from tests.builders.chaos import KINDS, Fault, run_chaos

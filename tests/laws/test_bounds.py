@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from rightofway import solve
 from rightofway.model import Scenario, compute_cost
-from rightofway.planners.bounds import prove_bound
+from rightofway.repair.bounds import prove_bound
 from rightofway.search import PriceAscent, compute_least_completions
 from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import STRICT, planned

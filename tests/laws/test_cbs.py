@@ -25,8 +25,8 @@ from rightofway.model import (
 )
 from rightofway.model.outcome import choose_objective
 from rightofway.model.stays import compute_costs
-from rightofway.planners.bounds import prove_bound
-from rightofway.planners.impossible import make_fleet_of
+from rightofway.repair.bounds import prove_bound
+from rightofway.repair.impossible import make_fleet_of
 from rightofway.search import (
     Bookings,
     ConflictBasedSearch,

@@ -8,7 +8,7 @@ import rightofway
 from rightofway.deadline import Deadline
 from rightofway.errors import Blockage, GaveUp, NoPlanExists
 from rightofway.model import Rules, Scenario
-from rightofway.planners.impossible import find_blocking_set
+from rightofway.repair.impossible import find_blocking_set
 from tests.builders.any_plan import QUICK
 from tests.builders.fleets import grid_fleet
 from tests.builders.laws import law, leave

@@ -11,7 +11,7 @@ import rightofway
 from rightofway.errors import NoPlanExists
 from rightofway.io import parse_scenario
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track
-from rightofway.planners.lacam import build_timetable
+from rightofway.precedence import build_timetable
 from rightofway.search import plan_by_lacam
 from tests.builders.fleets import grid_fleet
 from tests.builders.laws import law

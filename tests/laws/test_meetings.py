@@ -7,7 +7,7 @@ from itertools import combinations, product
 from rightofway.errors import NoPlanExists
 from rightofway.metrics import find_collisions, find_swaps, name_collisions
 from rightofway.model import NEVER, Scenario, Track, find_stays
-from rightofway.planners.routing import free_running_tracks
+from rightofway.repair.routing import free_running_tracks
 from tests.builders.any_fleet import any_fleet
 from tests.builders.laws import law, leave
 

@@ -15,8 +15,8 @@ import rightofway
 from rightofway.cyclic import find_best_timetable, plan_of_laps, run_laps
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Plan, PlannerRun, Scenario, Track
-from rightofway.planners.routing import find_shortest_routes
 from rightofway.precedence import build_graph
+from rightofway.repair.routing import find_shortest_routes
 from rightofway.search import Distances
 from rightofway.site.geometry import find_fractions
 from tests.builders.any_fleet import LAPS_REFUSE, any_fleet

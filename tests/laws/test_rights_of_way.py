@@ -12,7 +12,6 @@ from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.execution import delay_model_of, read_delays, simulate
 from rightofway.io import parse_scenario
 from rightofway.model import NEVER, Plan, Scenario
-from rightofway.planners.routing import find_shortest_routes
 from rightofway.precedence import (
     ActionDependencyGraph,
     DelaySample,
@@ -20,6 +19,7 @@ from rightofway.precedence import (
     build_graph,
     build_graph_of_plan,
 )
+from rightofway.repair.routing import find_shortest_routes
 from rightofway.search import Distances
 from tests.builders.any_fleet import any_fleet
 from tests.builders.laws import law, leave, once

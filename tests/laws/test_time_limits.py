@@ -22,8 +22,8 @@ from rightofway.cyclic import find_best_timetable
 from rightofway.errors import NoPlanExists, RightOfWayError
 from rightofway.model import BookingRules, Lap, Plan, Rules, Scenario, Tick
 from rightofway.planners import find_all
-from rightofway.planners.flip import flip_right_of_way
 from rightofway.precedence import ActionDependencyGraph, DelayModel, TimedEventGraph
+from rightofway.repair.flip import flip_right_of_way
 from rightofway.search import (
     Bookings,
     ConflictBasedSearch,

@@ -21,7 +21,7 @@ from rightofway.metrics import (
 )
 from rightofway.metrics import collisions as room
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Tick, Track
-from rightofway.planners.routing import free_running_tracks
+from rightofway.repair.routing import free_running_tracks
 from rightofway.site import VertexId
 from tests.builders.fleets import grid_fleet
 

@@ -8,8 +8,8 @@ from rightofway.cyclic.rolling_horizon import RollingHorizon
 from rightofway.cyclic.route import GroupContext
 from rightofway.cyclic.simulator import HorizonParams, choose_pacemaker
 from rightofway.cyclic.window import Window, WindowRule
-from rightofway.planners.conflict_resolution import list_rights_if_waits
 from rightofway.precedence import Meeting, Segment
+from rightofway.repair.conflict_resolution import list_rights_if_waits
 
 __all__ = ["rolling"]
 

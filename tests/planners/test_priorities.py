@@ -12,7 +12,7 @@ import rightofway
 from rightofway.errors import GaveUp
 from rightofway.model import Plan, Rules, Scenario, Status, Track
 from rightofway.planners import Draft
-from rightofway.planners.routing import clear_routes, find_shortest_routes
+from rightofway.repair.routing import clear_routes, find_shortest_routes
 from rightofway.search import Distances
 from tests.builders.fleets import grid_fleet, random_fleet
 

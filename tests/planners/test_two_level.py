@@ -10,9 +10,9 @@ import rightofway
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Plan, Rules, Scenario, Status
 from rightofway.model.kept_facts import RerouteReason
-from rightofway.planners.routing import choose_routes
-from rightofway.planners.task import Task
 from rightofway.planners.two_level import replay_movement_groups
+from rightofway.repair.routing import choose_routes
+from rightofway.repair.task import Task
 from tests.builders.fleets import PAPER, grid_fleet, paper_scenario, random_fleet
 
 CASES = {case["name"]: case for case in PAPER}
@@ -163,7 +163,7 @@ def test_where_time_is_short_all_are_planned_together(monkeypatch: pytest.Monkey
     def too_slow(*_: object) -> None:
         raise GaveUp("time ran out")
 
-    monkeypatch.setattr("rightofway.planners.conflict_resolution.reroute", too_slow)
+    monkeypatch.setattr("rightofway.planners.rights_of_way.reroute", too_slow)
     plan = solve(paper_scenario(CASES["door-5"]))
     assert plan.run.status == Status("re-routed together")
     assert plan.run.reroutes[0].because == RerouteReason("short time")

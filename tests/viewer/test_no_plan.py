@@ -4,7 +4,7 @@ import pytest
 
 import rightofway
 from rightofway.errors import NoPlanExists
-from rightofway.planners.impossible import put_fleet_at_home
+from rightofway.repair.impossible import put_fleet_at_home
 from rightofway.viz.palette import LIGHT
 from tests.builders.fleets import grid_fleet
 from tests.viewer.conftest import Opener

@@ -14,7 +14,7 @@ from rightofway import load, solve
 from rightofway.errors import NoPlanExists
 from rightofway.io.sites import Choice, read_sites
 from rightofway.metrics import inspect
-from rightofway.planners.impossible import put_fleet_at_home
+from rightofway.repair.impossible import put_fleet_at_home
 from rightofway.viz import Background, make_inspection_page, make_payload
 from rightofway.viz.page.document import as_compact_json
 from rightofway.viz.page.schema import InspectionPayload, Payload

@@ -76,7 +76,7 @@ def collisions(
     from rightofway.deadline import limit_work
     from rightofway.metrics import free_running, name_collisions
     from rightofway.model import Scenario, compute_completions
-    from rightofway.planners.routing import free_running_tracks
+    from rightofway.repair.routing import free_running_tracks
     from rightofway.solve import solve
     from rightofway.viz.table import (
         tabulate_collision_ticks,

@@ -199,7 +199,7 @@ def bound(
     from rightofway.deadline import limit_work
     from rightofway.io.plan.writer import make_forced_losses
     from rightofway.metrics import compute_alone_completions, find_forced_losses
-    from rightofway.planners.bounds import prove_bound
+    from rightofway.repair.bounds import prove_bound
     from rightofway.report.plan import report_bounds
     from rightofway.report.plan_data import describe_measures
 
@@ -315,7 +315,7 @@ def write_no_plan(problem: Any, page: str | None, title: str, *, as_json: bool) 
 
             put_json({"no_plan": error.as_dict(), "outcome": make_no_plan_data(error)})
         if page:
-            from rightofway.planners.impossible import put_fleet_at_home
+            from rightofway.repair.impossible import put_fleet_at_home
             from rightofway.viz import write_page
 
             write_page(put_fleet_at_home(problem), page, no_plan=error, title=title)

@@ -28,10 +28,9 @@ from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.execution.replan import list_held
 from rightofway.model import Plan, PlannerRun, Robot, Scenario, Stop, Tick, Track, make_route
 from rightofway.model.route import make_route_through
-from rightofway.planners.lacam import build_timetable_if_possible
-from rightofway.planners.local_search import LocalSearch
-from rightofway.planners.task import Task
-from rightofway.precedence import ReleaseGraph, build_graph
+from rightofway.precedence import ReleaseGraph, build_graph, build_timetable
+from rightofway.repair.local_search import LocalSearch
+from rightofway.repair.task import Task
 from rightofway.search import Distances
 from rightofway.site import Roadmap, VertexId
 from rightofway.site.passing import list_next_stops
@@ -308,8 +307,8 @@ class RestPlanner:
             before = commitments[robot].vertices[:-1]
             visited[robot] = [*map(VertexId, before), *visited[robot]]
             arrivals[robot] = [*range(-len(before), 0), *arrivals[robot]]
-        order = [arrivals[robot] for robot in moving]
-        tracks = build_timetable_if_possible(whole, [visited[robot] for robot in moving], order)
+        in_order = [Track.of(visited[robot], arrivals[robot]) for robot in moving]
+        tracks = build_timetable(whole.problem, in_order)
         if tracks is None:
             raise GaveUp("its order cannot be kept behind what is released")
         judged = check(Plan(scenario=whole, tracks=tuple(tracks), run=PlannerRun()))

@@ -20,8 +20,8 @@ from dataclasses import dataclass
 from rightofway.cyclic.simulator import Deadlock
 from rightofway.cyclic.window import NumberedRight, Window, WindowRule
 from rightofway.model import Tick
-from rightofway.planners.conflict_resolution import Right, list_rights_if_waits
 from rightofway.precedence import Meeting
+from rightofway.repair.conflict_resolution import Right, list_rights_if_waits
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,15 +16,15 @@ from rightofway.deadline import limit_loop, make_check
 from rightofway.errors import InputError, InputFault
 from rightofway.model import BookingRules, Lap, Robot, Route, Scenario, Tick, make_lap
 from rightofway.native import BookedRows, list_excluded
-from rightofway.planners.routing import (
+from rightofway.precedence import CyclicSchedule, TimedEventGraph
+from rightofway.precedence.rotations import FEWEST
+from rightofway.repair.routing import (
     ROUTING,
     clear_routes,
     find_direct_routes,
     find_shortest_route,
     find_shortest_routes,
 )
-from rightofway.precedence import CyclicSchedule, TimedEventGraph
-from rightofway.precedence.rotations import FEWEST
 from rightofway.search import Distances
 from rightofway.search.missing_ways import reaches_its_places
 from rightofway.site import VertexId

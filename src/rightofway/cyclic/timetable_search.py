@@ -35,8 +35,8 @@ from rightofway.facts import Fact
 from rightofway.model import Scenario, Tick, require_time_limit
 from rightofway.model.given import require_functions, require_number, require_scenario, require_seed
 from rightofway.planners import Deadline
-from rightofway.planners.routing import ROUTING
 from rightofway.precedence import unroll_schedule
+from rightofway.repair.routing import ROUTING
 from rightofway.search import Distances, RoundTrip
 from rightofway.values import list_of, read_at, read_number
 

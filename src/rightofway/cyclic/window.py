@@ -21,8 +21,8 @@ from rightofway.cyclic.route import GroupContext
 from rightofway.model import Route, Tick
 from rightofway.native import BookedRows, bind_lists
 from rightofway.planners import Deadline, Task
-from rightofway.planners.conflict_resolution import PartialPlan
 from rightofway.precedence import Meeting, PrecedenceGraph, Segment
+from rightofway.repair.conflict_resolution import PartialPlan
 from rightofway.site import VertexId
 
 NumberedRight = tuple[tuple[int, int], tuple[int, int]]

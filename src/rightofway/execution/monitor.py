@@ -24,9 +24,9 @@ from rightofway.execution.progress import derive_progress
 from rightofway.execution.replan import replan
 from rightofway.model import NEVER, ExecutionTrace
 from rightofway.planners import Deadline
-from rightofway.planners.local_search import LocalSearch
-from rightofway.planners.task import Task
 from rightofway.precedence import ActionDependencyGraph, RunBatch
+from rightofway.repair.local_search import LocalSearch
+from rightofway.repair.task import Task
 
 HORIZON = 2
 """Delays later than this multiple of the makespan, planned or actual, are ignored."""

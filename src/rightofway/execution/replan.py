@@ -49,10 +49,9 @@ from rightofway.model import (
 )
 from rightofway.native import find_clashes, list_excluded
 from rightofway.planners import Deadline, Task
-from rightofway.planners.lacam import build_timetable_if_possible
-from rightofway.planners.moves import find_tracks_by_moves
-from rightofway.planners.prioritized import make_fleet_search
-from rightofway.precedence import ActionDependencyGraph
+from rightofway.precedence import ActionDependencyGraph, build_timetable
+from rightofway.repair.fleet_search import make_fleet_search
+from rightofway.repair.moves import find_tracks_by_moves
 from rightofway.search import Distances, plan_by_lacam
 from rightofway.site import Roadmap, VertexId
 from rightofway.solve import improve
@@ -242,17 +241,17 @@ def _going_on(
 ) -> list[Track] | None:
     """Return the plan with the old routes and rights of way; None if a closure blocks it."""
     adg, times = forecast.adg, forecast.compute_times()
-    visited, arrivals = [], []
+    kept = []
     for robot, commitment in enumerate(commitments):
         first, end = int(adg.first_visit[robot]) + commitment.visit, int(adg.first_visit[robot + 1])
         if robot in forecast.broken:
             end = first + 1
-        visited.append(adg.vertex[first:end].tolist())
-        arrivals.append(times[first:end].tolist())
-        drives = pairwise(visited[-1])
-        if not closed.vertices.isdisjoint(visited[-1][1:]) or not closed.edges.isdisjoint(drives):
+        visited = adg.vertex[first:end].tolist()
+        drives = pairwise(visited)
+        if not closed.vertices.isdisjoint(visited[1:]) or not closed.edges.isdisjoint(drives):
             return None
-    return build_timetable_if_possible(rest, visited, arrivals)
+        kept.append(Track.of(visited, times[first:end].tolist()))
+    return build_timetable(rest.problem, kept)
 
 
 def _another_way(
@@ -280,9 +279,7 @@ def _another_way(
             else commitment
             for robot, (commitment, own) in enumerate(zip(tried, other_routes, strict=True))
         ]
-        visited = [own.vertices.tolist() for own in other_routes]
-        arrivals = [own.enter.tolist() for own in other_routes]
-        tracks = build_timetable_if_possible(_rest(rest, rest.roadmap, ended), visited, arrivals)
+        tracks = build_timetable(_rest(rest, rest.roadmap, ended).problem, other_routes)
         if tracks is not None:
             return ended, cut_off, tracks
     return None

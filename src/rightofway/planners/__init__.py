@@ -19,7 +19,7 @@ from rightofway.planners.options import (
     TwoLevelOptions,
 )
 from rightofway.planners.registry import DEFAULT_PLANNER, IMPROVER, PlannerSpec, find, find_all
-from rightofway.planners.task import (
+from rightofway.repair.task import (
     Draft,
     Planner,
     Task,

@@ -15,16 +15,16 @@ from dataclasses import replace
 
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Objective, Proof, Status, Tick
-from rightofway.planners.bounds import SHARE as SHARE_OF_NODES
-from rightofway.planners.bounds import compute_price_bound, finish_optimum
 from rightofway.planners.features import refuse_with_swaps_left
-from rightofway.planners.impossible import find_blocking_set
 from rightofway.planners.lns import improve_best, lns
-from rightofway.planners.makespan import MakespanSearch, measure_alone
-from rightofway.planners.objectives import find_objective, list_weights, measure_worth
-from rightofway.planners.prioritized import make_fleet_search
-from rightofway.planners.task import Draft, Task
 from rightofway.planners.two_level import paper, two_level
+from rightofway.repair.bounds import SHARE as SHARE_OF_NODES
+from rightofway.repair.bounds import compute_price_bound, finish_optimum
+from rightofway.repair.fleet_search import make_fleet_search
+from rightofway.repair.impossible import find_blocking_set
+from rightofway.repair.makespan import MakespanSearch, measure_alone
+from rightofway.repair.objectives import find_objective, list_weights, measure_worth
+from rightofway.repair.task import Draft, Task
 from rightofway.search import ConflictBasedSearch
 
 FEW = 60

@@ -39,13 +39,13 @@ from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Proof, Status, Tick, compute_cost
 from rightofway.model.outcome import Objective, choose_objective
 from rightofway.phrases import say_count
-from rightofway.planners.bounds import finish_optimum
-from rightofway.planners.impossible import find_blocking_set
 from rightofway.planners.lns import improve_best
-from rightofway.planners.makespan import MakespanSearch, measure_alone
-from rightofway.planners.objectives import compute_value, find_objective, list_weights
-from rightofway.planners.prioritized import make_fleet_search
-from rightofway.planners.task import Draft, Task
+from rightofway.repair.bounds import finish_optimum
+from rightofway.repair.fleet_search import make_fleet_search
+from rightofway.repair.impossible import find_blocking_set
+from rightofway.repair.makespan import MakespanSearch, measure_alone
+from rightofway.repair.objectives import compute_value, find_objective, list_weights
+from rightofway.repair.task import Draft, Task
 from rightofway.search import ConflictBasedSearch
 
 SHARE = 0.25

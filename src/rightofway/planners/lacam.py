@@ -19,24 +19,22 @@ long as nine tenths of the time limit are enough for the search by instants. Not
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import NoReturn
 
 from rightofway.errors import GaveUp, NoPlanExists
-from rightofway.model import Scenario, Status, Track, make_route_through
+from rightofway.model import Status
 from rightofway.phrases import Phrase
-from rightofway.planners.impossible import (
+from rightofway.precedence import build_timetable
+from rightofway.repair.impossible import (
     find_blocking_set,
     refuse_blocked_parts,
     refuse_stranded,
     refuse_the_impossible,
 )
-from rightofway.planners.joint_states import plan_by_joint_states
-from rightofway.planners.moves import plan_by_moves
-from rightofway.planners.task import Draft, Task
-from rightofway.precedence import build_graph
+from rightofway.repair.joint_states import plan_by_joint_states
+from rightofway.repair.moves import plan_by_moves
+from rightofway.repair.task import Draft, Task
 from rightofway.search import Distances, FleetSearch, plan_by_lacam
-from rightofway.site import VertexId
 
 SHARE_OF_TIME = 0.9
 """The part of the time for the search by instants."""
@@ -85,8 +83,10 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
         raise GaveUp(f"{message} (give a longer time limit, or other places)")
     if tracks is None:
         raise GaveUp("time ran out in the search for the whole fleet (give a longer time limit)")
+    in_time = build_timetable(problem, tracks)
+    assert in_time is not None, "what took place in some order can take place in it again"
     task.has_plan()
-    return Draft(tracks=tuple(build_timetable(scenario, tracks)), status=Status("moves"))
+    return Draft(tracks=tuple(in_time), status=Status("moves"))
 
 
 def _refuse_blocked(task: Task) -> NoReturn:
@@ -120,36 +120,3 @@ def plan_by_instants(
         return None
     task.has_plan()
     return Draft(tracks=tuple(tracks), status=Status("instants"))
-
-
-def build_timetable(scenario: Scenario, tracks: Sequence[Track]) -> list[Track]:
-    """Return the earliest tracks that keep the routes and the order of visits of other tracks."""
-    visited = [track.vertices.tolist() for track in tracks]
-    return build_timetable_in_order(scenario, visited, [track.enter.tolist() for track in tracks])
-
-
-def build_timetable_in_order(
-    scenario: Scenario, visited: Sequence[list[VertexId]], arrivals: Sequence[list[int]]
-) -> list[Track]:
-    """Return the earliest tracks along some routes that keep an order of arrivals."""
-    tracks = build_timetable_if_possible(scenario, visited, arrivals)
-    assert tracks is not None, "what took place in some order can take place in it again"
-    return tracks
-
-
-def build_timetable_if_possible(
-    scenario: Scenario, visited: Sequence[list[VertexId]], arrivals: Sequence[list[int]]
-) -> list[Track] | None:
-    """Return the earliest tracks along some routes that keep an order of arrivals and closures.
-
-    None where closures leave no such tracks.
-    """
-    routes = [
-        make_route_through(scenario.roadmap, itinerary, vertices)
-        for itinerary, vertices in zip(scenario.problem.itineraries, visited, strict=True)
-    ]
-    try:
-        graph = build_graph(scenario.problem, routes)
-    except ValueError:
-        return None
-    return graph.build_tracks() if graph.keeps_order(arrivals) else None

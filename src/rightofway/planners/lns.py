@@ -24,15 +24,16 @@ from rightofway.errors import GaveUp
 from rightofway.model import Improvement, Objective, Status, Tick, Track
 from rightofway.phrases import Phrase, chain_items
 from rightofway.planners.lacam import plan_by_instants, plan_fleet
-from rightofway.planners.objectives import (
+from rightofway.planners.prioritized import MOST_ROBOTS, plan_in_turn
+from rightofway.precedence import build_graph_of_plan
+from rightofway.repair.fleet_search import make_fleet_search
+from rightofway.repair.objectives import (
     compute_value,
     find_objective,
     list_weights,
     measure_worth,
 )
-from rightofway.planners.prioritized import MOST_ROBOTS, make_fleet_search, plan_in_turn
-from rightofway.planners.task import Draft, Task
-from rightofway.precedence import build_graph_of_plan
+from rightofway.repair.task import Draft, Task
 from rightofway.search import FleetSearch
 
 SHARE, SHARE_WITH_SIZES = 0.9, 0.2

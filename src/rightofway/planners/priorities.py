@@ -38,17 +38,17 @@ from typing import Literal
 from rightofway.errors import GaveUp
 from rightofway.model import Status, Tick
 from rightofway.phrases import Phrase
-from rightofway.planners.conflict_resolution import (
+from rightofway.planners.rights_of_way import plan_by_rule
+from rightofway.precedence import Meeting
+from rightofway.repair.conflict_resolution import (
     PartialPlan,
     Resolution,
     Rule,
     list_rights_if_waits,
-    plan_by_rule,
 )
-from rightofway.planners.objectives import find_objective, measure_worth
-from rightofway.planners.routing import choose_routes
-from rightofway.planners.task import Draft, Task
-from rightofway.precedence import Meeting
+from rightofway.repair.objectives import find_objective, measure_worth
+from rightofway.repair.routing import choose_routes
+from rightofway.repair.task import Draft, Task
 
 Worth = tuple[Tick, Tick]
 """The value of a plan, and its cost, as `measure_worth` returns them [ticks]."""

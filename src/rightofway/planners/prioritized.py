@@ -17,15 +17,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 
-import numpy as np
-
 from rightofway.deadline import Deadline
 from rightofway.model import Scenario, Status, Stop, compute_cost
-from rightofway.planners.impossible import refuse_stranded
-from rightofway.planners.lacam import build_timetable, plan_fleet
-from rightofway.planners.objectives import find_objective
-from rightofway.planners.task import Draft, Task
-from rightofway.precedence import build_graph_of_plan
+from rightofway.planners.lacam import plan_fleet
+from rightofway.precedence import build_graph_of_plan, build_timetable
+from rightofway.repair.fleet_search import make_fleet_search
+from rightofway.repair.task import Draft, Task
 from rightofway.search import FleetSearch
 
 SHARE, SHARE_AT_ONE_PACE, SHARE_OF_MORE = 0.3, 0.9, 0.8
@@ -60,19 +57,6 @@ def prioritized(task: Task) -> Draft:
     task.deadline.check("planning robots one after another")
     status = Status("together after in turn")
     return replace(plan_fleet(task), status=status)
-
-
-def make_fleet_search(task: Task) -> FleetSearch:
-    """Return the search for a fleet; `NoPlanExists` if a robot cannot do its trip alone."""
-    scenario = task.scenario
-    search = FleetSearch(
-        scenario.problem,
-        seed=task.seed,
-        alone=task.alone,
-        objective=find_objective(task),
-    )
-    refuse_stranded(scenario, np.flatnonzero(search.compute_alone() < 0).tolist())
-    return search
 
 
 def plan_in_turn(
@@ -137,7 +121,8 @@ def _at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:
     limit = _part(task.deadline, SHARE_AT_ONE_PACE)
     if not search.prioritize(turns, searches=searches, time_limit=limit):
         return None
-    tracks = build_timetable(task.scenario, search.list_tracks())
+    tracks = build_timetable(task.scenario.problem, search.list_tracks())
+    assert tracks is not None, "what robots of one pace do in some order, others can do in it"
     task.has_plan()
     status = Status("in turn at one pace")
     return Draft(tracks=tuple(tracks), status=status)

@@ -31,19 +31,18 @@ from typing import Literal
 from rightofway.deadline import Deadline
 from rightofway.errors import InputError
 from rightofway.model import Decision, Plan, Tick, Track
-from rightofway.planners.conflict_resolution import (
+from rightofway.planners.features import refuse_with_swaps_left
+from rightofway.planners.rights_of_way import plan_by_rule, plan_on_routes
+from rightofway.precedence import Meeting, Segment
+from rightofway.repair.conflict_resolution import (
     PartialPlan,
     Resolution,
     Right,
     list_rights_if_waits,
-    plan_by_rule,
-    plan_on_routes,
 )
-from rightofway.planners.features import refuse_with_swaps_left
-from rightofway.planners.objectives import compute_value, find_objective
-from rightofway.planners.routing import choose_routes
-from rightofway.planners.task import Draft, Task
-from rightofway.precedence import Meeting, Segment
+from rightofway.repair.objectives import compute_value, find_objective
+from rightofway.repair.routing import choose_routes
+from rightofway.repair.task import Draft, Task
 from rightofway.search import Distances
 
 

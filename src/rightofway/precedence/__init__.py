@@ -21,6 +21,7 @@ if TYPE_CHECKING:
         PrecedenceGraph,
         build_graph,
         build_graph_of_plan,
+        build_timetable,
     )
     from rightofway.precedence.period_curve import Growth, PeriodPiece, compute_period_curve
     from rightofway.precedence.release_graph import Arrival, Part, ReleaseGraph
@@ -55,6 +56,7 @@ _MODULES = {
         "PrecedenceGraph",
         "build_graph",
         "build_graph_of_plan",
+        "build_timetable",
     ),
     "period_curve": (
         "Growth",
@@ -109,6 +111,7 @@ __all__ = [
     "TimedEventGraph",
     "build_graph",
     "build_graph_of_plan",
+    "build_timetable",
     "compute_period_curve",
     "compute_sensitivity",
     "find_critical_circuit_without",

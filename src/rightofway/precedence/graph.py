@@ -23,7 +23,15 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.arguments import checks_arguments, require_one_for_each
-from rightofway.model import BookingRules, Problem, Route, Tick, Track, make_route
+from rightofway.model import (
+    BookingRules,
+    Problem,
+    Route,
+    Tick,
+    Track,
+    make_route,
+    make_route_through,
+)
 from rightofway.native import BookedRows, ClosedPlaces, bind_closures, bind_rows, bind_rules
 from rightofway.precedence.segments import (
     LinkedSegments,
@@ -371,3 +379,31 @@ def build_graph_of_plan(problem: Problem, tracks: Sequence[Track]) -> Precedence
     graph = build_graph(problem, routes)
     graph.keep_order([track.enter.tolist() for track in tracks])
     return graph
+
+
+def build_timetable(problem: Problem, tracks: Sequence[Track]) -> list[Track] | None:
+    """Return the earliest tracks that keep routes and order of other tracks, and closures.
+
+    Parameters
+    ----------
+    problem
+        The scenario in ticks.
+    tracks
+        One for each robot; of their times only the order counts. They may be of another clock or
+        of robots with other speeds. Each stage is served as early as it can be.
+
+    Returns
+    -------
+    list of Track or None
+        One for each robot; None where the order is a deadlock or closures leave no such tracks.
+    """
+    routes = [
+        make_route_through(problem.roadmap, itinerary, track.vertices.tolist())
+        for itinerary, track in zip(problem.itineraries, tracks, strict=True)
+    ]
+    try:
+        graph = build_graph(problem, routes)
+    except ValueError:
+        return None
+    is_kept = graph.keeps_order([track.enter.tolist() for track in tracks])
+    return graph.build_tracks() if is_kept else None

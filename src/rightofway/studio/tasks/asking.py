@@ -11,7 +11,7 @@ from rightofway.io import format_plan
 from rightofway.metrics import compute_lost_time
 from rightofway.model import Loss, Plan, Status, Tick
 from rightofway.phrases import Phrase, to_parts
-from rightofway.planners.flip import flip_right_of_way
+from rightofway.repair.flip import flip_right_of_way
 from rightofway.report.sentences import Words, describe_decision, describe_losses, explain_decision
 from rightofway.studio.messages import Blobs, Emit, zip_text
 from rightofway.studio.tasks.documents import compute_figures

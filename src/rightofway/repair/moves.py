@@ -33,8 +33,8 @@ from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Scenario, Status, Tick, Track, compute_least_dwell
 from rightofway.native import list_excluded
-from rightofway.planners.impossible import explain_no_room, find_smallest_set, make_fleet_of
-from rightofway.planners.task import Draft, Task
+from rightofway.repair.impossible import explain_no_room, find_smallest_set, make_fleet_of
+from rightofway.repair.task import Draft, Task
 from rightofway.search import Distances, FleetSearch
 from rightofway.site import VertexId
 

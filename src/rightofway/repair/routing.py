@@ -9,8 +9,8 @@ from itertools import pairwise
 from rightofway.deadline import limit_loop
 from rightofway.errors import GaveUp, InputError
 from rightofway.model import Itinerary, Route, Scenario, Track, join_route, join_track, make_route
-from rightofway.planners.impossible import refuse_stranded, refuse_the_impossible
-from rightofway.planners.task import Task
+from rightofway.repair.impossible import refuse_stranded, refuse_the_impossible
+from rightofway.repair.task import Task
 from rightofway.search import Bookings, Congestion, Distances, find_earliest_track
 from rightofway.search.distances import Path
 from rightofway.site import Roadmap, VertexId

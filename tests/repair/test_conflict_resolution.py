@@ -6,9 +6,9 @@ from fractions import Fraction
 
 from rightofway.model import Rules
 from rightofway.planners import Task
-from rightofway.planners.conflict_resolution import PartialPlan
-from rightofway.planners.routing import find_shortest_routes
 from rightofway.planners.two_level import plan_by_two_levels
+from rightofway.repair.conflict_resolution import PartialPlan
+from rightofway.repair.routing import find_shortest_routes
 from rightofway.search import Distances
 from tests.builders.fleets import grid_fleet
 

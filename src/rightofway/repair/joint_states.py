@@ -26,8 +26,8 @@ from typing import TYPE_CHECKING
 
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Status
-from rightofway.planners.impossible import explain_no_room, find_smallest_set
-from rightofway.planners.task import Draft, Task
+from rightofway.repair.impossible import explain_no_room, find_smallest_set
+from rightofway.repair.task import Draft, Task
 
 if TYPE_CHECKING:
     from rightofway.search import JointPlan

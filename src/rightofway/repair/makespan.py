@@ -11,13 +11,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from rightofway.model import Objective, Tick, Track, compute_completions
-from rightofway.planners.objectives import (
+from rightofway.repair.objectives import (
     compute_value,
     find_objective,
     list_weights,
     measure_worth,
 )
-from rightofway.planners.task import Task
+from rightofway.repair.task import Task
 from rightofway.search import ConflictBasedSearch, compute_least_completions
 
 SHARE_OF_TREE = 0.5

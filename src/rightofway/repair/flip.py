@@ -13,10 +13,10 @@ from rightofway.check import check
 from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp
 from rightofway.model import Plan, Tick, Track, compute_completions
-from rightofway.planners.local_search import LocalSearch
-from rightofway.planners.prioritized import make_fleet_search
-from rightofway.planners.task import Task
 from rightofway.precedence import PrecedenceGraph, build_graph_of_plan
+from rightofway.repair.fleet_search import make_fleet_search
+from rightofway.repair.local_search import LocalSearch
+from rightofway.repair.task import Task
 
 SEARCHES = 100
 """Searches for both robots and those that are in their way."""

@@ -44,10 +44,10 @@ from rightofway.model import (
     join_route,
     make_route,
 )
-from rightofway.planners.impossible import refuse_closed_ways
-from rightofway.planners.prioritized import make_fleet_search
-from rightofway.planners.task import Task
 from rightofway.precedence import build_graph, find_rotation
+from rightofway.repair.fleet_search import make_fleet_search
+from rightofway.repair.impossible import refuse_closed_ways
+from rightofway.repair.task import Task
 from rightofway.search import FleetSearch
 from rightofway.site import Roadmap, VertexId
 

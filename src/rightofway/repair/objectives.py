@@ -9,7 +9,7 @@ import numpy as np
 from rightofway.errors import InputError
 from rightofway.model import Objective, Scenario, Tick, Track, compute_cost
 from rightofway.model.outcome import choose_objective
-from rightofway.planners.task import Task
+from rightofway.repair.task import Task
 
 
 def find_objective(task: Task) -> Objective:

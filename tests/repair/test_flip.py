@@ -11,7 +11,7 @@ import rightofway
 from rightofway.check import check
 from rightofway.errors import GaveUp
 from rightofway.model import Plan, Rules, Scenario, Tick, compute_completions
-from rightofway.planners.flip import Flipped, flip_right_of_way
+from rightofway.repair.flip import Flipped, flip_right_of_way
 from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import STRICT, by_both_judges, planned
 from tests.builders.fleets import grid_fleet

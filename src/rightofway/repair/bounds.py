@@ -29,9 +29,9 @@ from rightofway.model import (
     compute_completions,
 )
 from rightofway.model.outcome import choose_objective
-from rightofway.planners.makespan import measure_alone
-from rightofway.planners.objectives import find_objective, measure_worth
-from rightofway.planners.task import Draft, Task
+from rightofway.repair.makespan import measure_alone
+from rightofway.repair.objectives import find_objective, measure_worth
+from rightofway.repair.task import Draft, Task
 from rightofway.search import ConflictBasedSearch, PriceAscent, find_fewest_actions
 
 SHARE = 0.3
