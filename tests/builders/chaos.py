@@ -42,7 +42,7 @@ from rightofway.model import Plan, Rules, Scenario, Stop
 from rightofway.model.steady_state import keep_within
 from rightofway.precedence import Arrival, Part, ReleaseGraph
 from tests.builders.fleets import random_fleet
-from tests.oracles.space import Shape, incompatible, zones_around, zones_with
+from tests.oracles.space import Shape, incompatible, zones_of
 
 __all__ = [
     "KINDS",
@@ -670,9 +670,9 @@ class Observer:
         vertices = [self._vertex[place] for place in places]
         edges = list(pairwise(vertices))
         roadmap = self.scenario.roadmap
-        zones = {zone for vertex in vertices for zone in zones_around(roadmap, vertex)}
-        zones |= {zone for edge in edges for zone in zones_with(roadmap, edge)}
-        return frozenset([*((v,) for v in vertices), *edges, *((-1 - zone,) for zone in zones)])
+        shapes: list[Shape] = [*((vertex,) for vertex in vertices), *edges]
+        zones = {zone for shape in shapes for zone in zones_of(roadmap, shape)}
+        return frozenset([*shapes, *((-1 - zone,) for zone in zones)])
 
     def _look_at_jobs(self, robot: int, own: RobotLedger) -> None:
         """Tell whether a job or a lap is lost: neither done nor in the route (I6)."""
@@ -745,10 +745,9 @@ class _Floor:
 
     def _booked(self, tail: int | None, vertex: int) -> tuple[Shape, ...]:
         shapes: list[Shape] = [(vertex,)]
-        zones = set(zones_around(self._roadmap, vertex))
         if tail is not None:
             shapes.append((tail, vertex))
-            zones |= zones_with(self._roadmap, (tail, vertex))
+        zones = {zone for shape in shapes for zone in zones_of(self._roadmap, shape)}
         return (*shapes, *((-1 - zone,) for zone in zones))
 
     def _heads(self, robot: int, vertex: int) -> list[int]:

@@ -23,7 +23,7 @@ from rightofway.io import parse_scenario
 from rightofway.model import Plan
 from tests.builders.chaos import MemoryJournal
 from tests.builders.floors import Floor
-from tests.oracles.space import Shape, incompatible, zones_around, zones_with
+from tests.oracles.space import Shape, incompatible, zones_of
 
 __all__ = ["StandingFleet", "crowded_plan"]
 
@@ -213,6 +213,6 @@ class StandingFleet:
     def _list_shapes(self, path: Sequence[int]) -> list[Shape]:
         """Return the vertices, edges and zones of a path, its first vertex first."""
         roadmap, edges = self.scenario.roadmap, list(pairwise(path))
-        zones = {zone for vertex in path[1:] or path for zone in zones_around(roadmap, vertex)}
-        zones |= {zone for edge in edges for zone in zones_with(roadmap, edge)}
+        zones = {zone for vertex in path[1:] or path for zone in zones_of(roadmap, (vertex,))}
+        zones |= {zone for edge in edges for zone in zones_of(roadmap, edge)}
         return [*((vertex,) for vertex in path), *edges, *((-1 - zone,) for zone in sorted(zones))]

@@ -8,14 +8,41 @@ from dataclasses import replace
 from hypothesis import strategies as st
 
 from rightofway.check import check
+from rightofway.io import parse_scenario
 from rightofway.model import Scenario, Track
 from rightofway.precedence import Arrival, Part, ReleaseGraph
 from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import STRICT, planned
-from tests.builders.laws import law, leave
+from tests.builders.laws import law, leave, once
 from tests.oracles.release import Floor
 
+THROUGH_ZONES = any_fleet(robots=(2, 4), always={"passed", "zones"})
+"""Robots that drive through passed vertices, and through zones, half of all cases."""
+
 planners, seeds = st.sampled_from(STRICT), st.integers(0, 2**32 - 1)
+
+
+def _star() -> Scenario:
+    """Two robots that exchange places by a passed vertex, with a zone on one of its lanes."""
+    ends = {f"v{k}": [0, k] for k in range(1, 4)}
+    lanes = [{"from": "v0", "to": name, "length": at[1]} for name, at in ends.items()]
+    trips = [("v1", "v2"), ("v2", "v1")]
+    return parse_scenario(
+        {
+            "format": "rightofway-scenario/1",
+            "map": {
+                "roadmap": {
+                    "vertices": {"v0": {"at": [0, 0], "pass": True}, **ends},
+                    "edges": lanes,
+                    "zones": [{"name": "Z", "edges": [["v0", "v1"]]}],
+                }
+            },
+            "robots": [
+                {"name": f"R{k}", "home": home, "target": target}
+                for k, (home, target) in enumerate(trips, 1)
+            ],
+        }
+    )
 
 
 @law(any_fleet(without={"no rotations"}), planners)
@@ -30,7 +57,8 @@ def test_a_plan_has_a_cycle_just_where_it_has_a_rotation(fleet: Scenario, planne
     assert not cycle or {part.robot for part in cycle} in rotating
 
 
-@law(any_fleet(), planners, seeds, st.sampled_from([1, 2, 1000]))
+@law(any_fleet() | THROUGH_ZONES, planners, seeds, st.sampled_from([1, 2, 1000]))
+@once(fleet=_star(), planner="auto", chance=0, ahead=1)
 def test_robots_released_part_by_part_hold_nothing_together_and_come_to_their_end(
     fleet: Scenario, planner: str, chance: int, ahead: int
 ) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache, partial
-from itertools import pairwise, permutations, product
+from itertools import permutations, product
 
 import numpy as np
 import pytest
@@ -124,33 +124,16 @@ def test_rows_exclude_what_the_definition_does_unless_the_ends_of_edges_do(
     def with_ends(shape: tuple[int, ...]) -> list[tuple[int, ...]]:
         return [shape] if len(shape) == 1 else [shape, *((end,) for end in shape)]
 
+    excludes = cache(partial(incompatible, scenario))
     for i, j in permutations(range(len(scenario.robots)), 2):
-        excludes = cache(partial(_incompatible, scenario, i, j))
         for x, one in enumerate(shapes):
             found = set(list_excluded(resources, resources.get_vertex_row(i, x)))
             for y, other in enumerate(shapes):
                 if resources.get_vertex_row(j, y) in found:
-                    assert excludes(one, other)
-                elif excludes(one, other):
+                    assert excludes(i, one, j, other)
+                elif excludes(i, one, j, other):
                     ends = product(with_ends(one), with_ends(other))
-                    assert any(excludes(p, q) for p, q in ends if (p, q) != (one, other))
-
-
-def _incompatible(
-    scenario: Scenario, i: int, j: int, one: tuple[int, ...], other: tuple[int, ...]
-) -> bool:
-    """Return whether parts exclude each other; a vertex of a chain has all parts of the chain."""
-    parts = (_list_parts(scenario.roadmap, shape) for shape in (one, other))
-    return any(incompatible(scenario, i, p, j, q) for p, q in product(*parts))
-
-
-def _list_parts(roadmap: Roadmap, shape: tuple[int, ...]) -> list[tuple[int, ...]]:
-    chains = () if roadmap.passing is None else roadmap.passing.chains
-    for chain in chains:
-        if len(shape) == 1 and shape[0] in chain[1:-1]:
-            drawn = [roadmap.get_drawn(vertex) for vertex in chain]
-            return [*((vertex,) for vertex in drawn), *pairwise(drawn)]
-    return [tuple(map(roadmap.get_drawn, shape))]
+                    assert any(excludes(i, p, j, q) for p, q in ends if (p, q) != (one, other))
 
 
 def test_the_circle_around_a_robot_is_rounded_up() -> None:

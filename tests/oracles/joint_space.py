@@ -18,7 +18,7 @@ from typing import Any, NamedTuple, Protocol, TypeVar
 
 from rightofway.model import Objective, Scenario
 from tests.oracles.closures import begins, ends, is_shut
-from tests.oracles.space import Shape, drive, incompatible, zones_around, zones_with
+from tests.oracles.space import Shape, drive, incompatible, zones_of
 
 
 class State(NamedTuple):
@@ -136,7 +136,7 @@ class _Fleet:
 
     def _moves(self, robot: int, state: State) -> Iterator[Action]:
         roadmap, stages = self.scenario.roadmap, self.stages[robot]
-        inside = zones_around(roadmap, state.vertex)
+        inside = zones_of(roadmap, (state.vertex,))
         here: Booked = ((state.vertex,), *((-1 - zone,) for zone in inside))
         if state.is_done:
             yield state, here, 0
@@ -145,11 +145,11 @@ class _Fleet:
         elif state.left:
             left, edges = state.left - 1, list(pairwise((state.vertex, *state.way)))
             *passed, head = state.way
-            zones = set().union(*(zones_with(roadmap, edge) for edge in edges))
-            zones = zones.union(*(zones_around(roadmap, vertex) for vertex in passed))
+            zones = set().union(*(zones_of(roadmap, edge) for edge in edges))
+            zones = zones.union(*(zones_of(roadmap, (vertex,)) for vertex in passed))
             behind: Booked = (*here, *edges, *((-1 - zone,) for zone in zones))
             behind += tuple((vertex,) for vertex in passed)
-            booked: Booked = (*behind, *((-1 - zone,) for zone in zones_around(roadmap, head)))
+            booked: Booked = (*behind, *((-1 - zone,) for zone in zones_of(roadmap, (head,))))
             booked += ((head,),) if self.books_ahead else ()
             if left:
                 yield state._replace(left=left), booked, self.parts

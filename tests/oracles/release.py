@@ -9,7 +9,7 @@ from itertools import combinations, product
 from typing import NamedTuple
 
 from rightofway.model import Scenario, Track
-from tests.oracles.space import Shape, drive, incompatible, zones_around, zones_with
+from tests.oracles.space import Shape, drive, incompatible, zones_of
 
 __all__ = ["Floor"]
 
@@ -67,11 +67,11 @@ def uses_of(scenario: Scenario, robot: int, track: Track) -> Iterator[Use]:
     vertices, enter = track.vertices.tolist(), [Fraction(tick) for tick in track.enter.tolist()]
     for k, vertex in enumerate(vertices):
         yield Use((vertex,), enter[k], k, k + 1)
-        for zone in zones_around(scenario.roadmap, vertex):
+        for zone in zones_of(scenario.roadmap, (vertex,)):
             yield Use((-1 - zone,), enter[k], k, k + 1)
         if k:
             edge = (vertices[k - 1], vertex)
             begin = enter[k] - drive(scenario, robot, *edge)
             yield Use(edge, begin, k, k)
-            for zone in zones_with(scenario.roadmap, edge):
+            for zone in zones_of(scenario.roadmap, edge):
                 yield Use((-1 - zone,), begin, k, k)

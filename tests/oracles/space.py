@@ -69,8 +69,22 @@ def square_between(roadmap: Roadmap, one: Shape, other: Shape) -> Fraction:
     )
 
 
+def list_parts(roadmap: Roadmap, shape: Shape) -> list[Shape]:
+    """Return the drawn shapes that are booked with one: all of the chain that it belongs to."""
+    for chain in () if roadmap.passing is None else roadmap.passing.chains:
+        if not set(chain[1:-1]).isdisjoint(shape):
+            drawn = [roadmap.get_drawn(vertex) for vertex in chain]
+            return [*((vertex,) for vertex in drawn), *pairwise(drawn)]
+    return [shape]
+
+
 def incompatible(scenario: Scenario, i: int, one: Shape, j: int, other: Shape) -> bool:
-    """Return whether robot i on one shape excludes robot j from another, as DESIGN has it."""
+    """Return whether robot i on one shape excludes robot j from another."""
+    mine, yours = (list_parts(scenario.roadmap, shape) for shape in (one, other))
+    return any(_exclude(scenario, (i, j), *shapes) for shapes in product(mine, yours))
+
+
+def _exclude(scenario: Scenario, robots: tuple[int, int], one: Shape, other: Shape) -> bool:
     if one == other:
         return len(one) == 1  # two robots on one edge have booked its ends
     if one[0] < 0 or other[0] < 0:
@@ -79,7 +93,7 @@ def incompatible(scenario: Scenario, i: int, one: Shape, j: int, other: Shape) -
         return True
     if set(one) & set(other):
         return False
-    least = needed(scenario, i, j)
+    least = needed(scenario, *robots)
     return least > 0 and square_between(scenario.roadmap, one, other) < least**2
 
 
@@ -93,18 +107,22 @@ def drive(scenario: Scenario, robot: int, tail: int, head: int) -> Fraction:
     return Fraction(-(-(kind.length / speed) // tick))
 
 
-def zones_with(roadmap: Roadmap, edge: Shape) -> set[int]:
-    """Return the numbers of the zones that have an edge."""
-    return {number for number, zone in enumerate(roadmap.zones) if edge in zone.edges}
+def zones_of(roadmap: Roadmap, shape: Shape) -> set[int]:
+    """Return the numbers of the zones that a shape books.
 
-
-def zones_around(roadmap: Roadmap, vertex: int) -> set[int]:
-    """Return the numbers of the zones that hold a vertex: given, or where two edges meet."""
+    A zone has its vertices, its edges, and the vertices where two of its edges meet.
+    """
     return {
         number
         for number, zone in enumerate(roadmap.zones)
-        if vertex in zone.vertices or sum(vertex in edge for edge in zone.edges) > 1
+        for part in list_parts(roadmap, shape)
+        if part in zone.edges
+        or (len(part) == 1 and (part[0] in zone.vertices or _meet_at(part[0], zone.edges)))
     }
+
+
+def _meet_at(vertex: int, edges: Sequence[tuple[int, int]]) -> bool:
+    return sum(vertex in edge for edge in edges) > 1
 
 
 def bookings(scenario: Scenario, robot: int, track: Track) -> Iterator[Booked]:
@@ -116,12 +134,11 @@ def bookings(scenario: Scenario, robot: int, track: Track) -> Iterator[Booked]:
     for k, vertex in enumerate(vertices):
         approach = drive(scenario, robot, vertices[k - 1], vertex) if k else Fraction(0)
         yield Booked((vertex,), enter[k] - approach, ends[k])
-        into = zones_with(roadmap, tuple(vertices[k - 1 : k + 1])) if k else set()
-        for zone in zones_around(roadmap, vertex):
+        for zone in zones_of(roadmap, (vertex,)):
             yield Booked((-1 - zone,), enter[k] - approach, ends[k])
         if k:
             yield Booked((vertices[k - 1], vertex), enter[k] - approach, enter[k] + headway)
-            for zone in into:
+            for zone in zones_of(roadmap, (vertices[k - 1], vertex)):
                 yield Booked((-1 - zone,), enter[k] - approach, enter[k] + headway)
 
 
