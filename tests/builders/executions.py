@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterable
+from dataclasses import replace
 
+from rightofway.check import Fault, check
 from rightofway.execution import SimulationResult
-from rightofway.model import NEVER, Plan, Scenario, Tick
+from rightofway.model import NEVER, ExecutionTrace, Plan, Scenario, Tick
 from rightofway.precedence import (
     ActionDependencyGraph,
     DelayModel,
@@ -19,6 +21,7 @@ from tests.oracles import execution, judge
 __all__ = [
     "ONE_CHAIN",
     "any_delays",
+    "judge_trace",
     "late",
     "oracle_of",
     "some_delays",
@@ -82,6 +85,30 @@ def oracle_of(adg: ActionDependencyGraph, delay_sample: DelaySample) -> executio
 def times(found: execution.Times | Execution) -> tuple[list[int], list[int], list[int]]:
     """Return when visits begin, when they are booked, and when robots complete."""
     return list(found.enter), list(found.start), list(found.completion)
+
+
+def judge_trace(plan: Plan, trace: ExecutionTrace) -> list[Fault]:
+    """Return the faults that the judge finds in what became of a plan.
+
+    The judge assumes that drives take as long as planned. So a robot that drives slowly out of a
+    passed vertex seems to stop there: that alone is no fault, if the visit lasts exactly as long as
+    the robot was turning, driving and out of order.
+    """
+    found = check(replace(plan, tracks=trace.tracks), limit=10**6).faults
+    return [fault for fault in found if not _is_slow_drive(fault, trace)]
+
+
+def _is_slow_drive(fault: Fault, trace: ExecutionTrace) -> bool:
+    if fault.kind != "stop at pass":
+        return False
+    (robot,) = fault.robots
+    enter = trace.tracks[robot].enter.tolist()
+    visit = enter.index(fault.tick)
+    begin, end = enter[visit : visit + 2]
+    needs = int(trace.dwell[robot][visit] + trace.drive[robot][visit + 1])
+    for tick, ticks in trace.stoppages[robot] if trace.stoppages else ():
+        needs += max(min(end, tick + (ticks or 0)) - max(begin, tick), 0)
+    return end - begin == needs
 
 
 def any_delays(draw: random.Random, scenario: Scenario) -> str:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 
 import rightofway
+from tests.builders.executions import judge_trace
 from tests.builders.small import SMALL, STRICT
 
 DELAYS = (
@@ -34,8 +33,8 @@ def test_no_collision_and_no_deadlock_in_any_run(planner: str, name: str) -> Non
         for one in (outcome, changed):
             assert (one.collisions, one.deadlocks) == (0, 0)
         assert changed.stranded == 0
-        judged = rightofway.check(replace(plan, tracks=outcome.trace(7).tracks))
+        faults = judge_trace(plan, outcome.trace(7))
         if delays not in EARLY or not plan.scenario.problem.booking_rules.books_ahead:
-            assert not MEETINGS & set(judged.counts)
+            assert not MEETINGS & {fault.kind for fault in faults}
         if delays == DELAYS[0]:
-            assert judged.ok
+            assert faults == []
