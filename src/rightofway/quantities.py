@@ -7,84 +7,14 @@ only place where these become text for people; files and JSON keep the exact val
 from __future__ import annotations
 
 from dataclasses import dataclass
-from decimal import Decimal
 from fractions import Fraction
-from typing import Literal, get_args
 
 from rightofway.arguments import checks_arguments
-from rightofway.errors import InputError, InputFault, quote
+from rightofway.errors import InputError, quote
 from rightofway.phrases import Phrase, mark_figure, say_count
+from rightofway.units import DIGITS, Units, Value, round_half_up, write_decimal
 
-__all__ = ["Quantities", "Units", "format_decimal"]
-
-LengthUnit = Literal["mm", "cm", "m"]
-TimeUnit = Literal["ms", "s", "min", "h"]
-
-SECONDS: dict[str, Fraction] = {
-    "ms": Fraction(1, 1000),
-    "s": Fraction(1),
-    "min": Fraction(60),
-    "h": Fraction(3600),
-}
-"""How long each unit of time is [s]."""
-
-METRES: dict[str, Fraction] = {"mm": Fraction(1, 1000), "cm": Fraction(1, 100), "m": Fraction(1)}
-"""How long each unit of length is [m]."""
-
-DIGITS = 2
-"""Decimals of a number that is not exact in fewer."""
-
-Value = Fraction | int | float
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Units:
-    """What a scenario's numbers are measured in; None where the scenario does not say.
-
-    Attributes
-    ----------
-    length
-        Unit of lengths and coordinates: ``mm``, ``cm`` or ``m``.
-    time
-        Unit of times: ``ms``, ``s``, ``min`` or ``h``. Speeds are lengths per time.
-
-    Raises
-    ------
-    InputError
-        If a unit is unknown.
-    """
-
-    length: LengthUnit | None = None
-    time: TimeUnit | None = None
-
-    def __post_init__(self) -> None:
-        faults = []
-        for key, kind in (("length", LengthUnit), ("time", TimeUnit)):
-            value, known = getattr(self, key), get_args(kind)
-            if value is not None and value not in known:
-                known_words = f"{', '.join(known[:-1])} or {known[-1]}"
-                faults.append(InputFault(key, f"{quote(value)} is no unit (give {known_words})"))
-        if faults:
-            raise InputError(faults, "units")
-
-    @property
-    def seconds(self) -> Fraction | None:
-        """Length of the time unit [s], or None where it is not known."""
-        return None if self.time is None else SECONDS[self.time]
-
-    @property
-    def metres(self) -> Fraction | None:
-        """Length of the length unit [m], or None where it is not known."""
-        return None if self.length is None else METRES[self.length]
-
-    def format_length(self, value: Value) -> str:
-        """Return a length: ``0.45 m``, ``0.45 length units``."""
-        number = format_decimal(value)
-        return (
-            mark_figure(f"{number} {self.length}")
-            if self.length
-            else say_count(number, "length unit", "length units")
-        )
+__all__ = ["Quantities", "format_decimal"]
 
 
 def format_decimal(value: Value, digits: int = DIGITS) -> str:
@@ -95,42 +25,9 @@ def format_decimal(value: Value, digits: int = DIGITS) -> str:
     value
         The number.
     digits
-        The most decimals of the result.
-
-    Returns
-    -------
-    str
-        All decimals if ``digits`` are enough; else exactly ``digits`` decimals, so that a rounded
-        number looks rounded; else, for numbers that would be 0.00, two significant digits.
-
-    Examples
-    --------
-    >>> format_decimal(Fraction(1, 2)), format_decimal(Fraction(30313, 700))
-    ('0.5', '43.30')
-    >>> format_decimal(5), format_decimal(4.999)
-    ('5', '5.00')
-    >>> format_decimal(Fraction(1, 3000))
-    '0.00033'
+        The most decimals of the result, as in `rightofway.units.write_decimal`.
     """
-    return mark_figure(_write_decimal(value, digits))
-
-
-def _write_decimal(value: Value, digits: int) -> str:
-    exact = Fraction(repr(value)) if isinstance(value, float) else Fraction(value)
-    scaled = exact * 10**digits
-    if scaled.denominator == 1:
-        text = f"{Decimal(scaled.numerator).scaleb(-digits):f}"
-        return text.rstrip("0").rstrip(".") if digits else text
-    rounded = _half_up(scaled)
-    if rounded:
-        return f"{Decimal(rounded).scaleb(-digits):f}"
-    return f"{Decimal(f'{float(exact):.1e}'):f}"
-
-
-def _half_up(number: Fraction) -> int:
-    """Return the nearest whole number; a half is rounded away from zero."""
-    magnitude = (2 * abs(number.numerator) + number.denominator) // (2 * number.denominator)
-    return magnitude if number >= 0 else -magnitude
+    return mark_figure(write_decimal(value, digits))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -213,7 +110,9 @@ class Quantities:
     @checks_arguments
     def format_length(self, value: Value) -> str:
         """Return a length: ``0.45 m``, ``0.45 length units``."""
-        return self.units.format_length(value)
+        if self.units.length:
+            return mark_figure(self.units.write_length(value))
+        return say_count(format_decimal(value), "length unit", "length units")
 
     @checks_arguments
     def format_speed(self, value: Value) -> str:
@@ -240,13 +139,13 @@ class Quantities:
             return f"-{self._clock(-seconds)}"
         if self.units.time == "ms" and seconds < 1:
             return f"{format_decimal(seconds * 1000)} ms"
-        if _half_up(seconds * 100) < 60 * 100:
+        if round_half_up(seconds * 100) < 60 * 100:
             return f"{format_decimal(seconds)} s"
-        if _half_up(seconds * 10) < 3600 * 10:
-            tenths = Fraction(_half_up(seconds * 10), 10)
+        if round_half_up(seconds * 10) < 3600 * 10:
+            tenths = Fraction(round_half_up(seconds * 10), 10)
             minutes, rest = divmod(tenths, 60)
             return f"{minutes} min" + (f" {format_decimal(rest, 1)} s" if rest else "")
-        minutes, rest_seconds = divmod(_half_up(seconds), 60)
+        minutes, rest_seconds = divmod(round_half_up(seconds), 60)
         hours, minutes = divmod(minutes, 60)
         parts = ((hours, "h"), (minutes, "min"), (rest_seconds, "s"))
         return " ".join(f"{number} {unit}" for number, unit in parts if number)

@@ -18,8 +18,9 @@ import numpy as np
 import rightofway
 from rightofway.io import parse_scenario
 from rightofway.model import ExecutionTrace, Plan, PlannerRun, Status, Tick, Track
-from rightofway.quantities import Quantities, Units
+from rightofway.quantities import Quantities
 from rightofway.solve import solve
+from rightofway.units import Units
 from rightofway.viz.motion import make_trips
 from rightofway.viz.page.document import as_compact_json
 from rightofway.viz.page.payload import make_payload

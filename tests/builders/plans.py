@@ -24,8 +24,8 @@ from rightofway.model import (
     find_stays,
 )
 from rightofway.model.kept_facts import RerouteReason
-from rightofway.quantities import Units
 from rightofway.site import Edge, VertexId, make_grid_roadmap, make_roadmap
+from rightofway.units import Units
 
 __all__ = [
     "DOOR",

@@ -11,9 +11,9 @@ import pytest
 
 from rightofway.check import Report, check
 from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track
-from rightofway.quantities import Units
 from rightofway.report.judgement import write_fault
 from rightofway.site import Edge, VertexId, make_roadmap
+from rightofway.units import Units
 from tests.builders.fleets import grid_fleet
 
 Trip = tuple[Sequence[int], Sequence[int]]

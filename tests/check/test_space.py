@@ -9,7 +9,7 @@ import pytest
 
 from rightofway import check
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track
-from rightofway.quantities import Units
+from rightofway.units import Units
 from tests.builders.fleets import grid_fleet
 from tests.builders.sizes import crossing, with_radii
 

@@ -160,7 +160,10 @@ def test_the_page_on_architecture_names_every_room_and_kind_of_test() -> None:
 
 def test_every_room_but_commands_and_studio_has_a_page_on_its_python() -> None:
     pages = {path.stem for path in (DOCS / "api").iterdir()} - {"index"}
-    assert pages == {*rooms(), "errors", "facts", "quantities", "solve"} - {"cli", "studio"}
+    assert pages == {*rooms(), "errors", "facts", "quantities", "solve", "units"} - {
+        "cli",
+        "studio",
+    }
 
 
 def test_the_page_on_pictures_has_every_name_of_its_room() -> None:

@@ -15,7 +15,7 @@ from rightofway.errors import InputError
 from rightofway.io import dump_plan, dump_scenario, parse_plan, parse_scenario
 from rightofway.io.readers import load_with_notes
 from rightofway.metrics import Site, inspect
-from rightofway.quantities import Units
+from rightofway.units import Units
 from tests.builders.sentences import tell_notes
 
 FLOOR = {"size": [8, 4], "obstacles": [{"name": "rack", "rect": [2, 1, 3, 2]}]}

@@ -14,8 +14,8 @@ from rightofway.metrics import compare, find_changes
 from rightofway.model import Closure, Robot, Scenario, Stop
 from rightofway.model.attributes import Attribute
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
-from rightofway.quantities import Units
 from rightofway.site import VertexId, make_grid_roadmap
+from rightofway.units import Units
 from tests.builders.plans import door, door_shifted, loop
 
 

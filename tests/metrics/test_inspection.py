@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from rightofway.metrics import Finding, Site, inspect
 from rightofway.model import Robot, Stop
-from rightofway.quantities import Units
 from rightofway.site import Edge, Roadmap, VertexId, make_grid_roadmap, make_roadmap
 from rightofway.site.spacing import split_lanes
+from rightofway.units import Units
 
 METRES = Units(length="m", time="s")
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from rightofway.model import Scenario
 from rightofway.model.place_names import PlaceNames
-from rightofway.quantities import Units
+from rightofway.units import Units
 from tests.builders.fleets import grid_fleet
 
 METRES = Units(length="m")

@@ -7,10 +7,10 @@ from fractions import Fraction
 from rightofway.facts import Fact
 from rightofway.metrics import Finding, Site, inspect
 from rightofway.model import Robot, Stop
-from rightofway.quantities import Units
 from rightofway.report.facts import FactWriter
 from rightofway.report.inspection import describe_finding, describe_site, export_finding
 from rightofway.site import VertexId, make_grid_roadmap
+from rightofway.units import Units
 
 CELLS = make_grid_roadmap(["...", "..."])
 METRES = Units(length="m", time="s")

@@ -8,8 +8,8 @@ from fractions import Fraction
 
 from rightofway.model import Improvement, Plan, PlannerRun, Reroute, Rules, Tick, Track
 from rightofway.model.kept_facts import RerouteReason
-from rightofway.quantities import Units
 from rightofway.report.plan import describe_planning, report_decisions, summarize_plan
+from rightofway.units import Units
 from tests.builders.fleets import grid_fleet
 from tests.builders.plans import counter, door
 

@@ -8,7 +8,6 @@ import pytest
 
 from rightofway.model import Decision, Plan, Tick
 from rightofway.phrases import PhraseBook
-from rightofway.quantities import Units
 from rightofway.report.sentences import (
     Words,
     describe_decision,
@@ -17,6 +16,7 @@ from rightofway.report.sentences import (
     summarize_decision,
 )
 from rightofway.site import VertexId
+from rightofway.units import Units
 from tests.builders.plans import door
 
 DECISION = Decision(

@@ -5,9 +5,9 @@ from fractions import Fraction
 import pytest
 
 from rightofway import InputError
-from rightofway.quantities import Units
 from rightofway.site import Roadmap, make_grid_roadmap, make_roadmap
 from rightofway.site.places import Spot, as_place, find_vertex_at
+from rightofway.units import Units
 
 GRID = make_grid_roadmap(["...", "@..", "..."], cell_size=Fraction(1, 2))
 UPWARDS = make_grid_roadmap(["...", "@..", "..."], y_up=True, origin=(Fraction(10), Fraction(20)))

@@ -11,9 +11,9 @@ import pytest
 from rightofway.io import load_with_notes
 from rightofway.io.sites import Choice, read_sites
 from rightofway.metrics import Site, inspect
-from rightofway.quantities import Units
 from rightofway.site import Edge, make_roadmap
 from rightofway.site.scale import find_odd_sizes
+from rightofway.units import Units
 from tests.builders.pages import ROOT
 
 HALL = {"A": (0, 0), "B": (66, 0), "C": (66, 36), "D": (0, 36)}

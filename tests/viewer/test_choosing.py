@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from rightofway.model import Tick
-from rightofway.quantities import Units
+from rightofway.units import Units
 from tests.builders.plans import crowd, door, loop
 from tests.builders.players import nameless_on
 from tests.viewer.conftest import Opener

@@ -6,8 +6,8 @@ from fractions import Fraction
 
 from rightofway.metrics import Site, inspect
 from rightofway.model import Robot, Stop
-from rightofway.quantities import Units
 from rightofway.site import Edge, VertexId, make_roadmap
+from rightofway.units import Units
 from rightofway.viz import make_inspection_page, make_site_data
 from tests.builders.payloads import payload_in
 

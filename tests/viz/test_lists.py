@@ -13,8 +13,8 @@ import rightofway
 from rightofway.errors import InputError
 from rightofway.metrics import NamedCollision, free_running, name_collisions
 from rightofway.model import Plan, Tick, compute_completions
-from rightofway.quantities import Units
 from rightofway.repair.routing import free_running_tracks
+from rightofway.units import Units
 from rightofway.viz.table import (
     ListColumn,
     Listing,

@@ -15,7 +15,7 @@ from rightofway.errors import InputError
 from rightofway.model import Tick
 from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import list_names
-from rightofway.quantities import Units
+from rightofway.units import Units
 from rightofway.viz import make_frame, make_page, make_payload, make_png, write_page
 from rightofway.viz.page.schema import Payload
 from rightofway.viz.page.scripts import order_scripts

@@ -25,11 +25,11 @@ from rightofway.fleet_builder.values import (
 from rightofway.model import Robot, Scenario, Stop, TripEnd
 from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.model.given import require_truths
-from rightofway.quantities import Units
 from rightofway.site import Roadmap, VertexId, make_grid_roadmap
 from rightofway.site.layout import Layout, LevelRoadmap, build_roadmap_of_level
 from rightofway.site.places import as_place, find_vertex_at
 from rightofway.site.zones import NamedZone
+from rightofway.units import Units
 from rightofway.values import Number, allow_none, list_of, make_word_reader, read_at, read_label
 from rightofway.values import read_length as exact_length
 

@@ -10,9 +10,9 @@ from typing import Any
 from rightofway.errors import InputError, Where, quote
 from rightofway.model import Rules
 from rightofway.model.resources import circumscribe
-from rightofway.quantities import Units
 from rightofway.site import Point
 from rightofway.site.places import is_cell
+from rightofway.units import Units
 from rightofway.values import (
     Number,
     TypeSpeeds,

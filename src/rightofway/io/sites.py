@@ -21,8 +21,8 @@ from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.reader import read_scenario
 from rightofway.metrics import Site
 from rightofway.model import Scenario
-from rightofway.quantities import Units
 from rightofway.site.layout import Layout, Level, build_roadmap_of_level
+from rightofway.units import Units
 
 METRES = Units(length="m", time="s")
 

@@ -19,8 +19,8 @@ from rightofway.model import Robot, Scenario
 from rightofway.model.attributes import Attribute
 from rightofway.model.closures import Closure
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
-from rightofway.quantities import Units
 from rightofway.site import Roadmap
+from rightofway.units import Units
 
 Subject = Literal["robots", "map", "rules", "place"]
 """The parts of a scenario that differ."""

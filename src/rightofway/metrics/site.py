@@ -12,8 +12,8 @@ from typing import Literal
 
 from rightofway.facts import Fact
 from rightofway.model import Robot, Rules
-from rightofway.quantities import Units
 from rightofway.site import Roadmap
+from rightofway.units import Units
 
 Severity = Literal["error", "warning", "note"]
 """``error``: some work cannot be done; ``warning``: robots will wait; ``note``: good to know."""

@@ -13,9 +13,10 @@ from rightofway.model.problem import HEAVIEST, Problem, bind_problem, scale_weig
 from rightofway.model.resources import find_too_short_edges
 from rightofway.model.robot import Robot, Rules, Turn
 from rightofway.model.units import Clock
-from rightofway.quantities import Quantities, Units, format_decimal
+from rightofway.quantities import Quantities
 from rightofway.site import Roadmap, VertexId
 from rightofway.site.walls import clear_of_walls, reaches_walls
+from rightofway.units import Units, write_decimal
 
 MAX_STAGES = 1_000_000
 """Stops and ways home of a whole fleet, laps unrolled, at most."""
@@ -175,7 +176,7 @@ def _space_faults(scenario: Scenario) -> Iterator[InputFault]:
     if all(robot.radius <= 0 for robot in scenario.robots):
         if rules.clearance > 0:
             remedy = "give a robot a radius"
-            message = f"{format_decimal(rules.clearance)} is for robots with a size ({remedy})"
+            message = f"{write_decimal(rules.clearance)} is for robots with a size ({remedy})"
             yield InputFault(("rules", "clearance"), message)
         return
     if rules.occupancy == "one":
@@ -186,8 +187,8 @@ def _space_faults(scenario: Scenario) -> Iterator[InputFault]:
         name = scenario.roadmap.name
         yield InputFault(
             "roadmap",
-            f"the edge from {name(tail)} to {name(head)} is {format_decimal(length)} long, but its"
-            f" ends are {format_decimal(about, 6)} apart (robots with a size drive straight: give"
+            f"the edge from {name(tail)} to {name(head)} is {write_decimal(length)} long, but its"
+            f" ends are {write_decimal(about, 6)} apart (robots with a size drive straight: give"
             " its length or move an end)",
         )
 
@@ -289,4 +290,4 @@ def _place_faults(robot: Robot, roadmap: Roadmap) -> Iterator[InputFault]:
         for place, vertex in known:
             if reaches[vertex]:
                 message = f"{roadmap.name(vertex)} is too near to a wall for a radius of"
-                yield InputFault(place, f"{message} {format_decimal(robot.radius)} (move it)")
+                yield InputFault(place, f"{message} {write_decimal(robot.radius)} (move it)")

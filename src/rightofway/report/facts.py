@@ -23,7 +23,8 @@ from rightofway.facts import Fact
 from rightofway.model import Scenario
 from rightofway.model.place_names import PlaceNames, describe_middle
 from rightofway.phrases import Phrase, chain_items, join_first, join_items, mark_figure
-from rightofway.quantities import Quantities, Units, format_decimal
+from rightofway.quantities import Quantities, format_decimal
+from rightofway.units import Units
 
 if TYPE_CHECKING:
     from rightofway.metrics import Site

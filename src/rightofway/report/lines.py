@@ -7,7 +7,8 @@ import textwrap
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from rightofway.quantities import Quantities, Value
+from rightofway.quantities import Quantities
+from rightofway.units import Value
 
 COLUMNS = 80
 """Longest line of a report."""

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from rightofway.arguments import is_whole
 from rightofway.errors import InputError, InputFault, is_printable, quote
-from rightofway.quantities import Units, format_decimal
 from rightofway.site.geometry import Point, VertexId, measure_squared_distance
 from rightofway.site.roadmap import Grid, Roadmap, UnknownVertex
+from rightofway.units import Units, write_decimal
 from rightofway.values import read_coordinate, read_exact
 
 
@@ -205,7 +205,7 @@ def _describe_limits(place: Place, roadmap: Roadmap, grid: Grid) -> str:
         for column in (0, grid.columns)
     ]
     (left, *_, right), (low, *_, high) = (sorted(axis) for axis in zip(*corners, strict=True))
-    ends = [format_decimal(end, 3) for end in (left, right, low, high)]
+    ends = [write_decimal(end, 3) for end in (left, right, low, high)]
     return f"x is {ends[0]} to {ends[1]}, y {ends[2]} to {ends[3]}"
 
 
@@ -253,7 +253,7 @@ def _describe_with_distance(vertex: int, spot: Spot, roadmap: Roadmap, units: Un
         _find_smallest_side(roadmap) > 4 * SHORT
     ):  # a point near the middle of a cell lies in it, too
         point = round(point[0] / SHORT) * SHORT, round(point[1] / SHORT) * SHORT
-    return f"{name} at {Spot(*point)}, {units.format_length(away)} away"
+    return f"{name} at {Spot(*point)}, {units.write_length(away)} away"
 
 
 def _find_smallest_side(roadmap: Roadmap) -> Fraction:
@@ -276,5 +276,5 @@ def _free_cell(row: int, column: int, grid: Grid) -> str:
 
 def _write_coordinate(coordinate: Fraction) -> str:
     """Return a coordinate exactly."""
-    text = format_decimal(coordinate, DECIMALS)
+    text = write_decimal(coordinate, DECIMALS)
     return text if Fraction(text) == coordinate else str(coordinate)

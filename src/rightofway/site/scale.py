@@ -13,8 +13,8 @@ from typing import Protocol
 import numpy as np
 
 from rightofway.facts import Fact
-from rightofway.quantities import Units
 from rightofway.site.roadmap import Roadmap
+from rightofway.units import Units
 
 LARGEST, SMALLEST = 5000, Fraction(1, 10)
 """Sites are not wider, and not smaller both ways [m]."""

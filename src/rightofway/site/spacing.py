@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from rightofway.deadline import limit_loop
 from rightofway.errors import InputError, quote
 from rightofway.facts import Fact
-from rightofway.quantities import format_decimal
 from rightofway.site.edges import Edge, EdgeTable, tabulate_edges
 from rightofway.site.geometry import (
     COARSE,
@@ -24,6 +23,7 @@ from rightofway.site.geometry import (
     measure_squared_distance,
     measure_straight_length,
 )
+from rightofway.units import write_decimal
 
 STRAIGHT = 2
 """Points of a straight way: both ends."""
@@ -347,8 +347,8 @@ def _make_winding_fault(
     gap = drawn / ceil(length / spacing)
     return InputError.at(
         "",
-        f"the lane from {quote(tail)} to {quote(head)} is {format_decimal(length)}"
-        f" long, but {drawn:.4g} in the drawing: a spacing of {format_decimal(spacing)} sets"
+        f"the lane from {quote(tail)} to {quote(head)} is {write_decimal(length)}"
+        f" long, but {drawn:.4g} in the drawing: a spacing of {write_decimal(spacing)} sets"
         f" places {gap:.2g} apart (correct its length or its ends, draw its way as a curve, or"
         " give a larger spacing)",
     )

@@ -19,10 +19,10 @@ from rightofway.io.scenario.layouts import make_map_of_layout
 from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap, note_on_hidden_stations
 from rightofway.io.scenario.writer import format_yaml
 from rightofway.metrics.connectivity import find_strong_parts, list_ways
-from rightofway.quantities import Units
 from rightofway.site import make_grid_roadmap
 from rightofway.site.layout import Layout, Level
 from rightofway.site.occupancy import Occupancy
+from rightofway.units import Units
 from rightofway.values import format_number
 
 ROBOTS = 6

@@ -18,12 +18,12 @@ from rightofway.io.scenario.loaded_map import (
     note_on_curves,
     note_on_squares,
 )
-from rightofway.quantities import Units
 from rightofway.site import make_grid_roadmap
 from rightofway.site.drawing import Drawing
 from rightofway.site.layout import Layout, build_roadmap_of_level
 from rightofway.site.occupancy import CellMap, Occupancy
 from rightofway.site.quadtree import MAX_SMALLEST, build_roadmap_of_squares
+from rightofway.units import Units
 
 if TYPE_CHECKING:
     from rightofway.io.scenario.shape import MapDocument
@@ -128,7 +128,7 @@ def _map_of_pixels(
     )
     blocked = "what the picture shows there"
     if 2 * radius > size:
-        blocked += f", or beside it for a radius of {units.format_length(radius)}"
+        blocked += f", or beside it for a radius of {units.write_length(radius)}"
     return LoadedMap(
         roadmap=roadmap,
         lines=lines,

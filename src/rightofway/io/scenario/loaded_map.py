@@ -8,10 +8,10 @@ from fractions import Fraction
 from pathlib import Path
 
 from rightofway.facts import Fact, note_pieces
-from rightofway.quantities import Units
 from rightofway.site import Floor, Grid, Roadmap, VertexId
 from rightofway.site.places import as_place, find_vertex_at
 from rightofway.site.spacing import SplitLanes
+from rightofway.units import Units
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -22,7 +22,6 @@ from rightofway.io.scenario.loaded_map import (
     note_on_curves,
     note_on_squares,
 )
-from rightofway.quantities import Units
 from rightofway.site import (
     Edge,
     Floor,
@@ -43,6 +42,7 @@ from rightofway.site.drawing import Drawing
 from rightofway.site.edges import make_roadmap_of_table
 from rightofway.site.spacing import find_pieces, refuse_many_pieces, split_lanes
 from rightofway.site.zones import NamedZone
+from rightofway.units import Units
 
 if TYPE_CHECKING:
     from rightofway.io.scenario.curves import LaneCurve

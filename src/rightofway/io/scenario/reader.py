@@ -37,9 +37,9 @@ from rightofway.io.scenario.picture import add_picture
 from rightofway.model import Rules, Scenario
 from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
-from rightofway.quantities import Units
 from rightofway.site import Roadmap
 from rightofway.site.scale import find_odd_sizes
+from rightofway.units import Units
 
 CLASSIC = Rules(turn=Fraction(0), ends="none")
 """The rules of the classic benchmark: robots need not turn, and stay at their targets."""

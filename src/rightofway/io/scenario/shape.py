@@ -35,8 +35,8 @@ from rightofway.io.fields import (
 )
 from rightofway.model import Robot, Rules
 from rightofway.model.resources import circumscribe
-from rightofway.quantities import LengthUnit, TimeUnit
 from rightofway.site.places import list_kinds_of_places
+from rightofway.units import LengthUnit, TimeUnit
 
 PLACES = list_kinds_of_places(None)
 BARRED = "a list of types of robots that may not use it"

@@ -16,9 +16,9 @@ from rightofway.io.json_text import format_json
 from rightofway.model import Robot, Scenario
 from rightofway.model.attributes import list_plain_attributes
 from rightofway.model.given import require_scenario
-from rightofway.quantities import Units
 from rightofway.site import EdgeClass, Roadmap
 from rightofway.site.drawing import Picture
+from rightofway.units import Units
 from rightofway.values import format_number
 
 

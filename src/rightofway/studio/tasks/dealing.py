@@ -16,9 +16,9 @@ from rightofway.io.scenario.loaded_map import FleetTraits
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.shape import MapDocument, UnitsDocument
 from rightofway.metrics.connectivity import find_strong_parts, list_ways
-from rightofway.quantities import Units
 from rightofway.site import Roadmap
 from rightofway.studio.messages import Blobs, Emit
+from rightofway.units import Units
 
 Result = tuple[Any, ...]
 

@@ -21,11 +21,11 @@ from rightofway.io.sites import make_sites
 from rightofway.metrics import Inspection, Site, inspect
 from rightofway.metrics.site import Finding
 from rightofway.phrases import to_parts
-from rightofway.quantities import Units
 from rightofway.report.facts import write_notes
 from rightofway.report.inspection import describe_finding, describe_site, export_finding
 from rightofway.studio.messages import Blobs, Emit, as_fault_data, zip_text
 from rightofway.studio.tasks.documents import as_plain, compute_digest, load_document
+from rightofway.units import Units
 from rightofway.viz import make_site_data
 from rightofway.viz.page.background import find_background, place_background
 from rightofway.viz.page.document import as_compact_json

@@ -26,8 +26,9 @@ from rightofway.model import (
     compute_completions,
     find_stays,
 )
-from rightofway.quantities import DIGITS, Quantities, format_decimal
+from rightofway.quantities import Quantities, format_decimal
 from rightofway.site import Roadmap
+from rightofway.units import DIGITS
 
 MAX_CELLS = 2_000_000
 """Larger tables than this are not written out."""
