@@ -68,7 +68,7 @@ nightly law_seconds="60":
     for ((round = 1; ; round++)); do \
         echo "round $round"; \
         pytest -m nightly; \
-        pytest -m law --law-seconds {{ law_seconds }}; \
+        pytest -m law --law-seconds {{ law_seconds }} --law-seed random; \
         just judge 20000; \
         just delay 200000; \
         just chaos 20000; \

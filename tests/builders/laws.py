@@ -1,10 +1,12 @@
 """Laws: claims on random cases, each with a budget of time instead of a number of cases.
 
 ``@law(strategies)`` draws cases until the law's share of its file's seconds is over (option
-``--law-seconds``, seconds of the processor, so that a busy machine thins no law). Each session has
-a fresh seed; a law that fails prints the option that draws the same cases again. A case that a law
-cannot judge is left out with `leave`, and counted: a law that leaves out significantly more than
-half of its cases fails.
+``--law-seconds``, seconds of the processor, so that a busy machine thins no law). All sessions draw
+from one seed, so that a commit always passes or always fails: a faster machine only draws further
+in the same sequence. ``--law-seed random`` draws new cases, which `just nightly` does; a case that
+it finds is kept by `@once`. A law that fails prints the option that draws the same cases again. A
+case that a law cannot judge is left out with `leave`, and counted: a law that leaves out
+significantly more than half of its cases fails.
 
 The module is a plugin of pytest; ``tests/conftest.py`` names it.
 """
@@ -18,6 +20,7 @@ import zlib
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import count
 from pathlib import Path
 from random import SystemRandom
 from time import process_time
@@ -26,6 +29,11 @@ from typing import Any, NoReturn
 import pytest
 from hypothesis import HealthCheck, Phase, given, note, seed, settings
 from hypothesis.errors import UnsatisfiedAssumption
+from hypothesis.internal.conjecture.providers import (
+    AVAILABLE_PROVIDERS,
+    GLOBAL_CONSTANTS,
+    HypothesisProvider,
+)
 from hypothesis.strategies import SearchStrategy
 
 from rightofway.io import format_scenario
@@ -39,8 +47,23 @@ FEWEST = 3
 MOST_LEFT = 60
 """A law that leaves out all of its first cases, as many as this, fails."""
 
-ROUND = (3, 100)
-"""Cases of the first round, and of a round at most; each round draws with a seed of its own."""
+ROUNDS = (3, 12, 48, 100)
+"""Cases of the first rounds and of each further one; each round draws with a seed of its own.
+
+Hypothesis chooses cases by the number that it is asked for, so this depends on no clock.
+"""
+
+SEED = "1"
+"""The seed of all sessions but those with ``--law-seed``."""
+
+
+class Provider(HypothesisProvider):
+    """Draws without the constants of our modules: those that are imported so far would decide."""
+
+    _local_constants = GLOBAL_CONSTANTS
+
+
+AVAILABLE_PROVIDERS["hypothesis"] = Provider
 
 
 class Over(BaseException):
@@ -118,7 +141,7 @@ class LawRun:
     law
         The test's identifier.
     seed
-        Of the session, with the round and its cases where one round is drawn again.
+        Of the session, with the round where one is drawn again.
     seconds
         The law's budget.
     properties
@@ -139,14 +162,12 @@ class LawRun:
         session, *again = self.seed.split(":")
         try:
             if again:
-                self._round(test, strategies, session, int(again[0]), int(again[1]))
+                self._round(test, strategies, session, int(again[0]))
                 return
-            number, cases, end = 0, ROUND[0], start + self.seconds
-            while self._goes_on(process_time() - start):
-                self._round(test, strategies, session, number, cases, end=end)
-                number, self.spent = number + 1, process_time() - start
-                pace = (self.judged + self.left.total()) / max(self.spent, 1e-3)
-                cases = min(max(int(pace * (self.seconds - self.spent)), ROUND[0]), ROUND[1])
+            for number in count():
+                self._round(test, strategies, session, number, end=start + self.seconds)
+                if self._has_enough and process_time() - start > self.seconds:
+                    break
         finally:
             self.spent = process_time() - start
             self.properties.append(("law", self.row()))
@@ -156,16 +177,12 @@ class LawRun:
     def _has_enough(self) -> bool:
         return self.judged >= FEWEST or self.left.total() >= MOST_LEFT
 
-    def _goes_on(self, spent: float) -> bool:
-        return not self._has_enough or spent < self.seconds
-
     def _round(
         self,
         test: Callable[..., None],
         strategies: dict[str, SearchStrategy[Any]],
         session: str,
         number: int,
-        cases: int,
         *,
         end: float = math.inf,
     ) -> None:
@@ -190,7 +207,7 @@ class LawRun:
                 self.judged += 1
 
         drawing = settings(
-            max_examples=cases,
+            max_examples=ROUNDS[min(number, len(ROUNDS) - 1)],
             deadline=None,
             database=None,
             derandomize=False,
@@ -203,7 +220,7 @@ class LawRun:
         except BaseException as error:
             if is_over:  # Hypothesis may complain of a case that draws nothing, in place of Over
                 return
-            again = f"pytest '{self.law}' -m '' --law-seed {session}:{number}:{cases}"
+            again = f"pytest '{self.law}' -m '' --law-seed {session}:{number}"
             error.add_note(f"the same cases again: {again}")
             raise
 
@@ -248,7 +265,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         default=0.5,
         help="seconds of the processor for the laws of each file (default: 0.5)",
     )
-    group.addoption("--law-seed", help="seed of random cases, as a failure prints it")
+    group.addoption(
+        "--law-seed",
+        default=SEED,
+        help=f"seed of random cases, as a failure prints it, or random (default: {SEED})",
+    )
     group.addoption("--law-report", type=Path, help="write cases by law to this JSON file")
 
 
@@ -256,7 +277,7 @@ def pytest_configure(config: pytest.Config) -> None:
     """Choose the session's seed: that of the controller where there is one."""
     if hasattr(config, "workerinput"):
         config.option.law_seed = config.workerinput["law_seed"]
-    elif config.option.law_seed is None:
+    elif config.option.law_seed == "random":
         config.option.law_seed = str(SystemRandom().randrange(10**9))
 
 
@@ -269,6 +290,12 @@ def pytest_configure_node(node: Any) -> None:
 def pytest_report_header(config: pytest.Config) -> str:
     """Name the seed, so that the session can be repeated."""
     return f"laws: --law-seed {config.option.law_seed}"
+
+
+@pytest.fixture
+def law_seed(request: pytest.FixtureRequest) -> int:
+    """Return the session's seed, for tests that draw by themselves."""
+    return int(request.config.option.law_seed.partition(":")[0])
 
 
 @pytest.fixture
