@@ -143,6 +143,13 @@ def read_whole_number(value: object) -> int:
     raise ValueError(f"{quote(value)} is no whole number (give 1 or more)")
 
 
+def read_integer(value: object) -> int:
+    """Return a whole number that may be 0 or negative."""
+    if is_whole(value):
+        return int(value)
+    raise ValueError(f"{quote(value)} is no whole number (give one)")
+
+
 def make_word_reader(words: Sequence[str]) -> Callable[[object], str]:
     """Return a reader of one of these words."""
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from rightofway.control import Entry, FleetControl, RobotLedger, RobotState
+from rightofway.control import Entry, FleetControl, RobotLedger, StateReport
 from rightofway.control.orders import make_order
 from rightofway.control.robot_ledger import SentOrder
 
@@ -17,7 +17,7 @@ __all__ = ["WORDINGS", "LastNodeIsEnough", "VertexTwiceInBase"]
 class LeftWhenItDrives(FleetControl):
     """A robot that drives has left its vertex."""
 
-    def _find_proven(self, own: RobotLedger, state: RobotState) -> int | None:
+    def _find_proven(self, own: RobotLedger, state: StateReport) -> int | None:
         visit = super()._find_proven(own, state)
         if visit is not None and state.is_driving:
             return min(visit + 1, own.released)
@@ -27,7 +27,7 @@ class LeftWhenItDrives(FleetControl):
 class EmptyMeansArrived(FleetControl):
     """A robot with no nodes left is at the end of its base."""
 
-    def _find_proven(self, own: RobotLedger, state: RobotState) -> int | None:
+    def _find_proven(self, own: RobotLedger, state: StateReport) -> int | None:
         visit = super()._find_proven(own, state)
         return own.released if state.order_id and not state.nodes else visit
 
@@ -35,7 +35,7 @@ class EmptyMeansArrived(FleetControl):
 class AnyOrderId(FleetControl):
     """Sequence ids count in the current order, whatever order a state names."""
 
-    def _find_proven(self, own: RobotLedger, state: RobotState) -> int | None:
+    def _find_proven(self, own: RobotLedger, state: StateReport) -> int | None:
         sent = own.orders.get(own.order_id, SentOrder(0))
         visit = sent.offset + state.last_sequence_id // 2
         return visit if visit <= own.released else None
@@ -92,7 +92,7 @@ class FreeWhenCancelled(FleetControl):
             return {"kind": "cancel asked", "robot": robot, "action": action_id}
         return super()._find_step(robot, own)
 
-    def _follow_state(self, robot: int, state: RobotState) -> Iterator[Entry]:
+    def _follow_state(self, robot: int, state: StateReport) -> Iterator[Entry]:
         own = self.ledger.robots[robot]
         asked = own.cancel.action_id if own.cancel else None
         if asked is not None and state.actions.get(asked) in {"FINISHED", "FAILED"}:
@@ -127,7 +127,7 @@ class LastNodeIsEnough(VertexTwiceInBase):
     right: the two conditions are one behind the other, and only both are a fault together.
     """
 
-    def _find_proven(self, own: RobotLedger, state: RobotState) -> int | None:
+    def _find_proven(self, own: RobotLedger, state: StateReport) -> int | None:
         sent = own.orders.get(state.order_id)
         if sent is None:
             return None
@@ -168,7 +168,7 @@ class WithdrawalOutlivesOrder(FleetControl):
 class DoubtProvesArrival(FleetControl):
     """A robot without an order has arrived where it says that it stands."""
 
-    def _settle_doubt(self, robot: int, state: RobotState) -> Iterator[Entry]:
+    def _settle_doubt(self, robot: int, state: StateReport) -> Iterator[Entry]:
         own = self.ledger.robots[robot]
         if own.token in state.actions and state.is_idle:
             stands_at = own.find_held(state.last_place)

@@ -27,9 +27,9 @@ from rightofway.control import (
     Order,
     RobotError,
     RobotLedger,
-    RobotState,
     RouteToDrive,
     SimulatedRobot,
+    StateReport,
 )
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.fleet_control import LONG_ORDER
@@ -272,7 +272,7 @@ class _World:
             for track in plan.tracks
         ]
         self.orders: list[list[Order]] = [[] for _ in self.robots]  # in order per robot
-        self.states: list[tuple[int, RobotState]] = []  # in any order
+        self.states: list[tuple[int, StateReport]] = []  # in any order
         self.actions: list[InstantAction] = []  # in any order
         self.journal = MemoryJournal()
         self.journal.kill = lambda: self._happens(self.chaos.kills / 4)
@@ -460,7 +460,7 @@ class _World:
             )
             self.states.insert(place, (robot, sent))
 
-    def _with_wrong_field(self, robot: int, state: RobotState) -> RobotState:
+    def _with_wrong_field(self, robot: int, state: StateReport) -> StateReport:
         own, draw = self.control.ledger.robots[robot], self.draw
         orders, number = [*own.orders, "", "another"], state.last_sequence_id
         change: dict[str, Any] = draw.choice(

@@ -14,8 +14,8 @@ from rightofway.control import (
     JournalFailed,
     Message,
     Order,
-    RobotState,
     SimulatedRobot,
+    StateReport,
 )
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.operator import OPERATIONS
@@ -38,10 +38,10 @@ def begun(journal: MemoryJournal | None = None) -> FleetControl:
     return control
 
 
-def state(order: str, update: int, place: str, number: int, nodes: tuple[int, ...]) -> RobotState:
+def state(order: str, update: int, place: str, number: int, nodes: tuple[int, ...]) -> StateReport:
     """Return a state of a robot that has nodes ahead."""
     edges = tuple(node - 1 for node in nodes)
-    return RobotState(
+    return StateReport(
         order_id=order,
         update_id=update,
         last_place=place,

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from rightofway.control import Condition, Entry, FleetControl, Order, RobotState, SimulatedRobot
+from rightofway.control import Condition, Entry, FleetControl, Order, SimulatedRobot, StateReport
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.notices import Notices
 from rightofway.control.standstill import Standstill
@@ -43,11 +43,11 @@ class Watch:
                     self.robot.take_action(message)
             self.messages = self.control.receive(1, self.state(**changes))
 
-    def state(self, **changes: Any) -> RobotState:
+    def state(self, **changes: Any) -> StateReport:
         """Return the state of R2, with a condition or a position."""
         state = self.robot.report_state(changes.get("condition", Condition()))
-        fields = {field: getattr(state, field) for field in RobotState.__dataclass_fields__}
-        return RobotState(**{**fields, **changes})
+        fields = {field: getattr(state, field) for field in StateReport.__dataclass_fields__}
+        return StateReport(**{**fields, **changes})
 
     def wait(self, ticks: int, **changes: Any) -> None:
         """Let time go by; R2 sends its state each tick."""

@@ -28,8 +28,8 @@ from rightofway.control import (
     InstantAction,
     JournalFailed,
     RobotError,
-    RobotState,
     SimulatedRobot,
+    StateReport,
 )
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.driver import Driver
@@ -314,7 +314,7 @@ def fail_work(floor: Floor, patch: pytest.MonkeyPatch) -> str:
     """Have the work of R1 fail; return the job."""
     state, failed = floor.robots[0].robot.report_state, "run-0-job0-1"
 
-    def fail(*arguments: Any) -> RobotState:
+    def fail(*arguments: Any) -> StateReport:
         said = state(*arguments)
         return replace(said, actions={**said.actions, failed: "FAILED"})
 

@@ -17,8 +17,8 @@ from rightofway.control import (
     Order,
     OrderNode,
     RobotError,
-    RobotState,
     SimulatedRobot,
+    StateReport,
 )
 from rightofway.control.identities import VERSIONS, Identity
 from rightofway.control.operator import OPERATIONS
@@ -300,7 +300,7 @@ CONDITION = Condition(
 
 @pytest.mark.parametrize("version", VERSIONS)
 def test_the_condition_of_a_robot_comes_back_as_it_was_sent(version: str) -> None:
-    sent = RobotState(
+    sent = StateReport(
         order_id="run-0-0",
         update_id=0,
         last_place="N0",

@@ -12,7 +12,7 @@ from urllib.request import Request, urlopen
 
 import pytest
 
-from rightofway.control import RobotState
+from rightofway.control import StateReport
 from rightofway.control.commands import Commands
 from rightofway.control.demo import drive_demo
 from rightofway.control.journal import SqliteJournal
@@ -317,7 +317,7 @@ def test_a_person_is_alarmed_and_says_what_has_become_of_a_robot_with_a_fault(
     notices = Notices(["R1", "R2"], lambda _: None, keep=lambda entry: journal.commit([entry]))
     notices.report_on(1, Fact("not connected"), "lost")
     expect(alarms).to_contain_text("R2 is not connected")
-    stray = RobotState(order_id="", update_id=0, last_place="N4", last_sequence_id=0)
+    stray = StateReport(order_id="", update_id=0, last_place="N4", last_sequence_id=0)
     journal.commit([take_fault(0, make_stray(stray), stray, notices.report_on)])
     expect(alarms).to_contain_text(
         "R1 is faulty: it stands at N4, which it does not hold; a person has to look after it"

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
         Order,
         OrderNode,
         RobotError,
-        RobotState,
+        StateReport,
     )
     from rightofway.control.robot_ledger import RobotLedger
     from rightofway.control.routes import RouteToDrive
@@ -51,7 +51,7 @@ _MODULES = {
         "Order",
         "OrderNode",
         "RobotError",
-        "RobotState",
+        "StateReport",
     ),
     "robot_ledger": ("RobotLedger",),
     "routes": ("RouteToDrive",),
@@ -73,10 +73,10 @@ __all__ = [
     "OrderNode",
     "RobotError",
     "RobotLedger",
-    "RobotState",
     "RouteToDrive",
     "SimulatedRobot",
     "SqliteJournal",
+    "StateReport",
 ]
 
 if not TYPE_CHECKING:  # a checker would take any misspelt name for an object

@@ -17,7 +17,7 @@ from typing import Any, TypeVar
 from rightofway.control import vda5050
 from rightofway.control.fleet_control import UNSOUND, FleetControl
 from rightofway.control.identities import Identity
-from rightofway.control.messages import Condition, InstantAction, Message, Order, RobotState
+from rightofway.control.messages import Condition, InstantAction, Message, Order, StateReport
 from rightofway.control.notices import Notices
 from rightofway.control.order_map import OrderLane, OrderMap, Place
 from rightofway.control.simulated_robot import SimulatedRobot
@@ -250,7 +250,7 @@ class ControlEnd:
         heard, self._heard = self._heard, set()
         return heard
 
-    def _compare_position(self, robot: int, state: RobotState) -> None:
+    def _compare_position(self, robot: int, state: StateReport) -> None:
         """Report a robot that is further from the node that it names than it may be.
 
         Between two nodes it may be as far away as the lane to the next one is long.

@@ -14,7 +14,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 
 from rightofway.control.journal import Entry, Journal, JournalFailed
 from rightofway.control.ledger import Ledger, make_plan_entry
-from rightofway.control.messages import Condition, InstantAction, Message, RobotState
+from rightofway.control.messages import Condition, InstantAction, Message, StateReport
 from rightofway.control.orders import make_order, make_update
 from rightofway.control.proofs import (
     find_proven_visit,
@@ -251,7 +251,7 @@ class FleetControl:
 
     # --- what comes in ---------------------------------------------------------------------------
 
-    def receive(self, robot: int, state: RobotState) -> list[Message]:
+    def receive(self, robot: int, state: StateReport) -> list[Message]:
         """Take in a state; return what is to be sent because of it.
 
         Parameters
@@ -330,13 +330,13 @@ class FleetControl:
 
     # Some methods below are a call and no more: chaos has a wrong wording of the rule for each.
 
-    def _find_proven(self, own: RobotLedger, state: RobotState) -> int | None:
+    def _find_proven(self, own: RobotLedger, state: StateReport) -> int | None:
         """Return the visit at whose vertex a state proves that the robot has arrived."""
         return find_proven_visit(own, state)
 
     # --- what follows for its orders (rules 6, 8, 9) ---------------------------------------------
 
-    def _follow_state(self, robot: int, state: RobotState) -> Iterator[Entry]:
+    def _follow_state(self, robot: int, state: StateReport) -> Iterator[Entry]:
         """Yield acknowledgements, doubts and their ends, and steps of a withdrawal."""
         own = self.ledger.robots[robot]
         if own.message is None or own.is_off:
@@ -355,7 +355,7 @@ class FleetControl:
         elif not state.order_id or self.ledger.owns(robot, state.order_id):
             yield from self._settle_doubt(robot, state)
 
-    def _settle_doubt(self, robot: int, state: RobotState) -> Iterator[Entry]:
+    def _settle_doubt(self, robot: int, state: StateReport) -> Iterator[Entry]:
         """Yield a new doubt, or a new order where the robot answers that it has lost its own."""
         own = self.ledger.robots[robot]
         assert own.message is not None

@@ -25,7 +25,7 @@ from rightofway.site.geometry import Frame
 __all__ = [
     "VERSIONS",
     "Identity",
-    "Work",
+    "WorkAction",
     "format_identities",
     "load_identities",
     "make_simulated_identities",
@@ -41,7 +41,7 @@ IDENTITIES_FORMAT = "rightofway-identities/1"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Work:
+class WorkAction:
     """What a robot does at a stop, in words of its own.
 
     Attributes
@@ -93,7 +93,7 @@ class Identity:
     map_id: str = "map"
     frame: Frame = field(default_factory=Frame)
     deviation: float | None = None
-    work: Work = field(default_factory=Work)
+    work: WorkAction = field(default_factory=WorkAction)
     repeats_work: bool = True
 
     def __post_init__(self) -> None:
@@ -237,7 +237,7 @@ def _identity(own: _RobotDocument, shared: _SharedDocument) -> Identity:
     if frame is not None:
         given["frame"] = Frame(**frame.get_given("x", "y", "yaw"))
     if work is not None:
-        given["work"] = Work(
+        given["work"] = WorkAction(
             action=work.action,
             parameters=_as_json(work.get_given("parameters").get("parameters", {})),
         )

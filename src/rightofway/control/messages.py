@@ -146,7 +146,7 @@ class Condition:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RobotState:
+class StateReport:
     """What a robot says of itself; messages may be lost, doubled, late, and partly wrong.
 
     Attributes

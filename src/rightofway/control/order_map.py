@@ -7,12 +7,12 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
-from rightofway.control.identities import Identity, Work
+from rightofway.control.identities import Identity, WorkAction
 from rightofway.errors import InputError
 from rightofway.model import Scenario
 from rightofway.site import Point, Roadmap, VertexId
 
-__all__ = ["OrderLane", "OrderMap", "Place", "Work", "make_order_maps"]
+__all__ = ["OrderLane", "OrderMap", "Place", "WorkAction", "make_order_maps"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -101,7 +101,7 @@ class OrderMap:
         self._places, self._lanes, self._shapes = known.places, known.lanes, known.shapes
 
     @property
-    def work(self) -> Work:
+    def work(self) -> WorkAction:
         """What the robot does at a stop."""
         return self.identity.work
 

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 
 from rightofway.control.journal import Entry
 from rightofway.control.ledger import Ledger
-from rightofway.control.messages import RobotState
+from rightofway.control.messages import StateReport
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.errors import escape_text
 from rightofway.facts import Fact
@@ -29,7 +29,7 @@ Report = Callable[[int, Fact], None]
 
 
 def list_facts(
-    ledger: Ledger, robot: int, state: RobotState, visit: int | None, report: Report
+    ledger: Ledger, robot: int, state: StateReport, visit: int | None, report: Report
 ) -> Iterator[Entry]:
     """Yield what a state proves: finished jobs, an arrival at a visit, faults; report faults."""
     own = ledger.robots[robot]
@@ -53,12 +53,12 @@ def list_facts(
         yield take_fault(robot, fault, state, report)
 
 
-def make_stray(state: RobotState) -> Fact:
+def make_stray(state: StateReport) -> Fact:
     """Return the fault of a robot that has lost its order elsewhere than where it was held."""
     return Fact("astray", place=escape_text(state.last_place[:80]))
 
 
-def take_fault(robot: int, fault: Fact, state: RobotState, report: Report) -> Entry:
+def take_fault(robot: int, fault: Fact, state: StateReport, report: Report) -> Entry:
     """Report a fault; return its entry."""
     report(robot, Fact("faulty", fault=fault))
     place = state.last_place or None
@@ -71,7 +71,7 @@ def _is_failure(own: RobotLedger, action_id: str, job: str) -> bool:
     return is_last and job not in own.failed and own.cancel is None
 
 
-def find_proven_visit(own: RobotLedger, state: RobotState) -> int | None:
+def find_proven_visit(own: RobotLedger, state: StateReport) -> int | None:
     """Return the visit at whose vertex a state proves that the robot has arrived."""
     sent = own.orders.get(state.order_id)
     if sent is None or state.last_sequence_id % 2:
@@ -93,7 +93,7 @@ def find_proven_visit(own: RobotLedger, state: RobotState) -> int | None:
     return visit if visit >= begin else None
 
 
-def _find_fault(ledger: Ledger, robot: int, state: RobotState) -> Fact | None:
+def _find_fault(ledger: Ledger, robot: int, state: StateReport) -> Fact | None:
     """Return how a state contradicts all that was sent (rule 11)."""
     own = ledger.robots[robot]
     sent = own.orders.get(state.order_id)
@@ -115,7 +115,7 @@ def _find_fault(ledger: Ledger, robot: int, state: RobotState) -> Fact | None:
     return None
 
 
-def _find_fault_of_order(ledger: Ledger, robot: int, state: RobotState) -> Fact | None:
+def _find_fault_of_order(ledger: Ledger, robot: int, state: StateReport) -> Fact | None:
     """Return what is wrong with an order that is not kept."""
     if not state.order_id:
         return None
@@ -127,7 +127,7 @@ def _find_fault_of_order(ledger: Ledger, robot: int, state: RobotState) -> Fact 
     return None
 
 
-def is_taken_back(ledger: Ledger, robot: int, state: RobotState) -> bool:
+def is_taken_back(ledger: Ledger, robot: int, state: StateReport) -> bool:
     """Return whether an old withdrawal, which has come late, took the current order back.
 
     The robot takes no update of it any more. Its answer to a token says where it stands.
@@ -140,7 +140,7 @@ def is_taken_back(ledger: Ledger, robot: int, state: RobotState) -> bool:
     )
 
 
-def is_acknowledged_by(own: RobotLedger, state: RobotState) -> bool:
+def is_acknowledged_by(own: RobotLedger, state: StateReport) -> bool:
     """Return whether a state shows the last order or update, to its last node."""
     assert own.message is not None
     last = own.message.nodes[-1].sequence_id
@@ -148,7 +148,7 @@ def is_acknowledged_by(own: RobotLedger, state: RobotState) -> bool:
     return state.update_id == own.message.update_id and is_known
 
 
-def has_stopped(own: RobotLedger, state: RobotState) -> bool:
+def has_stopped(own: RobotLedger, state: StateReport) -> bool:
     """Return whether a robot has carried out our withdrawal, or had nothing to withdraw."""
     if own.cancel is None or own.cancel.action_id is None or own.token is not None:
         return False

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from rightofway.control.messages import Condition, InstantAction, Order, OrderNode, RobotState
+from rightofway.control.messages import Condition, InstantAction, Order, OrderNode, StateReport
 
 Step = Literal["begin to drive", "arrive", "begin work", "end work"]
 """What a robot does next."""
@@ -71,7 +71,7 @@ class SimulatedRobot:
             return "begin work" if is_new else "end work"
         return "begin to drive" if self.ahead else None
 
-    def report_state(self, condition: Condition = AS_USUAL) -> RobotState:
+    def report_state(self, condition: Condition = AS_USUAL) -> StateReport:
         """Return what the robot says of itself.
 
         Parameters
@@ -80,7 +80,7 @@ class SimulatedRobot:
             Whether it is fit to drive on; its owner knows.
         """
         numbers = tuple(node.sequence_id for node in self.ahead)
-        return RobotState(
+        return StateReport(
             order_id=self._order_id,
             update_id=self._update_id,
             last_place=self.place,

@@ -21,9 +21,9 @@ from rightofway.control.messages import (
     Order,
     OrderNode,
     RobotError,
-    RobotState,
+    StateReport,
 )
-from rightofway.control.order_map import OrderLane, OrderMap, Place, Work
+from rightofway.control.order_map import OrderLane, OrderMap, Place, WorkAction
 from rightofway.errors import InputError, InputFault, quote
 
 __all__ = [
@@ -196,7 +196,7 @@ def _position(place: Place | None) -> _NodePosition | None:
     return _NodePosition(x=x, y=y, mapId=place.map_id, allowedDeviationXY=place.deviation)
 
 
-def _work(action_id: str, work: Work) -> _Action:
+def _work(action_id: str, work: WorkAction) -> _Action:
     parameters = tuple(_Parameter(key=key, value=value) for key, value in work.parameters.items())
     return _Action(
         actionId=action_id,
@@ -357,7 +357,7 @@ class StateMessage(_Model):
     @classmethod
     def of(
         cls,
-        state: RobotState,
+        state: StateReport,
         places: Iterable[str],
         instant: frozenset[str],
         position: Place | None = None,
@@ -415,10 +415,10 @@ class StateMessage(_Model):
             and _Position(x=position.point[0], y=position.point[1], mapId=position.map_id),
         )
 
-    def to_robot_state(self) -> RobotState:
+    def to_robot_state(self) -> StateReport:
         """Return what the robot says of itself."""
         actions = (*self.actionStates, *self.instantActionStates)
-        return RobotState(
+        return StateReport(
             order_id=self.orderId,
             update_id=self.orderUpdateId,
             last_place=self.lastNodeId,

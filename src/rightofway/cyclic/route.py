@@ -15,6 +15,7 @@ from rightofway.arguments import checks_arguments
 from rightofway.deadline import limit_loop, make_check
 from rightofway.errors import InputError, InputFault
 from rightofway.model import BookingRules, Lap, Robot, Route, Scenario, Tick, make_lap
+from rightofway.model.problem import refuse_jobs
 from rightofway.native import BookedRows, list_excluded
 from rightofway.precedence import CyclicSchedule, TimedEventGraph
 from rightofway.precedence.rotations import FEWEST
@@ -269,8 +270,10 @@ def take_out_closed_places(scenario: Scenario) -> Scenario:
     ------
     InputError
         For closures that begin later than at 0 or end: they are at one time and do not come again
-        in each lap. For closures that close different places to robots of different sizes.
+        in each lap. For closures that close different places to robots of different sizes. For
+        jobs.
     """
+    refuse_jobs(scenario.problem, "repeated work", "take them out, or plan them once")
     closed = scenario.problem.closures
     if closed is None:
         return scenario

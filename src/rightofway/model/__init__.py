@@ -16,7 +16,7 @@ from rightofway.model.plan import (
     StartPlan,
     Wait,
 )
-from rightofway.model.problem import Itinerary, Problem, Stage, compute_least_dwell
+from rightofway.model.problem import Arc, Itinerary, Problem, Stage, compute_least_dwell
 from rightofway.model.resources import Resources
 from rightofway.model.robot import Occupancy, Robot, Rules, Stop, TripEnd, Turn, Walls
 from rightofway.model.route import (
@@ -30,7 +30,7 @@ from rightofway.model.route import (
     make_route,
     make_route_through,
 )
-from rightofway.model.scenario import Scenario
+from rightofway.model.scenario import Scenario, assign_tours
 from rightofway.model.stays import (
     Stays,
     compute_completions,
@@ -41,10 +41,33 @@ from rightofway.model.stays import (
 from rightofway.model.steady_state import SteadyState
 from rightofway.model.trace import ExecutionTrace
 from rightofway.model.units import NEVER, Clock, Tick, choose_clock, require_time_limit
+from rightofway.model.work import (
+    Assignment,
+    Battery,
+    BoundBattery,
+    BoundJob,
+    BoundRobot,
+    BoundStop,
+    Job,
+    JobStop,
+    RobotState,
+    Tour,
+    TourItem,
+    UnservedReason,
+    Work,
+    WorkObjective,
+)
 
 __all__ = [
     "NEVER",
+    "Arc",
+    "Assignment",
+    "Battery",
     "BookingRules",
+    "BoundBattery",
+    "BoundJob",
+    "BoundRobot",
+    "BoundStop",
     "Clock",
     "Closure",
     "Closures",
@@ -53,6 +76,8 @@ __all__ = [
     "ForcedLoss",
     "Improvement",
     "Itinerary",
+    "Job",
+    "JobStop",
     "Lap",
     "Loss",
     "LostTime",
@@ -69,6 +94,7 @@ __all__ = [
     "Resources",
     "Robot",
     "RobotPlan",
+    "RobotState",
     "Route",
     "Rules",
     "Scenario",
@@ -79,11 +105,17 @@ __all__ = [
     "SteadyState",
     "Stop",
     "Tick",
+    "Tour",
+    "TourItem",
     "Track",
     "TripEnd",
     "Turn",
+    "UnservedReason",
     "Wait",
     "Walls",
+    "Work",
+    "WorkObjective",
+    "assign_tours",
     "choose_clock",
     "compute_completions",
     "compute_cost",

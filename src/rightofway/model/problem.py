@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import chain, groupby
 from math import gcd, lcm
 from operator import attrgetter
-from typing import Any
+from typing import Any, NamedTuple
 
 from rightofway.deadline import DERIVING, limit_loop
 from rightofway.errors import InputError, InputFault, Steps, quote
@@ -18,6 +18,7 @@ from rightofway.model.resources import Resources, bind_resources, make_points
 from rightofway.model.robot import Robot, Rules
 from rightofway.model.turning import Turning, compute_turnings
 from rightofway.model.units import Clock, Tick, choose_clock
+from rightofway.model.work import Job, Work
 from rightofway.site import Roadmap, VertexId
 
 LARGEST_SURCHARGE = 2**27
@@ -46,11 +47,37 @@ class Stage:
     turn
         How long it then turns, if an edge is to be driven afterwards [ticks]; 0 where the next
         stage is at the same vertex.
+    earliest
+        The work begins then or later [ticks].
+    latest
+        The work ends then or before [ticks]; None for no limit.
+    weight
+        How much a tick of the end of the work costs; 0 for nothing.
+    due
+        From when on a tick of the end costs `Work.late` times the weight more [ticks]; None for
+        never.
     """
 
     vertex: VertexId
     work: Tick
     turn: Tick
+    earliest: Tick = field(default=Tick(0))
+    latest: Tick | None = None
+    weight: int = 0
+    due: Tick | None = None
+
+
+class Arc(NamedTuple):
+    """A stage of one robot ends before a stage of another robot begins.
+
+    Attributes
+    ----------
+    before, after
+        Each the index of a robot and of one of its stages.
+    """
+
+    before: tuple[int, int]
+    after: tuple[int, int]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,7 +87,7 @@ class Itinerary:
     Attributes
     ----------
     home
-        The vertex it is at from tick 0.
+        The vertex it is at from tick 0: the home, or the start of a robot with a state.
     stages
         What it has to do, in order. The vertex of the last one is where it stays for ever.
     edge_ticks
@@ -72,6 +99,11 @@ class Itinerary:
     weight
         How much a tick of it counts beside a tick of the other robots; whole numbers for a fleet,
         all 1 where robots count alike.
+    ready
+        Until then the robot stays where it begins [ticks].
+    heading
+        Angle from the x axis of the map's plane to its y axis, which points down, at the first
+        drive [degrees]; None where the first drive needs no turn.
     """
 
     home: VertexId
@@ -80,6 +112,8 @@ class Itinerary:
     surcharges: tuple[Tick, ...] = ()
     turning: Turning | None = None
     weight: int = 1
+    ready: Tick = field(default=Tick(0))
+    heading: Fraction | None = None
 
     @property
     def edge_costs(self) -> tuple[Tick, ...]:
@@ -133,6 +167,10 @@ class Problem:
         Which bookings exclude each other.
     closures
         The bookings of nobody, or None where nothing is closed.
+    work
+        Jobs, batteries and states, or None for a scenario without jobs.
+    after
+        Stages that end before stages of other robots begin, by jobs that follow each other.
     """
 
     roadmap: Roadmap
@@ -141,6 +179,8 @@ class Problem:
     itineraries: tuple[Itinerary, ...]
     resources: Resources
     closures: Closures | None = None
+    work: Work | None = None
+    after: tuple[Arc, ...] = ()
 
     @property
     def is_barred(self) -> bool:
@@ -171,7 +211,20 @@ class Problem:
             itineraries=tuple(itinerary.as_steps() for itinerary in self.itineraries),
             resources=make_points(self.roadmap, len(self.itineraries)),
             closures=None,
+            after=(),
         )
+
+
+def refuse_jobs(problem: Problem, method: str, remedy: str) -> None:
+    """Refuse a scenario with jobs.
+
+    Raises
+    ------
+    InputError
+        If there is work, even without a job.
+    """
+    if problem.work is not None:
+        raise InputError.at("", f"{method} does not know jobs ({remedy})")
 
 
 def refuse_closures(problem: Problem, method: str, remedy: str) -> None:
@@ -218,16 +271,21 @@ def bind_problem(
     roadmap: Roadmap,
     robots: Sequence[Robot],
     rules: Rules,
+    *,
     clock: Clock | None = None,
     closures: Sequence[Closure] = (),
+    durations: Iterable[Fraction] = (),
 ) -> Problem:
-    """Express a valid scenario in ticks, of a clock that is given or else chosen."""
+    """Express a valid scenario in ticks, of a clock that is given or else chosen.
+
+    ``durations`` are those of the work of jobs, for the choice of the clock [time unit].
+    """
     radii = [robot.radius for robot in robots]
     if clock is None:
         alike = {_ticks_key(robot): robot for robot in robots}.values()
         driven = (_drive_times(roadmap, robot) for robot in alike)
         spent = (_stop_times(roadmap, robot, rules) for robot in robots)
-        clock = choose_clock(chain([rules.headway], *driven, *spent))
+        clock = choose_clock(chain([rules.headway], durations, *driven, *spent))
     rates = [turn_rate(robot, rules) for robot in robots]
     surcharges = tuple(
         clock.count_ticks(edge_class.surcharge)
@@ -338,10 +396,11 @@ def _edge_ticks(roadmap: Roadmap, robot: Robot, clock: Clock) -> tuple[Tick, ...
     )
 
 
-def scale_weights(robots: Sequence[Robot]) -> list[int]:
-    """Return the least whole numbers in the ratio of the weights of robots."""
-    common = lcm(*(robot.weight.denominator for robot in robots))
-    whole = [int(robot.weight * common) for robot in robots]
+def scale_weights(owners: Sequence[Robot] | Sequence[Job]) -> list[int]:
+    """Return the least whole numbers in the ratio of the weights of robots or jobs."""
+    weights = [owner.weight for owner in owners]
+    common = lcm(*(weight.denominator for weight in weights))
+    whole = [int(weight * common) for weight in weights]
     divisor = gcd(*whole)
     return [weight // divisor for weight in whole]
 
@@ -362,8 +421,8 @@ def _itinerary(
     after: list[VertexId | None] = [stop.at for stop in robot.stops[1:]]
     if (robot.ends or rules.ends) == "home":
         visits.append((robot.home, Tick(0)))
-        after += [robot.home, robot.stops[0].at]  # the next lap follows
-    else:
+        after += [robot.home, robot.stops[0].at] if robot.stops else [None]  # the next lap follows
+    elif robot.stops:
         after.append(None)
     lap = [
         Stage(vertex=at, work=work, turn=Tick(0) if at == following else turn)

@@ -4,12 +4,23 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Literal
+from typing import Literal, get_args
 
 from rightofway.errors import quote
 from rightofway.model.attributes import list_attributes, list_readers, make_attribute
+from rightofway.model.work import RobotState, WorkObjective
 from rightofway.site import VertexId
-from rightofway.values import coerce_fields, read_label, read_number, read_vertex
+from rightofway.values import (
+    allow_none,
+    coerce_fields,
+    list_of,
+    make_class_reader,
+    make_word_reader,
+    read_integer,
+    read_label,
+    read_number,
+    read_vertex,
+)
 
 Turn = Literal["cell"] | Fraction
 """Turning time at a stop: one cell's crossing time of the robot, or a time [time unit]."""
@@ -64,7 +75,7 @@ class Robot:
     home
         The vertex it starts from, and returns to.
     stops
-        The places to work at, in order; at least one.
+        The places to work at, in order; at least one, but in a scenario with jobs none.
     speed
         Length units per time unit, positive; any `Number`, kept exactly.
     radius
@@ -82,6 +93,15 @@ class Robot:
         rules.
     weight
         How much its completion time counts beside those of the other robots, positive.
+    start
+        Where it begins and what it has done; None: at home, with nothing done. Like the next three
+        only in a scenario with jobs, in which a robot has no `stops`.
+    capacity
+        The largest load, not negative; None for 1.
+    battery
+        The name of its battery; None for no limit.
+    charging
+        The vertices at which it may charge; None for all charging places.
 
     Raises
     ------
@@ -91,7 +111,7 @@ class Robot:
 
     name: str
     home: VertexId
-    stops: tuple[Stop, ...]
+    stops: tuple[Stop, ...] = ()
     speed: Fraction = field(
         default=Fraction(1),
         metadata=make_attribute(
@@ -154,14 +174,23 @@ class Robot:
             "how much its completion time counts beside the others', above 0",
         ),
     )
+    start: RobotState | None = None
+    capacity: int | None = None
+    battery: str | None = None
+    charging: tuple[VertexId, ...] | None = None
 
     def __post_init__(self) -> None:
+        state = make_class_reader(RobotState, "no state", "give RobotState(at=vertex)")
         coerce_fields(
             self,
             f"robot {quote(self.name)}",
             name=read_label,
             home=read_vertex,
             stops=_stops,
+            start=allow_none(state),
+            capacity=allow_none(read_integer),
+            battery=allow_none(read_label),
+            charging=allow_none(list_of(read_vertex)),
             **list_readers(Robot),
         )
 
@@ -204,6 +233,12 @@ class Rules:
     turn_rate
         How fast robots turn on the spot [degrees per time unit], positive. None: a change of
         heading takes no time.
+    objective
+        What a plan minimizes after the weight of unserved jobs; None for ``service``. Like `late`
+        only in a scenario with jobs.
+    late
+        How much a time unit of a job after its `due` costs, compared with one of service time, not
+        negative; None for 10.
 
     Raises
     ------
@@ -268,9 +303,17 @@ class Rules:
             unset="none",
         ),
     )
+    objective: WorkObjective | None = None
+    late: Fraction | None = None
 
     def __post_init__(self) -> None:
-        coerce_fields(self, "rules", **list_readers(Rules))
+        coerce_fields(
+            self,
+            "rules",
+            objective=allow_none(make_word_reader(get_args(WorkObjective))),
+            late=allow_none(read_number),
+            **list_readers(Rules),
+        )
 
 
 ROBOT_ATTRIBUTES = list_attributes(Robot)

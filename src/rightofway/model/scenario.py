@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from copy import copy
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from rightofway.errors import InputError, InputFault, Where, quote
+from rightofway.model.bind_work import bind_tours, bind_work
 from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.model.figures import get_figures
 from rightofway.model.problem import HEAVIEST, Problem, bind_problem, scale_weights
 from rightofway.model.resources import find_too_short_edges
 from rightofway.model.robot import Robot, Rules, Turn
 from rightofway.model.units import Clock
+from rightofway.model.work import Battery, Job, Tour, read_batteries
+from rightofway.model.work_faults import find_work_faults
 from rightofway.quantities import Quantities
 from rightofway.site import Roadmap, VertexId
 from rightofway.site.walls import clear_of_walls, reaches_walls
 from rightofway.units import Units, write_decimal
+from rightofway.values import allow_none, coerce_fields, list_of, make_class_reader, read_vertex
 
 MAX_STAGES = 1_000_000
 """Stops and ways home of a whole fleet, laps unrolled, at most."""
@@ -40,6 +45,15 @@ class Scenario:
         Vertices and edges that nobody may book for a while.
     units
         What lengths and times are measured in; only for people, no plan depends on it.
+    jobs
+        The work of the fleet; None for robots with trips of their own.
+    batteries
+        Batteries of robots by their names; a mapping, kept as pairs. Only with jobs.
+    charging
+        Vertices to charge at, added to the charging places of the map. Only with jobs.
+    tours
+        Which robot does which jobs in which order, one tour for each robot, where that is decided:
+        itineraries are made from it. Files do not keep it.
     problem
         The same in ticks; derived.
 
@@ -55,6 +69,10 @@ class Scenario:
     clock: Clock | None = None
     units: Units = field(default_factory=Units)
     closures: tuple[Closure, ...] = ()
+    jobs: tuple[Job, ...] | None = None
+    batteries: tuple[tuple[str, Battery], ...] = ()
+    charging: tuple[VertexId, ...] = ()
+    tours: tuple[Tour, ...] | None = field(default=None, repr=False)
     problem: Problem = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -67,16 +85,13 @@ class Scenario:
                 radii = [robot.radius for robot in self.robots]
                 object.__setattr__(self, "roadmap", clear_of_walls(self.roadmap, radii))
             faults = [*_rule_faults(self), *_fleet_faults(self), *_space_faults(self)]
+            faults += find_work_faults(self)
             for index, closure in enumerate(self.closures):
                 of_closure = find_closure_faults(closure, self.roadmap)
                 faults += [fault.nest(("closures", index)) for fault in of_closure]
         if faults:
             raise InputError(faults)
-        object.__setattr__(
-            self,
-            "problem",
-            bind_problem(self.roadmap, self.robots, self.rules, self.clock, self.closures),
-        )
+        object.__setattr__(self, "problem", _bind(self))
 
     def __repr__(self) -> str:
         count = len(self.robots)
@@ -91,6 +106,39 @@ class Scenario:
     def quantities(self) -> Quantities:
         """How times, lengths and speeds of this scenario are written for people."""
         return Quantities(units=self.units, tick=self.problem.clock.tick)
+
+
+def assign_tours(scenario: Scenario, tours: Sequence[Tour]) -> Scenario:
+    """Return a scenario with jobs in which itineraries follow tours.
+
+    Parameters
+    ----------
+    scenario
+        A scenario with jobs.
+    tours
+        One for each robot; items name jobs and stops that exist.
+    """
+    assigned = copy(scenario)  # valid already, and the roadmap is bound
+    object.__setattr__(assigned, "tours", tuple(tours))
+    object.__setattr__(assigned, "problem", bind_tours(scenario.problem, tours))
+    return assigned
+
+
+def _bind(scenario: Scenario) -> Problem:
+    """Return a valid scenario in ticks."""
+    durations = [stop.work for job in scenario.jobs or () for stop in job.stops]
+    problem = bind_problem(
+        scenario.roadmap,
+        scenario.robots,
+        scenario.rules,
+        clock=scenario.clock,
+        closures=scenario.closures,
+        durations=durations,
+    )
+    if scenario.jobs is None:
+        return problem
+    problem = bind_work(problem, scenario)
+    return problem if scenario.tours is None else bind_tours(problem, scenario.tours)
 
 
 def _resolved(scenario: Scenario) -> Rules:
@@ -125,6 +173,21 @@ def _kind_faults(scenario: Scenario) -> Iterator[InputFault]:
                 message = f"{quote(closure)} is no closure (give a Closure)"
                 yield InputFault(("closures", index), message)
     yield from _measure_faults(scenario)
+    yield from _work_kind_faults(scenario)
+
+
+def _work_kind_faults(scenario: Scenario) -> Iterator[InputFault]:
+    """Replace jobs, batteries and charging places by tuples; yield what is of another kind."""
+    job = make_class_reader(Job, "no job", "give Job(name=text, stops=list)")
+    readers: dict[str, Callable[[object], object]] = {
+        "jobs": allow_none(list_of(job)),
+        "batteries": read_batteries,
+        "charging": list_of(read_vertex),
+    }
+    try:
+        coerce_fields(scenario, "", **readers)
+    except InputError as error:
+        yield from error.faults
 
 
 def _measure_faults(scenario: Scenario) -> Iterator[InputFault]:
@@ -141,6 +204,8 @@ def _rule_faults(scenario: Scenario) -> Iterator[InputFault]:
         yield InputFault(("rules", "headway"), f"{rules.headway} is negative (give 0 or more)")
     if rules.laps < 1:
         yield InputFault(("rules", "laps"), f"{rules.laps} is less than one lap (give 1 or more)")
+    if rules.late is not None and rules.late < 0:
+        yield InputFault(("rules", "late"), f"{rules.late} is negative (give 0 or more)")
     yield from _turn_faults(rules.turn, ("rules", "turn"), scenario.roadmap)
     yield from _rate_faults(rules.turn_rate, ("rules", "turn_rate"))
 
@@ -237,6 +302,8 @@ def _robot_faults(robot: Robot, scenario: Scenario) -> Iterator[InputFault]:
     yield from _turn_faults(robot.turn, "turn", scenario.roadmap)
     yield from _rate_faults(robot.turn_rate, "turn_rate")
     yield from _place_faults(robot, scenario.roadmap)
+    if not robot.stops and scenario.jobs is None:
+        yield InputFault("stops", "there is none (give at least one place to work at)")
     laps = scenario.rules.laps if robot.laps is None else robot.laps
     if (robot.ends or scenario.rules.ends) == "none" and laps > 1:
         message = f"{laps} laps need a way back (set return: home, or laps: 1)"
@@ -256,8 +323,6 @@ def _number_faults(robot: Robot) -> Iterator[InputFault]:
         yield InputFault("weight", f"{robot.weight} is not positive (give a number above 0)")
     if robot.laps is not None and robot.laps < 1:
         yield InputFault("laps", f"{robot.laps} is less than one lap (give 1 or more)")
-    if not robot.stops:
-        yield InputFault("stops", "there is none (give at least one place to work at)")
     for index, stop in enumerate(robot.stops):
         if stop.work < 0:
             yield InputFault(("stops", index, "work"), f"{stop.work} is negative (give 0 or more)")
@@ -265,8 +330,10 @@ def _number_faults(robot: Robot) -> Iterator[InputFault]:
 
 def _place_faults(robot: Robot, roadmap: Roadmap) -> Iterator[InputFault]:
     n_vertices = roadmap.n_vertices
+    start = [] if robot.start is None else [(("start", "at"), robot.start.at)]
     places: Iterable[tuple[Where, int]] = [
         ("home", robot.home),
+        *start,
         *((("stops", index, "at"), stop.at) for index, stop in enumerate(robot.stops)),
     ]
     for place, vertex in places:

@@ -7,7 +7,7 @@ from enum import StrEnum
 
 from rightofway.errors import InputError
 from rightofway.model import Problem
-from rightofway.model.problem import refuse_closures, refuse_turn_rates
+from rightofway.model.problem import refuse_closures, refuse_jobs, refuse_turn_rates
 from rightofway.model.resources import refuse_sizes
 
 
@@ -28,6 +28,8 @@ class Feature(StrEnum):
         It keeps robots off edges that are barred for their type.
     TURN_RATES
         It plans robots that need time to turn on the spot.
+    JOBS
+        It plans scenarios with jobs.
     """
 
     IMPROVES = "improves"
@@ -36,6 +38,7 @@ class Feature(StrEnum):
     CLOSURES = "closures"
     BARRED_EDGES = "barred edges"
     TURN_RATES = "turn rates"
+    JOBS = "jobs"
 
 
 ANY_FLEET = frozenset({Feature.SIZES, Feature.CLOSURES, Feature.BARRED_EDGES, Feature.TURN_RATES})
@@ -53,9 +56,11 @@ def refuse_unknown(
     Raises
     ------
     InputError
-        For robots with a size, zones, passed vertices, turn rates, closures or barred edges, with
-        the first that is found.
+        For jobs, robots with a size, zones, passed vertices, turn rates, closures or barred edges,
+        with the first that is found.
     """
+    if problem.work is not None and Feature.JOBS not in features:
+        refuse_jobs(problem, method, remedy(Feature.JOBS))
     if not problem.resources.are_points and Feature.SIZES not in features:
         has_passed = problem.roadmap.passing is not None
         if Feature.LEAVES_SWAPS in features and not has_passed:

@@ -198,7 +198,8 @@ def _of_other_packages(_path: tuple[str, ...]) -> dict[str, PlannerSpec]:
 
 def name_able(feature: Feature) -> str:
     """Return the names of all planners that have a feature, joined by "or"."""
-    return " or ".join(name for name, spec in find_all().items() if feature in spec.features)
+    able = [name for name, spec in find_all().items() if feature in spec.features]
+    return " or ".join(able) or "a planner of another package"
 
 
 @checks_arguments

@@ -28,7 +28,7 @@ _numbers = count(1)
 
 
 @dataclass(slots=True)
-class Job:
+class WorkerCall:
     """A job that is to be done, or is being done.
 
     Attributes
@@ -173,7 +173,7 @@ class Crew:
         """Start one worker in advance."""
         self._free.append(await self._start_worker())
 
-    async def do(self, job: Job) -> tuple[Any, list[bytes]]:
+    async def do(self, job: WorkerCall) -> tuple[Any, list[bytes]]:
         """Return the result of a job, with its blobs.
 
         Raises
@@ -196,7 +196,7 @@ class Crew:
         finally:
             self._slots.release()
 
-    async def _run_job(self, job: Job) -> tuple[Any, list[bytes]]:
+    async def _run_job(self, job: WorkerCall) -> tuple[Any, list[bytes]]:
         worker = await self._take_worker()
         job.worker, is_usable = worker, False
         try:
@@ -219,7 +219,9 @@ class Crew:
             raise TaskFailed(answer["error"])
         return answer["result"], blobs
 
-    async def _read_answer(self, worker: Worker, job: Job) -> tuple[dict[str, Any], list[bytes]]:
+    async def _read_answer(
+        self, worker: Worker, job: WorkerCall
+    ) -> tuple[dict[str, Any], list[bytes]]:
         while True:
             message, blobs = await worker.receive()
             if message["job"] != job.number:

@@ -10,7 +10,7 @@ from typing import Any, Literal
 from rightofway.control.journal import SqliteJournal
 from rightofway.io import parse_plan
 from rightofway.io.json_text import parse_json
-from rightofway.studio.crew import Crew, Job
+from rightofway.studio.crew import Crew, WorkerCall
 from rightofway.studio.errors import Busy, Refused, TaskFailed
 from rightofway.studio.watching import Watched
 
@@ -40,7 +40,7 @@ class Drive:
 
     number: int
     run: int
-    job: Job
+    job: WorkerCall
     page: Watched
     state: Literal["driving", "done", "stopped", "failed"] = "driving"
     error: dict[str, Any] | None = None
@@ -103,7 +103,7 @@ class Drives:
         drive = Drive(
             number=number,
             run=run,
-            job=Job(
+            job=WorkerCall(
                 "drive",
                 {**settings, "journal": str(journal)},
                 [plan],

@@ -9,7 +9,7 @@ from collections.abc import AsyncGenerator, Mapping
 from dataclasses import asdict, dataclass, field, fields
 from typing import Any, Literal
 
-from rightofway.studio.crew import Crew, Job
+from rightofway.studio.crew import Crew, WorkerCall
 from rightofway.studio.errors import Busy, Refused, StudioError
 from rightofway.studio.events import Event, Listeners
 from rightofway.studio.messages import as_error
@@ -99,7 +99,7 @@ class Run:
 class _Work:
     """What belongs to a run while it is worked on."""
 
-    job: Job | None = None
+    job: WorkerCall | None = None
     wants: Literal["", "stopped", "cancelled"] = ""  # how the user has it end
     is_saving: asyncio.Lock = field(default_factory=asyncio.Lock)
     plan: tuple[bytes, dict[str, Any]] | None = None  # that waits to be saved, with its figures
@@ -325,7 +325,7 @@ class Runs:
         arguments = json.loads(await self.read_blob(run.number, "arguments"))
         given = await asyncio.to_thread(self._store.read_blob, run.number, "given")
         limit = run.request.get("time_limit") or 0.0
-        work.job = Job(
+        work.job = WorkerCall(
             run.kind,
             {**run.request, **arguments},
             [] if given is None else [given],

@@ -10,7 +10,7 @@ from typing import Any
 
 from rightofway.errors import InputError
 from rightofway.io.plain_data import check_depth
-from rightofway.studio.crew import Crew, Job
+from rightofway.studio.crew import Crew, WorkerCall
 from rightofway.studio.driving import Drives
 from rightofway.studio.runs import Runs
 from rightofway.studio.shared import SharedAnswers
@@ -98,7 +98,7 @@ class Studio:
             As `Crew.do`.
         """
         check_json(arguments)
-        return await self.desk.do(Job(task, arguments, blobs, limit=DESK_LIMIT))
+        return await self.desk.do(WorkerCall(task, arguments, blobs, limit=DESK_LIMIT))
 
 
 def check_json(data: Any) -> bytes:

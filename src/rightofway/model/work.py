@@ -1,0 +1,437 @@
+"""Jobs, batteries and states of robots, as users write them and in ticks; tours of robots."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Literal
+
+from rightofway.errors import quote
+from rightofway.model.units import Tick
+from rightofway.site import VertexId
+from rightofway.values import (
+    allow_none,
+    coerce_fields,
+    list_of,
+    make_class_reader,
+    read_at,
+    read_integer,
+    read_label,
+    read_number,
+    read_vertex,
+)
+
+WorkObjective = Literal["service", "flowtime", "makespan", "both"]
+"""What a plan minimizes after the weight of unserved jobs: the service times of jobs, or the
+completion times of robots."""
+
+OBJECTIVE: WorkObjective = "service"
+"""What a plan minimizes by default."""
+
+LATE = Fraction(10)
+"""How much a time unit after `Job.due` costs by default, compared with one of service time."""
+
+CAPACITY = 1
+"""The largest load of a robot by default."""
+
+LARGEST_BATTERY = 10**15
+"""The largest common denominator of the shares of a battery, so that sums fit 64 bits."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JobStop:
+    """A place where a robot works for a job.
+
+    Attributes
+    ----------
+    at
+        The vertex.
+    work
+        How long the robot works there [time unit], not negative.
+    load
+        By how much the load of the robot changes at the end of the work.
+    earliest
+        The work begins then or later [time unit].
+    latest
+        The work ends then or before [time unit]; None for no limit.
+
+    Raises
+    ------
+    InputError
+        With every value of a wrong kind; the ranges are checked by `Scenario`.
+    """
+
+    at: VertexId
+    work: Fraction = Fraction(0)
+    load: int = 0
+    earliest: Fraction = Fraction(0)
+    latest: Fraction | None = None
+
+    def __post_init__(self) -> None:
+        coerce_fields(
+            self,
+            "stop",
+            at=read_vertex,
+            work=read_number,
+            load=read_integer,
+            earliest=read_number,
+            latest=allow_none(read_number),
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Job:
+    """Work of one robot: stops in a fixed order.
+
+    Attributes
+    ----------
+    name
+        Unique in its scenario.
+    stops
+        At least one. Their loads sum to 0, and no first part of them to less.
+    weight
+        How much the job counts compared with other jobs, positive.
+    due
+        Completion after this time costs more [time unit]; None for no such time.
+    types
+        Types of the robots that may do the job; empty for all types.
+    robot
+        The only robot that may do the job; None for all robots.
+    after
+        Names of the jobs that end before this one begins.
+
+    Raises
+    ------
+    InputError
+        With every value of a wrong kind; the ranges are checked by `Scenario`.
+    """
+
+    name: str
+    stops: tuple[JobStop, ...]
+    weight: Fraction = Fraction(1)
+    due: Fraction | None = None
+    types: tuple[str, ...] = ()
+    robot: str | None = None
+    after: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        stop = make_class_reader(JobStop, "no stop", "give JobStop(at=vertex, work=time)")
+        coerce_fields(
+            self,
+            f"job {quote(self.name)}",
+            name=read_label,
+            stops=list_of(stop),
+            weight=read_number,
+            due=allow_none(read_number),
+            types=list_of(read_label),
+            robot=allow_none(read_label),
+            after=list_of(read_label),
+        )
+
+    @property
+    def earliest(self) -> Fraction:
+        """When the work of the first stop may begin [time unit]."""
+        return self.stops[0].earliest
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Battery:
+    """How robots use and charge a battery; all shares are of a full one.
+
+    Attributes
+    ----------
+    drive
+        Share for each length unit of a drive.
+    on
+        Share for each time unit until the robot rests.
+    work
+        Share for each time unit of work.
+    charge
+        Share gained in each time unit of a charge, net.
+    reserve
+        The least state of charge, from 0 to 1.
+
+    Raises
+    ------
+    InputError
+        With every value of a wrong kind; the ranges are checked by `Scenario`.
+    """
+
+    drive: Fraction = Fraction(0)
+    on: Fraction = Fraction(0)
+    work: Fraction = Fraction(0)
+    charge: Fraction = Fraction(0)
+    reserve: Fraction = Fraction(0)
+
+    def __post_init__(self) -> None:
+        names = ("drive", "on", "work", "charge", "reserve")
+        coerce_fields(self, "battery", **dict.fromkeys(names, read_number))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RobotState:
+    """Where a robot begins, and what it has done.
+
+    Attributes
+    ----------
+    at
+        The vertex at which it stays from tick 0 until it drives.
+    ready
+        Until then it does nothing and consumes nothing [time unit].
+    heading
+        Angle from the site's x axis to its y axis [degrees]; None where it is unknown.
+    soc
+        State of charge at `ready`, from 0 to 1; 1 is full.
+    begun
+        Names of jobs with the number of their first stops that are done.
+
+    Raises
+    ------
+    InputError
+        With every value of a wrong kind; the ranges are checked by `Scenario`.
+    """
+
+    at: VertexId
+    ready: Fraction = Fraction(0)
+    heading: Fraction | None = None
+    soc: Fraction = Fraction(1)
+    begun: tuple[tuple[str, int], ...] = ()
+
+    def __post_init__(self) -> None:
+        coerce_fields(
+            self,
+            "start",
+            at=read_vertex,
+            ready=read_number,
+            heading=allow_none(read_number),
+            soc=read_number,
+            begun=_read_begun,
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TourItem:
+    """One thing that a robot does on its tour: the work of a stop, a charge, or its rest.
+
+    Attributes
+    ----------
+    job, stop
+        Index of the job, and of the stop among all its stops; None and None for a charge. A last
+        item without job and duration is the vertex where a robot that does not return home rests;
+        without that item it rests at its last stop or charge.
+    vertex
+        Where.
+    duration
+        How long the robot works or charges there [ticks].
+    """
+
+    job: int | None
+    stop: int | None
+    vertex: VertexId
+    duration: Tick
+
+
+Tour = tuple[TourItem, ...]
+"""Stops and charges of one robot, in order."""
+
+UnservedReason = Literal["robot", "way", "battery", "latest", "after", "not found"]
+"""Why no robot does a job: none may or can carry it; no way leads to its stops; no battery lasts;
+it would end too late; it follows an unserved job; the search found no place for it."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Assignment:
+    """Which robot does which jobs, in which order.
+
+    Attributes
+    ----------
+    tours
+        One for each robot.
+    unserved
+        Indices of the jobs that no robot does, each with the reason.
+    """
+
+    tours: tuple[Tour, ...]
+    unserved: tuple[tuple[int, UnservedReason], ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BoundStop:
+    """A stop of a job in ticks, rounded as the clock rounds.
+
+    Attributes
+    ----------
+    vertex
+        Where.
+    work
+        How long the robot works there [ticks].
+    load
+        By how much the load changes at the end of the work.
+    earliest
+        The work begins then or later [ticks], rounded up.
+    latest
+        The work ends then or before [ticks], rounded down; None for no limit.
+    """
+
+    vertex: VertexId
+    work: Tick
+    load: int
+    earliest: Tick
+    latest: Tick | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BoundJob:
+    """A job in ticks; of a begun job only the rest.
+
+    Attributes
+    ----------
+    stops
+        The stops that are left, in order; those of a begun job have no `latest`.
+    first
+        How many stops are done: the index of ``stops[0]`` among all stops of the job.
+    weight
+        How much a tick of its completion costs; whole numbers in the ratio of the weights of jobs.
+    due
+        Completion after this tick costs more, rounded down; None for never.
+    robots
+        Indices of the robots that may do the job, by name, type and what is begun, and can: their
+        capacity holds its load, and none of its stops is barred for them.
+    after
+        Indices of the jobs that end before it begins; empty for a begun job.
+    begun_by
+        Index of the robot that has begun it, or None.
+    earliest
+        From when on its service time counts: `earliest` of its first stop; 0 for a begun job.
+    """
+
+    stops: tuple[BoundStop, ...]
+    first: int
+    weight: int
+    due: Tick | None
+    robots: tuple[int, ...]
+    after: tuple[int, ...]
+    begun_by: int | None
+    earliest: Tick
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BoundBattery:
+    """The battery of a robot in whole numbers, of which `full` are a full battery.
+
+    Attributes
+    ----------
+    full
+        The least number of which all shares are whole parts, at most `LARGEST_BATTERY`.
+    drive
+        What a drive along an edge of each class takes; 0 where it is barred.
+    on, work
+        What a tick takes before the robot rests, and a tick of work.
+    charge
+        What a tick of a charge gains, net.
+    reserve
+        The least state of charge.
+    soc
+        The state of charge when the robot is ready.
+
+    Notes
+    -----
+    What takes or gains more than a full battery is ``full + 1``.
+    """
+
+    full: int
+    drive: tuple[int, ...]
+    on: int
+    work: int
+    charge: int
+    reserve: int
+    soc: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BoundRobot:
+    """The state of a robot in ticks, and what it needs for its tour.
+
+    Attributes
+    ----------
+    start
+        Where it is from tick 0.
+    ready
+        Until then it stays there [ticks], rounded up.
+    heading
+        As `Itinerary.heading`.
+    home
+        Where it rests; None for a robot that does not return home.
+    turn
+        How long it turns at a stop before it drives on [ticks].
+    capacity
+        The largest load.
+    load
+        The load on board when it is ready.
+    battery
+        Its battery, or None for no limit.
+    charging
+        The vertices at which it may charge, sorted.
+    """
+
+    start: VertexId
+    ready: Tick
+    heading: Fraction | None
+    home: VertexId | None
+    turn: Tick
+    capacity: int
+    load: int
+    battery: BoundBattery | None
+    charging: tuple[VertexId, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Work:
+    """The work of a fleet in ticks, bound once.
+
+    Attributes
+    ----------
+    jobs
+        In the order of the scenario.
+    robots
+        One for each robot.
+    objective
+        What a plan minimizes after the weight of unserved jobs.
+    late
+        How much a tick of a job after `BoundJob.due` costs, compared with one of service time.
+    """
+
+    jobs: tuple[BoundJob, ...]
+    robots: tuple[BoundRobot, ...]
+    objective: WorkObjective
+    late: Fraction
+
+
+def read_batteries(value: object) -> tuple[tuple[str, Battery], ...]:
+    """Return batteries by their names: a mapping, or pairs."""
+    read = make_class_reader(Battery, "no battery", "give Battery(drive=share)")
+    pairs = tuple(value.items()) if isinstance(value, Mapping) else value
+    return tuple(
+        (name, read_at(name, read, battery))
+        for name, battery in _read_pairs(pairs, "batteries", "a mapping of names to Battery")
+    )
+
+
+def _read_begun(value: object) -> tuple[tuple[str, int], ...]:
+    pairs = tuple(value.items()) if isinstance(value, Mapping) else value
+    remedy = "a mapping of names of jobs to numbers of stops"
+    return tuple(
+        (name, read_at(name, read_integer, count))
+        for name, count in _read_pairs(pairs, "begun jobs", remedy)
+    )
+
+
+def _read_pairs(value: object, kind: str, remedy: str) -> tuple[tuple[str, object], ...]:
+    """Return pairs of which the first is a name."""
+    if isinstance(value, list | tuple) and all(
+        isinstance(pair, list | tuple) and len(pair) == 2 and isinstance(pair[0], str)  # noqa: PLR2004
+        for pair in value
+    ):
+        return tuple((name, other) for name, other in value)
+    raise ValueError(f"{quote(value)} are no {kind} (give {remedy})")
