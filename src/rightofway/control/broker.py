@@ -91,7 +91,7 @@ class Broker:
         ----------
         url
             ``mqtt://host``, ``mqtt://user@host:port``, or ``mqtts://…`` with TLS. The password
-            comes from the environment or a file, because others see what a command line has.
+            comes from the environment or a file, because others can read a command line.
         password_file
             A file with the password; by default the environment has it.
         ca_file
@@ -147,7 +147,7 @@ class Broker:
         name
             How its identifier begins; the rest is made up, so that two never have the same.
         will
-            What the broker sends when the connection breaks; it is retained.
+            The message that the broker sends, retained, when the connection breaks.
         takes_latest
             Whether only the latest message of each topic counts, see `LatestMessages`.
         """
@@ -178,8 +178,8 @@ class Broker:
 def check_cancellation() -> None:
     """End the task at hand if it was cancelled, whatever has become of that since.
 
-    `asyncio.wait_for`, by which aiomqtt waits, loses a cancellation in Python 3.11 where what it
-    waits for ends at the same time; and an error of a connection that is closed takes its place.
+    `asyncio.wait_for`, by which aiomqtt waits, loses a cancellation in Python 3.11 where the task
+    it waits for ends at the same time; and an error of a connection that is closed takes its place.
     A loop that sends or connects again would then go on for ever.
 
     In Python 3.11 and 3.12 a task also counts as cancelled after it has left a task group of which

@@ -53,15 +53,15 @@ class ClockedClosures:
     def find_closed(self, robot: int, own: RobotLedger, part: int) -> Closed | None:
         """Return when a part is closed that its robot would drive into; None if it may.
 
-        The robot is expected to arrive not before what is left of its way, and to work and drive
-        on as planned. A part is the edge to a vertex and this vertex until the next arrival.
+        The robot is expected to arrive no earlier than the rest of its way allows, and to work and
+        drive on as planned. A part is the edge to a vertex and this vertex until the next arrival.
 
         Parameters
         ----------
         robot
             Its number.
         own
-            What is known of the robot, as if all before the part was released.
+            The robot's records, as if all before the part was released.
         part
             The part.
         """

@@ -1,7 +1,7 @@
 """Commands to a control that runs: a table of their own in a file beside its journal.
 
 The journal is locked by the process that may send. Any other program writes a row into
-this file, and the control answers in it. A command is in the journal with what it has changed, in
+this file, and the control answers in it. A command is in the journal with its changes, in
 one transaction, so that it is carried out once, also by a control that was killed.
 """
 
@@ -87,7 +87,7 @@ class Commands:
         Parameters
         ----------
         command
-            Its ``kind``, and what belongs to it.
+            Its ``kind``, and the values of this kind.
         """
         query = "INSERT INTO commands (command) VALUES (?)"
         return int(self._database.execute(query, (json.dumps(command),)).lastrowid or 0)
@@ -108,7 +108,7 @@ class Commands:
         number
             Of the command.
         answer
-            What became of it.
+            Its result.
         """
         query = "UPDATE commands SET answer = ? WHERE number = ?"
         self._database.execute(query, (json.dumps(answer), number))

@@ -64,7 +64,7 @@ def drive_demo(
     plan
         A plan that keeps the rules.
     delays
-        Causes of delay, as for `rightofway.simulate`: what each robot does takes it as long as in
+        Causes of delay, as for `rightofway.simulate`: each action of a robot takes as long as in
         run 0 of the seed. None may be for ever.
     seed
         Of the delays.
@@ -86,7 +86,7 @@ def drive_demo(
     watch
         Receives each message as it is sent.
     journal
-        A new file in which what happens is kept, with the simulated time; pages read it, and people
+        A new file that keeps all events with the simulated time; pages read it, and people
         ask for more in the table of commands beside it.
     pace
         How many simulated seconds `wait_until` lets pass in one, for pages; None without pauses.
@@ -124,7 +124,7 @@ def drive_demo(
 
 
 def make_pause(plan: Plan, time_scale: float) -> Callable[[Fraction], None]:
-    """Return what waits until a moment of a plan has come [ticks], for `drive_demo`.
+    """Return a function that waits until a moment of a plan [ticks], for `drive_demo`.
 
     Parameters
     ----------
@@ -263,7 +263,7 @@ class _Demo:
         return self._record.step if self._record else Fraction(0)
 
     def _end_instant(self) -> None:
-        """Tell what is new; keep it."""
+        """Show new events and keep them."""
         for happening in self._story.go_on():
             self._tell(happening.fact)
         self._supervisor.tell_closures()
@@ -331,7 +331,7 @@ class _Demo:
 
     @property
     def _is_as_planned(self) -> bool:
-        """Whether robots have done what they were to do, and people have not changed it."""
+        """Whether robots have done all their work, and people have not changed it."""
         name = self._plan.scenario.roadmap.name
         return self._control.is_done and not any(
             own.is_off

@@ -1,4 +1,4 @@
-"""What a demo keeps: its simulated time, its journal, and what people ask for meanwhile."""
+"""The record of a demo: its simulated time, its journal, and the commands of people."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class SimulatedClock:
 
 
 class DemoRecord:
-    """The journal of a demo, and what people ask for meanwhile."""
+    """The journal of a demo, and the commands of people."""
 
     def __init__(
         self, path: Path, clock: SimulatedClock, pace: float | None, *, stays: bool

@@ -1,4 +1,4 @@
-"""The dispatcher: plans what robots drive next, behind what is released to them.
+"""The dispatcher: plans the next routes of robots, after their released parts.
 
 A control asks its dispatcher after whatever comes in, and gets more to release where laps end. The
 rest is replanned where work changes, or where robots do not go on. A dispatcher keeps nothing that
@@ -48,7 +48,7 @@ class Dispatcher:
     plan
         The plan with which the journal begins.
     laps
-        What robots repeat for ever; None where they drive the plan once.
+        The work that robots repeat for ever; None where they drive the plan once.
     planner, time_limit
         The planner of the rest where jobs change, and its time for one plan [s].
     patience
@@ -93,7 +93,7 @@ class Dispatcher:
 
     @property
     def ledger(self) -> Ledger:
-        """What the journal says."""
+        """The state that the journal describes."""
         return self.control.ledger
 
     @property
@@ -167,16 +167,16 @@ class Dispatcher:
         )
 
     def _build_graph(self, routes: Sequence[RouteToDrive]) -> ReleaseGraph:
-        """Return who waits for whom in the order of planned times, behind what is released."""
+        """Return who waits for whom in the order of planned times, after the released parts."""
         absent = [robot for robot, own in enumerate(self.ledger.robots) if own.is_off]
         committed = self.control.list_committed()
         return build_graph_behind_released(self.plan.scenario, routes, committed, absent)
 
     def _plan_behind(self, planned: Sequence[int]) -> list[Message]:
-        """Plan laps that were added round what is closed; what was planned before goes first.
+        """Plan laps that were added around closures; earlier plans go first.
 
         If all was planned again with each lap, a robot could be planned behind the others' laps
-        each time, and never get there. What was planned before ends with the visits ``planned``.
+        each time, and never get there. Earlier plans end with the visits ``planned``.
         """
         robots, closed = self.ledger.robots, self._list_closed_edges()
         robots = [self._rest.begin_at_stop(own) for own in robots]
@@ -207,7 +207,7 @@ class Dispatcher:
     # --- the rest (splices, rule 10) -------------------------------------------------------------
 
     def list_stops(self) -> list[list[StopToMake]]:
-        """Return the stops that each robot has still to make behind what is released."""
+        """Return the stops that each robot still has to make after its released parts."""
         rows = zip(self.ledger.robots, self.control.list_committed(), strict=True)
         return [list_stops_to_make(own, released) for own, released in rows]
 
@@ -224,7 +224,7 @@ class Dispatcher:
         Parameters
         ----------
         stops
-            What each robot has still to do; None for what the journal says.
+            The stops that each robot still has to make; None for those of the journal.
         withdrawn
             Robot and name of jobs that nobody wants any more.
         notes
@@ -298,7 +298,7 @@ class Dispatcher:
         return self.closures.find_closed(robot, self.ledger.robots[robot], part)
 
     def follow_closures(self) -> list[Message]:
-        """Release what closures of the scenario have kept back.
+        """Release the parts that closures of the scenario have kept back.
 
         The plan has its times and ways from them. The rest is replanned where one without an end
         begins, and where one ends that it was planned round.
@@ -349,7 +349,7 @@ class Dispatcher:
         return self._try(self.replan)
 
     def _leads_over(self, closed: Collection[Edge]) -> bool:
-        """Return whether the way of a robot leads over edges, behind what is released."""
+        """Return whether the way of a robot leads over edges, after its released parts."""
         return bool(closed) and any(
             not set(closed).isdisjoint(pairwise(own.route.stretch(own.released, own.route.end)))
             for own in self.ledger.robots

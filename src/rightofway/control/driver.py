@@ -1,7 +1,7 @@
-"""A control at a broker: takes what robots send, decides, commits once, then sends; for ever.
+"""A control at a broker: receives messages, decides, commits once, then sends; for ever.
 
-The connection may come and go. After each one robots are asked for their states, and what is not
-acknowledged is sent again.
+The connection may come and go. After each one robots are asked for their states, and each message
+that is not acknowledged is sent again.
 """
 
 from __future__ import annotations
@@ -133,7 +133,7 @@ class Driver:
         self._plan, self._is_endless = plan, laps is not None
 
     def _keep(self, entry: Entry) -> None:
-        """Write into the journal what people were told."""
+        """Write the messages to people into the journal."""
         self._journal.commit([entry])
 
     async def run(self, broker: Broker, *, stays: bool = False) -> None:
@@ -177,7 +177,7 @@ class Driver:
 
     @property
     def result(self) -> DriveResult:
-        """What has happened until now; messages and ends are those since the start."""
+        """The result so far; messages and ends are those since the start."""
         robots, now = self.control.ledger.robots, self._read_ticks()
         ends = tuple(map(self._ends.get, range(len(robots))))
         return DriveResult(
@@ -197,7 +197,7 @@ class Driver:
         Parameters
         ----------
         messages
-            What a call of the control has returned.
+            The result of a call of the control.
         """
         self._outbox += self.end.make_letters(messages)
         self._news.set()
@@ -242,7 +242,7 @@ class Driver:
         return self.end.make_letters([*changes, *self._supervisor.obey()])
 
     def _remind(self) -> list[Letter]:
-        """Return what is to be sent again; robots that are silent are lost."""
+        """Return the messages to send again; robots that are silent are lost."""
         if self._metrics is not None:
             self._metrics.survey(self.control)
         letters = self.end.make_letters(self.control.remind())
@@ -254,7 +254,7 @@ class Driver:
         return letters
 
     async def _turn(self, client: aiomqtt.Client, fresh: list[Letter]) -> None:
-        """Take in all that has come; commit what follows, once; then send it."""
+        """Take in all messages; commit the consequences, once; then send them."""
         inbox, self._inbox = [*self._inbox.values()], {}
         self._outbox += fresh
         for _, letter in inbox:

@@ -151,13 +151,13 @@ class ControlEnd:
     Parameters
     ----------
     control
-        Takes states and returns what is to be sent.
+        Takes states and returns the messages to send.
     maps
         The map of each robot, in the order of the plan.
     now
         Returns the time as messages have it.
     notices
-        Receives what is wrong with robots and their messages.
+        Receives faults of robots and of their messages.
     """
 
     def __init__(
@@ -194,7 +194,7 @@ class ControlEnd:
         return robot
 
     def receive(self, letter: Letter) -> list[Letter]:
-        """Take a message of a robot in; return what is to be sent because of it.
+        """Take in a message of a robot; return the messages to send because of it.
 
         Parameters
         ----------
@@ -222,7 +222,7 @@ class ControlEnd:
         self.notices.begin(robot, f"message {name}", begin, Fact("usable messages", topic=name))
 
     def _take(self, robot: int, name: str, letter: Letter) -> list[Letter]:
-        """Take in a message of a robot; return what is to be sent because of it."""
+        """Take in a message of a robot; return the messages to send because of it."""
         if name == "state":
             state = self._read(robot, vda5050.StateMessage, letter).to_robot_state()
             self._heard.add(robot)
@@ -274,7 +274,7 @@ class ControlEnd:
         self.notices.begin(robot, "position", begin, Fact("near node"))
 
     def connect(self, robot: int, *, is_connected: bool, why: Fact | None = None) -> list[Letter]:
-        """Note whether messages reach a robot; return what is to be sent because of it.
+        """Note whether messages reach a robot; return the messages to send because of it.
 
         Parameters
         ----------
@@ -338,7 +338,7 @@ class ControlEnd:
         return letters
 
     def ask_for_factsheets(self) -> list[Letter]:
-        """Return what asks each robot how fast and how large it is."""
+        """Return the messages that ask each robot how fast and how large it is."""
         return self.make_letters(
             InstantAction(robot=robot, action_id=f"factsheet{robot}", kind="factsheetRequest")
             for robot in range(len(self._maps))
@@ -362,7 +362,7 @@ class RobotEnd:
     Attributes
     ----------
     condition
-        What its states say beside its order.
+        The parts of its states that are not about its order.
     lanes
         How the edges of its orders are driven, by their ends.
     """
@@ -382,12 +382,12 @@ class RobotEnd:
         return self._identity.get_topic("order"), self._identity.get_topic("instantActions")
 
     def receive(self, letter: Letter) -> list[Letter]:
-        """Take an order or instant actions in; return what is answered beside its state.
+        """Take in an order or instant actions; return the answers except its state.
 
         Parameters
         ----------
         letter
-            What was sent to it.
+            The message that it received.
 
         Raises
         ------
@@ -441,7 +441,7 @@ class RobotEnd:
         return self._writer.make_letter(self._identity, "connection", body)
 
     def report_factsheet(self) -> Letter:
-        """Return what it is, as it is sent."""
+        """Return its identity, as it is sent."""
         sheet: dict[str, Any] = FACTSHEET
         if self._identity.version >= "3":
             # The schema of the tag 3.0.0 requires this key without an s, that of main with one.

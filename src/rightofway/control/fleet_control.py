@@ -1,10 +1,11 @@
 """Fleet control: releases the routes of a plan to robots by right of way, and keeps a journal.
 
-States of robots come in, orders and instant actions go out; both may be lost, doubled or late. What
-a state proves is committed to the journal, then what is released because of it is committed, then
-it is sent. No clock is read: a timer only calls `remind`, which sends again what was not answered.
+States of robots come in, orders and instant actions go out; both may be lost, doubled or late.
+Facts that a state proves are committed to the journal, then the release that follows is committed,
+then it is sent. No clock is read: a timer only calls `remind`, which sends unanswered messages
+again.
 
-Started again on its journal, a control goes on where it was: it sends again, word for word, what
+Started again on its journal, a control continues: it sends again, word for word, each message that
 was not acknowledged. A robot that has it discards it.
 """
 
@@ -35,7 +36,7 @@ from rightofway.precedence import Arrival, ReleaseGraph
 
 
 class LedgerFailed(Exception):
-    """An entry that is on the disk could not be applied: what robots hold is no longer known."""
+    """An entry on the disk could not be applied: the parts that robots hold are unknown."""
 
 
 UNSOUND = (JournalFailed, LedgerFailed)
@@ -70,7 +71,7 @@ class FleetControl:
     Attributes
     ----------
     ledger
-        What the journal says.
+        The state that the journal describes.
     conditions
         How robots are, by their last states since the start. Conditions are not kept: they hold
         releases back, and never let one go.
@@ -83,7 +84,7 @@ class FleetControl:
     refused
         Robots that the plan does not fit.
     dispatch
-        Is called after whatever comes in, and returns what is to be sent because there is more to
+        Called after each message, returns the messages to send because there is more to
         do; a dispatcher sets it.
     may_drive
         Tells of each robot whether it may drive from a vertex to another one, by their names; a
@@ -155,7 +156,7 @@ class FleetControl:
         self.commit(entry)
 
     def start(self) -> list[Message]:
-        """Return what is to be sent after a start: all that is unanswered, requests for states."""
+        """Return the messages to send after a start: all unanswered ones, requests for states."""
         self.commit({"kind": "started"})
         number, run = self.ledger.starts, self.ledger.run
         asks = [
@@ -193,7 +194,7 @@ class FleetControl:
         Raises
         ------
         InputError
-            If a route changes what is released, a job is lost, robots move round a circle, or one
+            If a route changes a released part, a job is lost, robots move round a circle, or one
             drives where it may not.
         """
         robots, names = self.ledger.robots, self.ledger.names
@@ -212,7 +213,7 @@ class FleetControl:
         return self._release()
 
     def note(self, *entries: Entry) -> list[Message]:
-        """Commit what people have asked for, or what a dispatcher has to remember, and go on.
+        """Commit commands of people, or facts that a dispatcher has to remember, and continue.
 
         Parameters
         ----------
@@ -252,7 +253,7 @@ class FleetControl:
     # --- what comes in ---------------------------------------------------------------------------
 
     def receive(self, robot: int, state: StateReport) -> list[Message]:
-        """Take in a state; return what is to be sent because of it.
+        """Take in a state; return the messages to send because of it.
 
         Parameters
         ----------
@@ -284,7 +285,7 @@ class FleetControl:
         return [*sends, *self._release(sorted({robot, *others})), *self.dispatch()]
 
     def connect(self, robot: int, *, is_connected: bool) -> list[Message]:
-        """Note whether messages reach a robot. A robot that is lost keeps what it holds.
+        """Note whether messages reach a robot. A robot that is lost keeps the parts that it holds.
 
         Parameters
         ----------
@@ -310,7 +311,7 @@ class FleetControl:
         self.refused.add(robot)
 
     def remind(self) -> list[Message]:
-        """Return again what robots have not answered; call it every few seconds."""
+        """Return unanswered messages again; call it every few seconds."""
         robots = [k for k in range(len(self.ledger.robots)) if k not in self._just_sent]
         messages = [message for robot in robots for message in self._list_unanswered(robot)]
         self._reminded |= {message.robot for message in messages}
@@ -379,7 +380,7 @@ class FleetControl:
     # --- what may be released (rules 4 and 5) ----------------------------------------------------
 
     def _release(self, robots: Iterable[int] | None = None) -> list[Message]:
-        """Release what may be released to robots, by default to all; return what is to be sent."""
+        """Release all parts that may be released, by default to all robots; return the messages."""
         sends: list[Message] = []
         for robot in range(len(self.ledger.robots)) if robots is None else robots:
             entry = self._find_step(robot, self.ledger.robots[robot])

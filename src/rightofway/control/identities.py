@@ -42,7 +42,7 @@ IDENTITIES_FORMAT = "rightofway-identities/1"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WorkAction:
-    """What a robot does at a stop, in words of its own.
+    """The action of a robot at a stop, in words of its own.
 
     Attributes
     ----------
@@ -75,7 +75,7 @@ class Identity:
     deviation
         How far from a vertex it may call itself arrived [m]; None for half the clearance.
     work
-        What it does at a stop.
+        Its action at a stop.
     repeats_work
         Whether an update repeats the work of the node that it begins with, as the norm has it. That
         work is finished; robots that do it twice want it left out.
@@ -139,14 +139,14 @@ class _FrameDocument(Document):
 
 
 class _WorkDocument(Document):
-    """What a robot does at a stop."""
+    """The action of a robot at a stop."""
 
     action: str = Field(min_length=1, description="the type of the action")
     parameters: dict[str, Any] = make_optional("parameters of the action")
 
 
 class _SharedDocument(Document):
-    """What holds for all robots, or for one."""
+    """The settings of all robots, or of one."""
 
     manufacturer: TopicPart = make_optional("the maker of the robot, as topics have it")
     version: Literal["2.0.0", "2.1.0", "3.0.0"] = make_optional(

@@ -1,8 +1,8 @@
 """The journal of a control: entries that are on the disk before anything is sent.
 
 One process may write a journal, and any may read it. There is no journal in memory: without a
-journal, nobody knows what robots hold. Each entry has the moment at which it was written, for
-people who look at it later; no release depends on it.
+journal, the resources that robots hold are unknown. Each entry has the moment at which it was
+written, for people who look at it later; no release depends on it.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class JournalFailed(Exception):
 
 
 class Journal(Protocol):
-    """What is only ever appended to."""
+    """A file to which entries are only appended."""
 
     def read_entries(self) -> Iterable[Entry]:
         """Return all entries in their order, from the last snapshot on."""
@@ -261,8 +261,8 @@ class JournalReader:
 class BatchedJournal:
     """A journal whose entries reach the disk together, when `flush` is called.
 
-    What depends on an entry may be sent only after a flush that did not fail. Entries whose flush
-    has failed are tried again by the next one.
+    A message that depends on an entry may be sent only after a flush that did not fail. Entries
+    whose flush has failed are tried again by the next one.
 
     Parameters
     ----------
@@ -306,7 +306,7 @@ class BatchedJournal:
 
 @contextmanager
 def _report_damage(path: Path) -> Iterator[None]:
-    """Report what SQLite cannot read as a fault of the file."""
+    """Report an error of SQLite as a fault of the file."""
     try:
         yield
     except sqlite3.Error as error:

@@ -3,7 +3,7 @@
 A plan repeats in *groups* of robots with one period each: those of its steady state, as chosen
 timetables have them; without a steady state all robots repeat the whole plan. Before a robot comes
 to the end of its route, its group gets the visits of one more period. Visits that robots have left
-are dropped at the same time, so that what a control knows does not grow.
+are dropped at the same time, so that the state of a control does not grow.
 
 Where the rest was replanned, robots come home out of step. Then their group begins again with
 the first visit of the plan, after all that is planned until then.
@@ -140,9 +140,9 @@ class LapsToDrive:
         Parameters
         ----------
         robots
-            What is known of each robot.
+            The records of each robot.
         ahead
-            Visits and jobs that shall be left to each robot beyond what is released, if more than
+            Visits and jobs that shall be left to each robot after its released parts, if more than
             those of a period.
         """
         routes, missed = [own.route for own in robots], dict[int, list[StopToMake]]()
@@ -212,7 +212,7 @@ class LapsToDrive:
 
 
 def _is_short(own: RobotLedger, visits: int, jobs: int) -> bool:
-    """Return whether a robot has less left than a period, beyond what is released.
+    """Return whether a robot has less left than a period, after its released parts.
 
     Replanned laps may take few visits, as where a robot works at home: visits alone do not tell.
     """

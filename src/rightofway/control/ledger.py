@@ -1,4 +1,4 @@
-"""The ledger: what a journal says of each robot; a fold over its entries, and nothing else."""
+"""The ledger: the state of each robot by a journal, a fold over its entries."""
 
 from __future__ import annotations
 
@@ -231,7 +231,7 @@ def refuse_entry(number: int, entry: Entry, error: Exception) -> InputError:
 
 
 def _write_waits(graph: ReleaseGraph, committed: Sequence[int]) -> Waits:
-    """Return who waits for whom behind what is released."""
+    """Return who waits for whom after the released parts."""
     return [
         [list(part), [list(arrival) for arrival in graph.waits(part)]]
         for part in graph.list_waiting_parts()

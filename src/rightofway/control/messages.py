@@ -1,4 +1,4 @@
-"""What control and robots say to each other, whatever the version of the norm.
+"""The messages between control and robots, in any version of the norm.
 
 Nodes of an order are the vertices of a route, with even sequence ids from 0 in each order; the edge
 into a node has the odd id before. All that is sent is released: an order has no horizon.
@@ -22,7 +22,7 @@ class OrderNode:
     sequence_id
         An even number.
     actions
-        Ids of what is to be done there, each once, before the robot goes on.
+        Ids of the actions there, each done once, before the robot drives on.
     """
 
     place: str
@@ -59,7 +59,7 @@ class Order:
         Parameters
         ----------
         document
-            What `to_document` has returned.
+            The result of `to_document`.
         """
         nodes = tuple(
             OrderNode(
@@ -123,7 +123,7 @@ class Condition:
     emergency_stop
         Which emergency stop is pressed; ``NONE`` for none.
     errors
-        What is wrong with it.
+        Its faults.
     wants_more
         Whether it will soon have driven all that it may, and asks for more.
     """
@@ -147,7 +147,7 @@ class Condition:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StateReport:
-    """What a robot says of itself; messages may be lost, doubled, late, and partly wrong.
+    """A robot's message about itself; messages may be lost, doubled, late, and partly wrong.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What a control counts, for Prometheus."""
+"""Counts and gauges of a control, for Prometheus."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What people name: robots, jobs as ``R1/job2``, and places that they close."""
+"""Names that people use: robots, jobs as ``R1/job2``, and places that they close."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def find_robot(ledger: Ledger, name: str) -> int:
     Parameters
     ----------
     ledger
-        What the journal says.
+        The state that the journal describes.
     name
         Its name.
 
@@ -80,9 +80,9 @@ def find_job(
     Parameters
     ----------
     ledger
-        What the journal says.
+        The state that the journal describes.
     stops
-        What each robot has still to do behind what is released.
+        The stops that each robot still has to make after its released parts.
     name
         The job, as ``R1/job2``.
 
@@ -144,5 +144,5 @@ def describe_place(state: str, names: Sequence[str]) -> Fact:
 
 
 def name_place(names: Sequence[str]) -> str:
-    """Return what people call a vertex, or a lane."""
+    """Return the name of a vertex, or a lane, for people."""
     return names[0] if len(names) == 1 else f"the lane between {names[0]} and {names[-1]}"

@@ -1,6 +1,6 @@
-"""The operator: what people ask a control for, each command carried out once.
+"""The operator: commands of people to a control, each carried out once.
 
-A command is committed to the journal with what it changes, in one transaction. So a control that
+A command is committed to the journal with its changes, in one transaction. So a control that
 was killed knows at its next start which commands it has carried out.
 """
 
@@ -57,9 +57,9 @@ UNREACHABLE = 10**12
 
 
 class Operator:
-    """Carries out what people ask for.
+    """Carries out commands of people.
 
-    Each command has a method, which returns what is to be sent.
+    Each command has a method, which returns the messages to send.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ class Operator:
         self._number: int | None = None  # of the command under way, until it is committed
 
     def obey(self, commands: Commands) -> tuple[list[Message], list[tuple[int, Answer]]]:
-        """Carry out what people have asked for, each command once.
+        """Carry out the commands of people, each once.
 
         Parameters
         ----------
@@ -84,7 +84,7 @@ class Operator:
         Returns
         -------
         tuple
-            What is to be sent, and the answers: give them to `Commands.answer` once all is on the
+            The messages to send, and the answers: give them to `Commands.answer` once all is on the
             disk.
         """
         ledger = self._ledger
@@ -121,7 +121,7 @@ class Operator:
         return [], {"done": False, "fact": refusal.as_dict()}
 
     def _obey(self, command: Mapping[str, Any]) -> tuple[list[Message], Answer]:
-        """Carry out a command; return what is to be sent, and the answer."""
+        """Carry out a command; return the messages to send, and the answer."""
         refuse_nameless(command)
         ledger = self._ledger
         kind, lasts, clock = command["kind"], command.get("work"), self._scenario.problem.clock
@@ -232,7 +232,7 @@ class Operator:
         Returns
         -------
         tuple
-            The name of the job, and what is to be sent.
+            The name of the job, and the messages to send.
 
         Raises
         ------
@@ -298,7 +298,7 @@ class Operator:
         name
             The job, as ``R1/job2``.
         at, work
-            What is changed: the name of a vertex or a station, and how long it lasts [ticks].
+            The change: the name of a vertex or a station, and how long it lasts [ticks].
 
         Raises
         ------
@@ -457,7 +457,7 @@ class Operator:
     # --- what all of them do ---------------------------------------------------------------------
 
     def _note(self, *entries: Entry, fact: Fact) -> list[Message]:
-        """Commit what a command changes, with its answer."""
+        """Commit the changes of a command, with its answer."""
         return self._dispatcher.control.note(*entries, *self._answer(fact))
 
     def _replan(

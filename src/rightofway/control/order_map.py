@@ -26,7 +26,7 @@ class Place:
     map_id
         The map of the robot.
     deviation
-        How near the robot has to come [m]; None for what is usual for it.
+        How near the robot has to come [m]; None for its usual value.
     """
 
     point: tuple[float, float]
@@ -62,7 +62,7 @@ Shapes = Mapping[tuple[int, int], tuple[tuple[Point, ...], bool]]
 
 @dataclass(slots=True)
 class _LookedUp:
-    """What was looked up in a map, for all robots that see it alike."""
+    """The places looked up in a map, for all robots that see it alike."""
 
     shapes: Shapes
     places: dict[str, Place | None] = field(default_factory=dict)
@@ -85,7 +85,7 @@ class OrderMap:
     identity
         Has the frame of the robot, its map and how near it has to come.
     looked_up
-        What other robots have looked up that have the same frame and speed.
+        The lookups of other robots that have the same frame and speed.
     """
 
     scenario: Scenario
@@ -102,7 +102,7 @@ class OrderMap:
 
     @property
     def work(self) -> WorkAction:
-        """What the robot does at a stop."""
+        """The action of the robot at a stop."""
         return self.identity.work
 
     @property

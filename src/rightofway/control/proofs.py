@@ -1,6 +1,6 @@
-"""What a state proves: arrivals, finished jobs, acknowledgements, faults (rules 7 and 11).
+"""Facts that a state proves: arrivals, finished jobs, acknowledgements, faults (rules 7 and 11).
 
-States may come late, twice and in any order, with a wrong field. What is proven stays true.
+States may come late, twice and in any order, with a wrong field. A proven fact stays true.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ Report = Callable[[int, Fact], None]
 def list_facts(
     ledger: Ledger, robot: int, state: StateReport, visit: int | None, report: Report
 ) -> Iterator[Entry]:
-    """Yield what a state proves: finished jobs, an arrival at a visit, faults; report faults."""
+    """Yield the facts that a state proves: finished jobs, an arrival, faults; report faults."""
     own = ledger.robots[robot]
     for action_id, status in state.actions.items():
         job = own.jobs_of.get(action_id)
@@ -116,7 +116,7 @@ def _find_fault(ledger: Ledger, robot: int, state: StateReport) -> Fact | None:
 
 
 def _find_fault_of_order(ledger: Ledger, robot: int, state: StateReport) -> Fact | None:
-    """Return what is wrong with an order that is not kept."""
+    """Return the fault of an order that is not kept."""
     if not state.order_id:
         return None
     if not ledger.owns(robot, state.order_id):

@@ -1,4 +1,4 @@
-"""What happened to a fleet that was driven, as pages show it: a fold over the rows of a journal.
+"""The course of a drive, as pages show it: a fold over the rows of a journal.
 
 The journal may be that of a control that runs, in this process or another one, or of one that has
 ended: a page that is live and a replay are given the same rows (decision 15).
@@ -52,7 +52,7 @@ class RowSource(Protocol):
 
 @dataclass(slots=True)
 class _Shown:
-    """What pages know of a robot."""
+    """The values of a robot that pages show."""
 
     route: RouteToDrive | None = None
     arrived: int = -1
@@ -65,7 +65,7 @@ class _Shown:
 
 
 class Recording:
-    """What a journal says of a run, in ticks of its plan.
+    """The course of a run by its journal, in ticks of its plan.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ class Recording:
         return self._first + len(self._rows)
 
     def read_on(self) -> None:
-        """Read what is new in the journal.
+        """Read new rows of the journal.
 
         Raises
         ------
@@ -132,7 +132,7 @@ class Recording:
             self._begin_again()
 
     def take_frame(self, after: int = 0) -> DrivenFrame:
-        """Return what is behind a number of rows.
+        """Return the rows after a number of rows.
 
         Parameters
         ----------
@@ -262,7 +262,7 @@ class Recording:
             alarms[kind] = text
 
     def _compare(self, robot: int, tick: float) -> None:
-        """Show in what a robot differs from what pages know of it."""
+        """Show the values of a robot that have changed since pages got them."""
         own, known = self._ledger.robots[robot], self._shown[robot]
         if own.route is not known.route:
             self._show_route(robot, own.route, known, tick)
@@ -303,7 +303,7 @@ class Recording:
             self._rows.append((tick, robot, "route", visit, vertices))
 
     def _begin_again(self) -> None:
-        """Keep no rows but those that say what is known now."""
+        """Keep only rows that describe the present."""
         self._first = self.count
         tick = self._rows[-1][0]
         self._rows = []

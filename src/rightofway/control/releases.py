@@ -1,7 +1,7 @@
-"""What may be released to a robot (rule 4): parts of its route for which all that excludes is over.
+"""Parts that may be released to a robot (rule 4): nothing that excludes them is held by others.
 
-Who goes first has arrived beyond; no person, closure or stray robot is in the way. What robots say
-of themselves holds releases back in the control, and never lets one go.
+Who goes first has arrived beyond; no person, closure or stray robot is in the way. Messages of
+robots of themselves holds releases back in the control, and never lets one go.
 """
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ def find_last_part(
 ) -> int:
     """Return the last part that may be released now; that which is released if none may.
 
-    What is released ends at a vertex where the robot may stop.
+    Released parts end at a vertex where the robot may stop.
 
     Parameters
     ----------
     ledger
-        What the journal says.
+        The state that the journal describes.
     robot
         A robot that is fit.
     ahead
@@ -74,7 +74,7 @@ def is_in_base(own: RobotLedger, part: int) -> bool:
 
 
 def find_closed(ledger: Ledger, tail: str, head: str) -> Names | None:
-    """Return what is closed so that nobody may enter an edge; None where it is open."""
+    """Return the closure that keeps robots off an edge; None where it is open."""
     return next((names for names, edges in ledger.closed.items() if (tail, head) in edges), None)
 
 

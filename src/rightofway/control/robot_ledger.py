@@ -1,4 +1,4 @@
-"""What a journal says of one robot: where it is, what it holds, its orders and its jobs."""
+"""The state of one robot by a journal: its place, the parts it holds, its orders and jobs."""
 
 from __future__ import annotations
 
@@ -95,14 +95,14 @@ class RobotLedger:
         return self.arrived + held.index(place) if place in held else None
 
     def take_route(self, route: RouteToDrive) -> None:
-        """Go on along another route; drop what is known of jobs and orders before it.
+        """Continue along another route; drop the jobs and orders before it.
 
         A lap of which nothing is left to drive is over.
 
         Parameters
         ----------
         route
-            What is released, and what follows.
+            The released parts and those after them.
         """
         self.laps_done += route.lap_ends.count(self.arrived) - self.route.lap_ends.count(
             self.arrived
@@ -127,12 +127,12 @@ class RobotLedger:
 
     @classmethod
     def of_document(cls, document: Mapping[str, Any]) -> RobotLedger:
-        """Return what a journal has.
+        """Return the entry of a journal.
 
         Parameters
         ----------
         document
-            What `to_document` has returned.
+            The result of `to_document`.
         """
         message, cancel = document["message"], document["cancel"]
         orders = {

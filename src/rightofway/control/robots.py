@@ -92,7 +92,7 @@ class _NetworkRobot:
     draw
         Draws its trouble.
     trouble
-        What can go wrong.
+        Possible faults.
     """
 
     end: RobotEnd
@@ -119,7 +119,7 @@ class _NetworkRobot:
         return self.draw.expovariate(1 / WHILE)
 
     async def carry_out_orders(self) -> None:
-        """Do what orders ask for, one step after the other, connected or not."""
+        """Carry out orders, one step after the other, connected or not."""
         robot = self.end.robot
         while True:
             step = robot.next_step
@@ -189,7 +189,7 @@ class _NetworkRobot:
             self.offline = 0.0
 
     async def listen(self, client: aiomqtt.Client) -> None:
-        """Take in what comes."""
+        """Take in messages."""
         async for message in client.messages:
             payload = message.payload if isinstance(message.payload, bytes) else b""
             with contextlib.suppress(InputError):  # real robots report what they cannot read
@@ -232,7 +232,7 @@ class _Arrivals:
 
 
 def _ignore_cut_cables(loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
-    """Report what goes wrong in the loop, but for sockets that `have_trouble` has shut down."""
+    """Report errors in the loop, but for sockets that `have_trouble` has shut down."""
     if not isinstance(context.get("exception"), OSError):
         loop.default_exception_handler(context)
 
@@ -275,7 +275,7 @@ async def run_robots(
     broker
         Where they are asked.
     trouble
-        What goes wrong, and how often.
+        Which faults occur, and how often.
     seed
         Of the trouble; each robot draws its own.
     time_scale

@@ -20,7 +20,7 @@ class RouteToDrive:
     places
         The name of the vertex of each visit.
     jobs
-        For each visit the names of what is to be done there; each name is in one visit.
+        For each visit the names of the actions there; each name is in one visit.
     first
         The number of the first visit that is kept.
     work
@@ -60,7 +60,7 @@ class RouteToDrive:
         return self.places[self._index(visit)]
 
     def get_jobs(self, visit: int) -> tuple[str, ...]:
-        """Return what is to be done in a visit.
+        """Return the actions of a visit.
 
         Parameters
         ----------
@@ -85,7 +85,7 @@ class RouteToDrive:
         Parameters
         ----------
         begin, end
-            Numbers of visits; what is not kept is left out.
+            Numbers of visits; those not kept are left out.
         """
         return self.places[max(begin - self.first, 0) : max(end - self.first, 0)]
 

@@ -63,7 +63,7 @@ class SimulatedRobot:
 
     @property
     def next_step(self) -> Step | None:
-        """What the next `step` does; None for nothing."""
+        """The action of the next `step`; None for none."""
         if self.is_driving:
             return "arrive"
         if self._waiting:
@@ -72,7 +72,7 @@ class SimulatedRobot:
         return "begin to drive" if self.ahead else None
 
     def report_state(self, condition: Condition = AS_USUAL) -> StateReport:
-        """Return what the robot says of itself.
+        """Return the robot's message about itself.
 
         Parameters
         ----------
@@ -204,7 +204,7 @@ class SimulatedRobot:
                 self._actions[action] = "FAILED"
 
     def _finish_cancel(self) -> None:
-        """End a withdrawal once the robot stands and has ended what it is at."""
+        """End a withdrawal once the robot stands and has ended its action."""
         if self._cancelling is None or self.is_driving:
             return
         running = [action for action in self._waiting if self._actions[action] == "RUNNING"]

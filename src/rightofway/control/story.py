@@ -39,7 +39,7 @@ class Happening(NamedTuple):
 
 @dataclass(slots=True)
 class _Chapter:
-    """What was written of a robot."""
+    """The entries of a robot."""
 
     finished: int = 0
     waits_for: int | None = None  # the part
@@ -54,14 +54,14 @@ class Story:
     Parameters
     ----------
     ledger
-        What is known of the robots.
+        The records of the robots.
     names
         Of the robots.
 
     Attributes
     ----------
     waits
-        How often each robot waited for others at the end of what was released to it.
+        How often each robot waited for others at the end of its released parts.
     """
 
     def __init__(self, ledger: Ledger, names: Sequence[str]) -> None:

@@ -1,4 +1,4 @@
-"""What a control does on its own and for people: keeps closures, passes stuck robots, obeys.
+"""The rounds of a control: it keeps closures, passes stuck robots, obeys commands.
 
 A control at a broker and one of simulated robots share it; each calls it at its own pace.
 """
@@ -62,7 +62,7 @@ class Supervisor:
         self._notices.report(fact, PLAN, is_over=is_over)
 
     def take_turn(self) -> list[Message]:
-        """Return what is to be sent because time has passed; call it every second."""
+        """Return the messages to send because time has passed; call it every second."""
         messages = [*self._dispatcher.follow_closures(), *self._dispatcher.pass_stuck()]
         self.tell_closures()
         self._standstill.look()
@@ -98,7 +98,7 @@ class Supervisor:
             self._notices.report_on(robot, fact)
 
     def obey(self) -> list[Message]:
-        """Carry out what people have asked for; return what is to be sent."""
+        """Carry out the commands of people; return the messages to send."""
         if self._commands is None:
             return []
         messages, answers = self.operator.obey(self._commands)

@@ -145,7 +145,7 @@ class OrderMessage(_Model):
         order
             An order or update.
         order_map
-            Where places and lanes lie for the robot, and what its work is.
+            Where places and lanes lie for the robot, and its work.
         """
         # An update is released when the work of its first node is finished.
         done = set[str]()
@@ -170,7 +170,7 @@ class OrderMessage(_Model):
         return cls(orderId=order.order_id, orderUpdateId=order.update_id, nodes=nodes, edges=edges)
 
     def to_order(self, robot: int) -> Order:
-        """Return what is released of the order.
+        """Return the released part of the order.
 
         Parameters
         ----------
@@ -248,7 +248,7 @@ class _InstantAction(_Model):
 
 
 class InstantActions(_Model):
-    """What is to be done at once."""
+    """An action to do at once."""
 
     actions: tuple[_InstantAction, ...] = Field(strict=False)
 
@@ -259,7 +259,7 @@ class InstantActions(_Model):
         Parameters
         ----------
         action
-            What is to be done.
+            The action.
         """
         kind = action.kind
         return cls(
@@ -267,7 +267,7 @@ class InstantActions(_Model):
         )
 
     def to_instant_actions(self, robot: int) -> tuple[InstantAction, ...]:
-        """Return what is to be done.
+        """Return the action.
 
         Parameters
         ----------
@@ -293,7 +293,7 @@ class _EdgeState(_Model):
 
 
 class ActionState(_Model):
-    """What has become of an action."""
+    """The state of an action."""
 
     actionId: str
     actionStatus: str
@@ -367,7 +367,7 @@ class StateMessage(_Model):
         Parameters
         ----------
         state
-            What the robot says of itself.
+            The robot's message about itself.
         places
             The places of the nodes that are still to be driven.
         instant
@@ -416,7 +416,7 @@ class StateMessage(_Model):
         )
 
     def to_robot_state(self) -> StateReport:
-        """Return what the robot says of itself."""
+        """Return the robot's message about itself."""
         actions = (*self.actionStates, *self.instantActionStates)
         return StateReport(
             order_id=self.orderId,
@@ -475,7 +475,7 @@ class _Physical(_Model):
 
 
 class Factsheet(_Model):
-    """What a robot is: how fast and how large [m/s, m]."""
+    """The kind of a robot: how fast and how large [m/s, m]."""
 
     physicalParameters: _Physical = _Physical()
 
@@ -528,7 +528,7 @@ def write_message(body: Body | Mapping[str, Any], header: Header) -> dict[str, A
     Parameters
     ----------
     body
-        What is said; a mapping has the names of version 2.1.
+        The content; a mapping has the names of version 2.1.
     header
         The head of the message.
     """

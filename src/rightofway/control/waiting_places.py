@@ -33,7 +33,7 @@ class ReachableStops:
     Attributes
     ----------
     start
-        The vertex at the end of what is released to it.
+        The vertex at the end of its released parts.
     stops
         The vertices of these stops, in their order.
     then
@@ -65,7 +65,7 @@ def choose_waiting_places(
     passable
         The vertices and the edges that can be driven now.
     trips
-        What each robot on the floor can reach.
+        The places that each robot on the floor can reach.
     standing
         Robots that do not go on for now: they stay where they start.
 
@@ -102,7 +102,7 @@ class _Floor:
         self._scenario, self._passable = scenario, passable
 
     def exclude(self, robot: int, place: int) -> None:
-        """Take away what a robot excludes that waits at a place."""
+        """Remove the places that a robot excludes while it waits at a place."""
         held = list_held(self._scenario, {robot: [place]})
         self._passable = self._passable.exclude(held.vertices, held.edges)
 

@@ -153,10 +153,10 @@ def drive(
     in_ticks: bool,
     as_json: bool,
 ) -> int:
-    """Have robots drive a PLAN by right of way, and say what happens.
+    """Have robots drive a PLAN by right of way, and report events.
 
     Robots get orders of VDA 5050, whose released part grows when others have left: never by the
-    clock. A late robot makes others wait; nothing collides. What happens goes to standard error,
+    clock. A late robot makes others wait; nothing collides. Events go to standard error,
     the report to standard output. A PLAN of - is standard input.
     """
     if [demo, broker is not None, dry_run, replay].count(True) != 1:
@@ -218,7 +218,7 @@ class _Output:
     as_json: bool
 
     def report(self, result: DriveResult, **details: int) -> None:
-        """Print what robots have done; details are for programs."""
+        """Print the result of a run; details are for programs."""
         if self.as_json:
             from rightofway.report.plan_data import describe_measures
 

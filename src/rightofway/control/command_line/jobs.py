@@ -84,7 +84,7 @@ def jobs(
 ) -> int:
     """Ask the control that drives with a JOURNAL for an ACTION.
 
-    What is released stays, the rest is replanned and judged before it counts. Where no plan is
+    Released parts stay, the rest is replanned and judged before it counts. Where no plan is
     found, the old one stands and the command is refused: exit code 1. A control that does not run
     carries the command out at its next start.
     """

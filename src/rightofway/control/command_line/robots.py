@@ -56,7 +56,7 @@ def robots(
 ) -> None:
     """Simulate the robots of a PLAN at a broker, until interrupted.
 
-    They stand at their homes and do what orders of VDA 5050 ask for, each with a connection of its
+    They stand at their homes and carry out orders of VDA 5050, each with a connection of its
     own. The PLAN gives their homes and how long they work; lengths and speeds are in the orders.
     """
     from rightofway.control.broker import Broker

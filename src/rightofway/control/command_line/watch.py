@@ -46,7 +46,7 @@ class WatchPage:
     plan
         The plan.
     title
-        What the page is about.
+        The subject of the page.
     host, port
         Where it is served.
     """
