@@ -1,4 +1,4 @@
-"""What a plan costs and must cost at least, what robots lose and where, what hurts on a site."""
+"""Costs of a plan and their lower bounds, losses of robots, weaknesses of a site."""
 
 from __future__ import annotations
 

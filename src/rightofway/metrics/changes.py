@@ -61,7 +61,7 @@ class Change:
 
 @checks_arguments
 def find_changes(before: Scenario, after: Scenario) -> tuple[Change, ...]:
-    """Return in what a scenario differs from another one.
+    """Return the differences of a scenario from another one.
 
     Parameters
     ----------

@@ -46,7 +46,7 @@ ROWS_AT_ONCE = 4096
 def list_bookings(
     scenario: Scenario, tracks: Sequence[Track], drive: NDArray[np.int64]
 ) -> BookedPlaces:
-    """Return what a fleet books under the scenario's rules, given its drives out of all visits."""
+    """Return the bookings of a fleet under the scenario's rules, given its drives."""
     start, end = book_times(scenario.problem, tracks, drive)
     vertex = np.concatenate([track.vertices for track in tracks])
     robot = np.repeat(np.arange(len(tracks), dtype=np.int32), [len(track) for track in tracks])
@@ -452,7 +452,7 @@ _Overlap = tuple[int, int, tuple[tuple[VertexId, ...], tuple[VertexId, ...]]]
 def _list_places_booked(
     scenario: Scenario, resources: Resources, robot: int, track: Track, stay: Stays
 ) -> Iterator[tuple[int, _Booking]]:
-    """Yield what one robot books, with the row of the resource: vertices, and edges it drives."""
+    """Yield the bookings of one robot of vertices and driven edges, with their rows."""
     vertices = [VertexId(vertex) for vertex in track.vertices.tolist()]
     edges = scenario.roadmap.find_edges(track.vertices[:-1], track.vertices[1:]).tolist()
     starts = (track.enter - np.append(0, stay.drive[:-1])).tolist()
@@ -467,7 +467,7 @@ def _list_places_booked(
 
 
 def _join_overlaps(times: Iterable[_Overlap]) -> list[_Overlap]:
-    """Join what follows without a gap; the places are those of the first."""
+    """Join overlaps that follow without a gap; the places are those of the first."""
     joined: list[_Overlap] = []
     for start, end, places in sorted(times):
         if joined and start <= joined[-1][1]:

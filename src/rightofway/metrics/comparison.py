@@ -40,7 +40,7 @@ class Comparison:
     robots
         The names of all robots, those of the first plan first.
     changes
-        In what the scenario of each plan differs from that of the first one.
+        Differences of the scenario of each plan from that of the first one.
     """
 
     plans: tuple[Plan, ...]
@@ -117,7 +117,7 @@ def compare(plans: Sequence[Plan], titles: Sequence[str] = ()) -> Comparison:
     plans
         Two or more plans; robots are compared by their names.
     titles
-        What they are called in errors.
+        Their names in errors.
 
     Raises
     ------

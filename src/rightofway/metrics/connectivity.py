@@ -217,7 +217,7 @@ def _walk_depth_first(along: Neighbours, root: int) -> tuple[list[int], list[int
 
 
 def find_separations(ways: Ways, places: Sequence[int]) -> dict[int, set[int]]:
-    """Return what each vertex separates: the places that robots cannot drive to, or back, past it.
+    """Return for each vertex the places that no robot reaches, or leaves, without passing it.
 
     Returns
     -------
@@ -311,7 +311,7 @@ def measure_distances_from(ways: Ways, source: int) -> tuple[list[int], dict[int
 
 
 def _measure_levels_from(ways: Ways, source: int) -> tuple[list[int], dict[int, int]]:
-    """Do what `measure_distances_from` does where all edges have one length: level after level."""
+    """Measure distances from a source where all edges have one length: level after level."""
     distance, order, level, gone = {source: 0}, list[int](), [source], 0
     while level:
         order += level

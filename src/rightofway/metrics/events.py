@@ -30,7 +30,7 @@ class Event(NamedTuple):
     vertex
         Where it is.
     purpose
-        What the robot does there: ``home``, ``work at stop 1, turn``, ``stop 2 of lap 3``,
+        The activity of the robot there: ``home``, ``work at stop 1, turn``, ``stop 2 of lap 3``,
         ``turn``, ``drive through``, ``make room``, or ``wait`` where it only waits.
     enter
         When the visit begins [ticks].
@@ -114,7 +114,7 @@ def _find_holding(losses: Sequence[Loss], tick: int) -> Loss | None:
 
 
 def _list_purposes(scenario: Scenario, robot: int, stay: Stays, n_visits: int) -> dict[int, str]:
-    """Return what a robot does in those visits that are more than a drive through."""
+    """Return the activities of a robot in its visits, except drives through."""
     stages, n_stops = scenario.problem.itineraries[robot].stages, len(scenario.robots[robot].stops)
     ends_at_home = (scenario.robots[robot].ends or scenario.rules.ends) == "home"
     per_lap = n_stops + ends_at_home

@@ -1,4 +1,4 @@
-"""What groups of robots lose to each other in every plan: why no plan is better."""
+"""Losses of groups of robots to each other in every plan: why no plan is better."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ def find_forced_losses(
     alone = [itinerary.weight * cost for itinerary, cost in both]
 
     def measure_loss(robots: Robots) -> Tick:
-        """Return what robots lose at least, alone on the roads [ticks]; 0 where time is up."""
+        """Return the least losses of robots, alone on the roads [ticks]; 0 where time is up."""
         least = _search_together(search, robots, states, deadline).bound
         # A search that did not end gives a lower bound, and tracks are never below the least.
         return Tick(0 if least is None else max(least - sum(alone[robot] for robot in robots), 0))

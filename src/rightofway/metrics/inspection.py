@@ -65,7 +65,7 @@ LISTED_CORRIDORS = 10
 
 @checks_arguments
 def inspect(site: Site) -> Inspection:
-    """Return how large a site is, and what will hurt on it.
+    """Return the size of a site, and its weaknesses.
 
     Parameters
     ----------
@@ -224,7 +224,7 @@ def _find_robots_kept_out(site: Site, ways: Ways, radius: Fraction) -> dict[int,
 
 
 def _find_outside(site: Site, ways: Ways, parts: Sequence[Sequence[int]]) -> Iterator[Finding]:
-    """Yield what cannot be reached or left from the largest part, in connected pieces."""
+    """Yield the connected pieces that cannot be reached or left from the largest part."""
     main = parts[0]
     ahead = set(reach_from(main, ways.along, lambda _: True))
     behind = set(reach_from(main, ways.against, lambda _: True))

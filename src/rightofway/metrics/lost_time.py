@@ -5,8 +5,8 @@ the visit of another robot that goes first is over. Were the wait shorter, the r
 there. Waits that
 follow each other behind one robot, along vertices that both visit in the same order, are joined.
 
-Making room is what a last-exit decomposition of the route cuts out: between two stops, from each
-vertex on, everything up to the robot's last visit of that vertex.
+Drives that make room are those that a last-exit decomposition of the route cuts out: between two
+stops, from each vertex on, everything up to the robot's last visit of that vertex.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ possible, and that robot's visit; the last two are `NOBODY` for a wait without a
 
 
 def compute_lost_time(plan: Plan) -> tuple[LostTime, ...]:
-    """Return what each robot loses to others: how much, where and for which robot.
+    """Return the losses of each robot to others: how much, where and for which robot.
 
     Parameters
     ----------

@@ -88,7 +88,7 @@ def measure(plan: Plan) -> Metrics:
 
 
 def get_own_outcome(plan: Plan) -> Outcome | None:
-    """Return what the planner of a plan has proven; None where the plan itself refutes it.
+    """Return the proof of the planner of a plan; None where the plan itself refutes it.
 
     Files can be changed: a plan below the bound of its outcome refutes it.
     """

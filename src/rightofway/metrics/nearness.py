@@ -1,4 +1,4 @@
-"""What is nearer on a site than its robots are wide: vertices, lanes, walls; and crossings."""
+"""Places of a site that are nearer than its robots are wide: vertices, lanes, walls, crossings."""
 
 from __future__ import annotations
 

@@ -35,13 +35,13 @@ class Finding:
     Attributes
     ----------
     kind
-        What it is about.
+        Its kind.
     severity
         How much it hurts.
     fact
-        What was found, and where.
+        The finding, and its place.
     remedy
-        What to do.
+        The remedy.
     vertices
         Names of the vertices that it concerns.
     robots
@@ -61,7 +61,7 @@ class Finding:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Inspection:
-    """How large a site is, and what will hurt on it.
+    """The size of a site, and its weaknesses.
 
     Attributes
     ----------
@@ -75,7 +75,7 @@ class Inspection:
     sampled
         From how many of how many places shortest routes were counted; None for all.
     findings
-        What will hurt, the worst first.
+        Weaknesses, the worst first.
     """
 
     vertices: int

@@ -1,4 +1,4 @@
-"""What people see on a map beyond the graph: stations, parking places, the picture below.
+"""Things on a map beyond the graph: stations, parking places, the picture below.
 
 No plan depends on it, and roadmaps that differ in it alone are equal.
 """
@@ -29,7 +29,7 @@ class Picture:
     yaw
         Angle by which the picture is turned about that corner, from the site's x to its y [rad].
     opacity
-        From 0 to 1; None for what a page takes by itself.
+        From 0 to 1; None for the default of a page.
     name
         The file as a scenario names it; empty for the picture of a layout, which a plan file does
         not name.
@@ -54,7 +54,7 @@ class Picture:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Drawing:
-    """What people see on a map beyond the graph.
+    """Things on a map beyond the graph.
 
     Attributes
     ----------

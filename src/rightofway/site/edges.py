@@ -49,7 +49,7 @@ class Edge:
     barred
         Types of robots that may not use it.
     surcharge
-        What makes it less liked, not slower [time unit], not negative.
+        A cost that makes it less liked, not slower [time unit], not negative.
     """
 
     tail: str
@@ -95,7 +95,7 @@ class EdgeTable(Sequence[Edge]):
     kinds
         Index into `classes` of each edge; int32, shape (E,).
     classes
-        What edges have in common, in any order; some may be equal.
+        Common properties of edges, in any order; some may be equal.
     """
 
     names: tuple[str, ...]
@@ -218,7 +218,7 @@ def make_roadmap(
     barred
         Names of vertices with the types of robots that may not be there.
     surcharges
-        Names of vertices with what is added to the surcharge of each edge into them [time unit].
+        Names of vertices with the time added to the surcharge of each edge into them [time unit].
     passed
         Names of vertices that robots only drive through.
 

@@ -53,7 +53,7 @@ class LayoutEdge:
 
 
 class LaneKind(NamedTuple):
-    """What lanes have in common beside their length: see `LayoutEdge`."""
+    """Common properties of lanes except their length: see `LayoutEdge`."""
 
     max_speed: Fraction | None
     types: frozenset[str] | None
@@ -81,7 +81,7 @@ class LaneTable(Sequence[LayoutEdge]):
     kind_of_lane
         Index into `kinds` of each lane; int32, shape (L,).
     kinds
-        What lanes have in common beside their length.
+        Common properties of lanes except their length.
     shapes
         How lanes are drawn that are not straight, by index.
     """

@@ -73,7 +73,7 @@ class Level:
     name
         Its name; empty where the file names none.
     vertices, edges, stations, zones
-        What lies on it.
+        The parts of the level.
     links
         Names of tail and head of each lane that leads to another level.
     picture
@@ -137,7 +137,7 @@ class Layout:
     levels
         Its levels, at least one.
     notes
-        What the reader mended or left out, a sentence each.
+        Mendings and omissions of the reader, a fact each.
     """
 
     kind: str
@@ -178,7 +178,7 @@ class LevelRoadmap(NamedTuple):
     chord_error
         How far at most these pieces are from their curves [length unit].
     notes
-        What the roadmap lacks, a sentence each.
+        Omissions of the roadmap, a fact each.
     split
         Its lanes and their pieces.
     """
@@ -428,7 +428,7 @@ def _list_ends(lanes: LaneTable) -> set[int]:
 
 
 def _list_zones(level: Level, vertices: Collection[str], lanes: LaneTable) -> list[NamedZone]:
-    """Return the zones with what the roadmap has of them."""
+    """Return the zones with their vertices and edges on the roadmap."""
     if not level.zones:
         return []
     known = set(map(lanes.get_ends, range(len(lanes))))

@@ -2,7 +2,7 @@
 
 A point looks for others in its own cell and the eight around it. A line stands there as the points
 in the middle of its pieces, so that one grid serves points and lines. Positions are rounded
-numbers; a caller adds to the distance what rounding can cost, and decides exactly.
+numbers; a caller adds the error of rounding to the distance, and decides exactly.
 """
 
 from __future__ import annotations
@@ -120,7 +120,7 @@ class Lines:
         some
             The lines to look at.
         slack
-            What rounding can move a line.
+            The distance by which rounding can move a line.
         """
         point, middle = self._find_pairs(grid, some, len(grid.points))
         of_middle = self.line_of[middle]

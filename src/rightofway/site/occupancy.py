@@ -48,7 +48,7 @@ class Occupancy:
     picture
         The file of the picture, and where it lies [m].
     notes
-        What the reader mended or left out, a sentence each.
+        Mendings and omissions of the reader, a fact each.
     """
 
     pixels: NDArray[np.uint8]
@@ -93,7 +93,7 @@ class Occupancy:
         max_cells
             The most cells to make.
         key
-            What messages call the size of the cells.
+            The name of the size of the cells in messages.
 
         Returns
         -------

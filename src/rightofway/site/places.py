@@ -1,4 +1,4 @@
-"""Places as users write them, found on the roadmap; or a sentence on what is there instead."""
+"""Places as users write them, found on the roadmap; or a sentence on the obstacle there."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ def _read_spot(value: Mapping[object, object]) -> Spot:
 
 
 def _describe_meant(value: object, roadmap: Roadmap | None) -> str:
-    """Return what the user may have meant by a value that is not a place."""
+    """Return the place that the user may have meant by a value that is none."""
     labels = roadmap.labels if roadmap else None
     if is_whole(value) and str(value) in (labels or ()):
         return f"did you mean the vertex '{value}'? write it in quotes"

@@ -69,7 +69,7 @@ class Grid:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EdgeClass:
-    """What edges have in common: how long they are, and who may drive along them how fast.
+    """Common properties of edges: how long they are, and who may drive along them how fast.
 
     Attributes
     ----------
@@ -82,7 +82,7 @@ class EdgeClass:
     barred
         Types of robots that may not drive along the edges.
     surcharge
-        What makes the edges less liked, not slower [time unit].
+        A cost that makes the edges less liked, not slower [time unit].
     max_radius
         The largest radius of robots that may drive along the edges [length unit]; None for any.
     """
@@ -157,7 +157,7 @@ class Roadmap:
     class_of_edge
         Index into `edge_classes` of each edge; int32, shape (E,).
     edge_classes
-        What edges have in common; all differ.
+        Common properties of edges; all differ.
     positions
         Where to draw each vertex, x to the right and y down [length unit]; float64, shape (V, 2).
         On a grid, the exact position is a multiple of the cell's side; on other roadmaps it is the
@@ -179,8 +179,8 @@ class Roadmap:
     lanes
         The lanes that were split into pieces, each direction by itself.
     obstacles
-        What blocked cells of a grid are, in the site's frame before its yaw. Only for people: no
-        plan depends on it, and roadmaps that differ in it alone are equal.
+        The obstacles on blocked cells of a grid, in the site's frame before its yaw. Only for
+        people: no plan depends on it, and roadmaps that differ in it alone are equal.
     drawing
         Stations, parking places, the picture below: only for people, too.
     sides
@@ -257,7 +257,7 @@ class Roadmap:
         return f"Roadmap({self.n_vertices} vertices, {self.n_edges} edges{cut})"
 
     def get_edge_class(self, edge: int) -> EdgeClass:
-        """Return what an edge has in common with others of its class."""
+        """Return the common properties of the edges of its class."""
         if type(edge) not in WHOLE or not 0 <= edge < self.n_edges:
             raise InputError.at("edge", f"{quote(edge)} is none of {self.n_edges} edges")
         return self.edge_classes[int(self.class_of_edge[edge])]

@@ -355,7 +355,7 @@ def _make_winding_fault(
 
 
 def _compute_each(parts: Sequence[Fraction], use: Callable[[Fraction], Fraction]) -> list[Fraction]:
-    """Return what becomes of each part; parts that are one number are worked out once."""
+    """Return the result for each part; parts that are one number are worked out once."""
     part_of = {id(part): part for part in parts}
     result_of = {key: use(part) for key, part in part_of.items()}
     return [result_of[id(part)] for part in parts]

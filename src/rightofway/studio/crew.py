@@ -36,7 +36,7 @@ class WorkerCall:
     task
         Its name in `rightofway.studio.tasks.TASKS`.
     arguments, blobs
-        What the task gets.
+        The input of the task.
     limit
         The time after which its worker is killed [s].
     on_event
@@ -112,7 +112,7 @@ class Worker:
         return message, [await reader.readexactly(size) for size in message["sizes"]]
 
     def kill(self) -> None:
-        """End the process, and what it has started."""
+        """End the process, and the processes that it has started."""
         with contextlib.suppress(ProcessLookupError):
             if hasattr(os, "killpg"):
                 os.killpg(self._process.pid, signal.SIGKILL)

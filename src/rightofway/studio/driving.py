@@ -30,7 +30,7 @@ class Drive:
     number, run
         Its number, and that of the run whose plan it is.
     job, page
-        What drives it, and what shows it.
+        The job that drives it, and the page that shows it.
     state
         ``driving``, until robots have come to their ends (``done``), somebody ends it (``stopped``)
         or it fails.
@@ -46,7 +46,7 @@ class Drive:
     error: dict[str, Any] | None = None
 
     def describe(self) -> dict[str, Any]:
-        """Return what the API says of it."""
+        """Return its entry in the API."""
         return {
             "number": self.number,
             "run": self.run,
@@ -144,7 +144,7 @@ class Drives:
         self._tasks.pop(drive.number, None)
 
     async def stop(self, number: int) -> Drive:
-        """End a drive; its page stays, and plays what has happened."""
+        """End a drive; its page stays, and plays the past."""
         drive = self.get(number)
         if drive.state == "driving":
             drive.state = "stopped"

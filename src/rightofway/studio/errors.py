@@ -1,10 +1,10 @@
-"""What can go wrong between a browser and the studio, beyond the errors of the library.
+"""Errors between a browser and the studio, beyond the errors of the library.
 
 ::
 
     RightOfWayError
     └── StudioError     a request is refused, with a status of HTTP
-        ├── Refused     it asks for what is not there, or not allowed
+        ├── Refused     it asks for something that is not there, or not allowed
         ├── Busy        too much is asked at once
         └── TaskFailed  a worker found a fault, or died
 """
@@ -34,7 +34,7 @@ class StudioError(RightOfWayError):
     Parameters
     ----------
     message
-        What is wrong, with the value, and what to do about it in brackets.
+        The fault, with the value, and the remedy in brackets.
     status
         The status of HTTP.
     """
@@ -46,7 +46,7 @@ class StudioError(RightOfWayError):
 
 
 class Refused(StudioError):
-    """A request asks for what is not there, or not allowed."""
+    """A request asks for something that is not there, or not allowed."""
 
     def __init__(self, message: str, status: int = 400) -> None:
         super().__init__(message, status)

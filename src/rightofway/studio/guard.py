@@ -1,4 +1,4 @@
-"""What a request must be before any route sees it, and the headers of every answer.
+"""Conditions of a request before any route sees it, and the headers of every answer.
 
 Each page that is open in the same browser can send requests to this server. So a request must name
 the server by a name of its own (a foreign page that has its name lead here, by DNS rebinding, names
@@ -92,7 +92,7 @@ class Access:
     hosts
         Names by which the server may be called, with port; None for any.
     token
-        What a request must show; empty for nothing.
+        The token that a request must show; empty for none.
     """
 
     hosts: frozenset[str] | None
@@ -153,7 +153,7 @@ class Guard:
     Parameters
     ----------
     app
-        What requests go to that are not refused.
+        The application that gets the requests that are not refused.
     access
         Who may send requests.
     """
@@ -188,7 +188,7 @@ class Guard:
             await answer.refuse(500, {"kind": "defect", "message": message})
 
     def _refuse_foreign(self, request: _Request) -> None:
-        """Refuse what is not a request of our own page, of a program here, or of an address bar."""
+        """Refuse all requests but those of our own page, a program here, or an address bar."""
         scope, method = request.scope, request.scope["method"]
         if method not in READS | CHANGES:
             raise Refused(

@@ -35,7 +35,7 @@ def zip_text(text: str) -> bytes:
 
 
 def as_error(error: BaseException) -> dict[str, Any]:
-    """Return what went wrong as plain data: ``kind``, ``message``, and details by kind."""
+    """Return an error as plain data: ``kind``, ``message``, and details by kind."""
     match error:
         case InputError():
             listed = [as_fault_data(fault) for fault in error.faults]

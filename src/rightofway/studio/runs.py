@@ -47,7 +47,7 @@ class Run:
     Attributes
     ----------
     number, name, kind, state
-        What it is.
+        Its identity and state.
     request
         The settings of its task: planner, options, time limit, seed.
     source
@@ -57,9 +57,9 @@ class Run:
     created, started, ended
         Seconds since 1970.
     status
-        What the planner did, in words.
+        The status of the planner.
     figures
-        What its plan costs.
+        The costs of its plan.
     error
         Why it failed.
     points
@@ -97,7 +97,7 @@ class Run:
 
 @dataclass(slots=True, kw_only=True)
 class _Work:
-    """What belongs to a run while it is worked on."""
+    """The parts of a run while it is worked on."""
 
     job: WorkerCall | None = None
     wants: Literal["", "stopped", "cancelled"] = ""  # how the user has it end
@@ -133,7 +133,7 @@ class Runs:
         self._saving = asyncio.Lock()
 
     async def start(self) -> None:
-        """Take up what was left when the server went down, and begin to work."""
+        """Resume the runs that were open when the server went down, and begin to work."""
         known = {run_field.name for run_field in fields(Run)}
         for number, data in await asyncio.to_thread(self._store.list_runs):
             run = Run(**{key: value for key, value in data.items() if key in known})

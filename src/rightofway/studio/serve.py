@@ -131,7 +131,7 @@ def serve_watch(
 
 
 def refuse_certificate(certificate: str | None, key: str | None) -> None:
-    """Refuse what TLS cannot be served with; without either there is none."""
+    """Refuse a certificate or key that TLS cannot use; without either there is no TLS."""
     if certificate is None:
         if key is not None:
             raise InputError.at("--key", "is given without --certificate (give both)")

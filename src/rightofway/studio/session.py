@@ -1,4 +1,4 @@
-"""What one studio is made of: a folder, a store, two crews and the runs."""
+"""The parts of one studio: a folder, a store, two crews and the runs."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class Studio:
         self.drives = Drives(*place)
 
     async def start(self) -> None:
-        """Start workers, and take up what was left."""
+        """Start workers, and resume open runs."""
         await asyncio.to_thread(self.workspace.remove_abandoned)
         await self.desk.start()
         await self.planners.start()
@@ -102,7 +102,7 @@ class Studio:
 
 
 def check_json(data: Any) -> bytes:
-    """Return data as JSON; InputError for what JSON has no place for."""
+    """Return data as JSON; InputError for values that JSON cannot hold."""
     check_depth(data)
     try:
         text = json.dumps(data, allow_nan=False)

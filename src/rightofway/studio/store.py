@@ -1,4 +1,4 @@
-"""Drafts and runs in one SQLite file: what is written is on the disk when the call returns."""
+"""Drafts and runs in one SQLite file: each row is on the disk when the call returns."""
 
 from __future__ import annotations
 
@@ -50,9 +50,9 @@ class Store:
     Attributes
     ----------
     trouble
-        Why the file cannot be used, and what to do about it; empty where it can, or for memory.
+        Why the file cannot be used, and the remedy; empty where it can, or for memory.
     is_kept
-        Whether what is written outlives the process.
+        Whether rows outlive the process.
     """
 
     def __init__(self, folder: Path | None) -> None:
@@ -164,7 +164,7 @@ class Store:
     def put_run(
         self, number: int, data: dict[str, Any], blobs: Sequence[tuple[str, bytes]] = ()
     ) -> None:
-        """Keep what is known of a run, and blobs by kind, at once."""
+        """Keep a run, and blobs by kind, in one transaction."""
         with self._run_transaction() as database:
             row = database.execute(
                 "UPDATE runs SET data = ? WHERE id = ?", (json.dumps(data), number)
@@ -223,7 +223,7 @@ def _is_damage(error: Exception) -> bool:
 
 
 def _describe_fault(error: Exception) -> str:
-    """Return why the file cannot be used, and what to do about it."""
+    """Return why the file cannot be used, and the remedy."""
     if _is_damage(error):
         return f"{FILE} is damaged: {error} (move it away, or put back a copy; then start again)"
     if getattr(error, "sqlite_errorcode", 0) & 0xFF == sqlite3.SQLITE_BUSY:

@@ -17,7 +17,7 @@ NAME_IN_FILE = 40
 
 
 def describe_shown(runs: Sequence[Run]) -> list[dict[str, Any]]:
-    """Return what a page says of runs: titles, different for each of several, and seconds."""
+    """Return the texts of a page on runs: titles, different for each of several, and seconds."""
     if len(runs) == 1:
         titles = [runs[0].name or f"{find_file(runs[0])} #{runs[0].number}".lstrip()]
     else:
@@ -47,7 +47,7 @@ def make_file_name(runs: Sequence[Run], ending: str) -> str:
 
 
 def measure_seconds(run: Run) -> float | None:
-    """Return how long a run took; None for what was not planned here."""
+    """Return how long a run took; None for a plan from elsewhere."""
     if run.started is None or run.ended is None or run.ended <= run.started:
         return None
     return round(run.ended - run.started, 3)

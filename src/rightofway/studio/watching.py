@@ -1,7 +1,7 @@
 """Fleets that are driven, for pages that watch them: a page, a stream of frames, orders of people.
 
-What pages are sent is read from the journal of a control, in this process or in another one. What
-people ask for goes into the table of commands beside it.
+Pages get rows of the journal of a control, in this process or in another one. Commands of
+people go into the table of commands beside it.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ class Watched:
     journal
         The file of the journal.
     title
-        What its page is about.
+        The subject of its page.
     address
         Where its page is, as other addresses begin with it.
     takes_orders
@@ -93,7 +93,7 @@ class Watched:
         return await asyncio.to_thread(self._write_page, self._make_feed(is_whole=False))
 
     def _make_feed(self, *, is_whole: bool) -> FeedData:
-        """Return what has happened, or where it comes from."""
+        """Return the events so far, or their source."""
         self._recording.read_on()
         feed: FeedData = {"frame": self._recording.take_frame()}
         if not is_whole:
@@ -117,11 +117,11 @@ class Watched:
 
     @cached_property
     def _payload(self) -> Payload:
-        """What pages know of the plan, the same for all of them."""
+        """The plan as all pages get it."""
         return make_payload(self._plan, title=self._title)
 
     async def stream_frames(self, known: str) -> AsyncGenerator[str]:
-        """Yield what happens as server-sent events.
+        """Yield events as server-sent events.
 
         Parameters
         ----------
@@ -153,7 +153,7 @@ class Watched:
             self._pages -= 1
 
     def give_order(self, order: Mapping[str, Any]) -> Mapping[str, Any]:
-        """Ask the control for something; return what became of it.
+        """Ask the control for something; return its answer.
 
         Parameters
         ----------

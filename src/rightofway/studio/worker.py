@@ -54,7 +54,7 @@ class WorkerLoop:
         self._lock = threading.Lock()
 
     def run(self) -> None:
-        """Do what is ordered, for ever."""
+        """Carry out orders, for ever."""
         from rightofway.io.plan import shape  # noqa: F401 (before the first plan asks for it)
         from rightofway.studio.tasks import TASKS
 
@@ -127,7 +127,7 @@ def confine(*folders: str) -> None:
 def measure_most_memory() -> int:
     """Return the most memory that this process had at once [bytes]; 0 where nobody counts it.
 
-    Linux counts for `getrusage` what the process had that has started this one, too: beside a large
+    Linux adds to `getrusage` the memory of the process that has started this one: beside a large
     server each worker would seem large.
     """
     with contextlib.suppress(OSError, StopIteration):

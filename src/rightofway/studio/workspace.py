@@ -174,7 +174,7 @@ class Workspace:
                 remove_abandoned(Path(entry.path))
 
     def _visit_folders(self) -> Iterator[list[os.DirEntry[str]]]:
-        """Yield what is in each folder, except symbolic links; folders near the top come first."""
+        """Yield the entries of folders except symbolic links; folders near the top come first."""
         folders = deque([self.folder])
         while folders:
             try:

@@ -1,7 +1,7 @@
 """Views of a plan: a page that plays it, a picture, a film, tables.
 
 Page and pictures share `palette` (colours), `placement` (where vertices are drawn) and `motion`
-(what each robot does at an instant). Page and pictures are imported when they are first used.
+(the activity of each robot at an instant). Page and pictures are imported when they are first used.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What each robot does at any instant of a plan, and between which vertices it is drawn.
+"""The activity of each robot at any instant of a plan, and the vertices between which it is drawn.
 
 A robot stays at *u* for the edge's ticks and then, at one instant, is at *w*. It is drawn on the
 edge during those ticks: a visit is work, turning, waiting, and at last the drive.
@@ -15,7 +15,7 @@ from rightofway.model import NEVER, Plan, Stage, Tick
 
 
 class Phase(Enum):
-    """What a robot does."""
+    """The activity of a robot."""
 
     DRIVE = "drive"
     WAIT = "wait"
@@ -36,7 +36,7 @@ class Moment:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Trip:
-    """A track with what the robot does during each visit."""
+    """A track with the activities of the robot during each visit."""
 
     vertices: tuple[int, ...]  # as they are drawn
     enter: tuple[int, ...]  # when each visit begins [ticks]

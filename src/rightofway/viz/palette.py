@@ -29,7 +29,7 @@ DARK_INK_FROM = 0.25
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Theme:
-    """What everything but the robots is drawn in, as ``#rrggbb``.
+    """Colours of everything but the robots, as ``#rrggbb``.
 
     Attributes
     ----------
@@ -38,16 +38,16 @@ class Theme:
     wall, line
         Blocked cells, and hairlines.
     ink, muted
-        Text, the moment shown and what is chosen; and text of less weight. Both are readable on
-        paper, panel and floor. Hues belong to robots, and to what they do.
+        Text, the moment shown and chosen things; and text of less weight. Both are readable on
+        paper, panel and floor. Hues belong to robots, and to their activities.
     focus
-        Round what the keyboard is on.
+        Around the element that has the keyboard.
     heat_low, heat_high
         The ends of the heat map.
     drive, wait, work, turn
-        What robots do, where they are counted.
+        Activities of robots, where they are counted.
     held, broken
-        What befalls them on the floor.
+        Troubles on the floor.
     lit, lit_edge
         The bottleneck, and the line round it.
     zone

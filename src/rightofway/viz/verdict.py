@@ -1,4 +1,4 @@
-"""What the judge finds in a plan that is shown: a page or a picture of a faulty plan says so."""
+"""Faults of a plan that is shown: a page or a picture of a faulty plan says so."""
 
 from __future__ import annotations
 

@@ -3,7 +3,7 @@
 import type { PhraseData } from "../../viz/page/assets/payload.d.ts";
 import type { ComparisonPayload, ScenarioDocument, SitePayload } from "./types.js";
 
-/** What a studio is. */
+/** A studio: its version, folder and limits. */
 export interface About {
   version: string;
   folder: string;
@@ -20,12 +20,12 @@ export interface Because {
   phrase: PhraseData;
 }
 
-/** What happens to robots that go by the clock alone. */
+/** Collisions of robots that drive by the clock alone. */
 export interface ByClock {
   share_of_runs: number;
 }
 
-/** In what the scenario of a run differs from that of a run before it. */
+/** Differences of the scenario of a run from that of a run before it. */
 export interface Changes {
   before: number | null;
   changes: Array<ScenarioChange>;
@@ -68,7 +68,7 @@ export interface Compared {
   comparison: ComparisonPayload;
 }
 
-/** What a plan costs, beside another one. */
+/** Costs of a plan, compared with another one. */
 export interface ComparedFigures {
   flowtime: number;
   makespan: number;
@@ -102,7 +102,7 @@ export interface CurvePiece {
   circuit: number;
 }
 
-/** The period as functions of what can be changed. */
+/** The period as functions of parameters. */
 export interface Curves {
   exact: boolean;
   why: string;
@@ -135,13 +135,13 @@ export interface DealtRobot {
   work: number | string;
 }
 
-/** Notations of delays, and what each means. */
+/** Notations of delays, and the meaning of each. */
 export interface DelayChoices {
   default: string;
   examples: Record<string, string>;
 }
 
-/** What becomes of a plan with delays. */
+/** Results of a plan with delays. */
 export interface DelaysReport {
   units: UnitNames;
   tick: number | string;
@@ -234,7 +234,7 @@ export interface ExampleList {
   examples: Array<ExampleEntry>;
 }
 
-/** What was found, and what to do. */
+/** A finding and its remedy. */
 export interface FactAndRemedy {
   fact: PhraseData;
   remedy: PhraseData;
@@ -294,7 +294,7 @@ export interface Glance {
   picture: string;
 }
 
-/** Where a robot is at each time of a table, and what happens to it there. */
+/** Where a robot is at each time of a table, and its marks there. */
 export interface GroupRow {
   robot: string;
   kind: "planned" | "list 1" | "list 2";
@@ -307,7 +307,7 @@ export interface Inlined {
   document: ScenarioDocument;
 }
 
-/** What a plan has kept of the plan that it was made from: robots. */
+/** How many robots a plan has kept of the plan that it was made from. */
 export interface Kept {
   routes: number;
   tracks: number;
@@ -340,12 +340,12 @@ export interface LapGroup {
   curves: Curves | null;
 }
 
-/** What laps in a new order achieve. */
+/** Results of laps in a new order. */
 export interface LapsAnswer {
   groups: Array<LapGroup>;
 }
 
-/** What a fleet that repeats its trips achieves. */
+/** Results of a fleet that repeats its trips. */
 export interface LapsReport {
   units: UnitNames;
   groups: Array<LapGroup>;
@@ -365,7 +365,7 @@ export interface LatenessFigures {
   max: number;
 }
 
-/** What the server takes at most. */
+/** Limits of the server. */
 export interface Limits {
   body: number;
   seconds: number;
@@ -496,7 +496,7 @@ export interface PlacedDocument {
   folder: string;
 }
 
-/** What a plan costs [ticks]. */
+/** Costs of a plan [ticks]. */
 export interface PlanFigures {
   flowtime: number;
   makespan: number;
@@ -518,7 +518,7 @@ export interface PlanFound {
   figures: PlanFigures;
 }
 
-/** What `plan --json` reports of a plan; the page shows the plan itself. */
+/** The report of `plan --json`; the page shows the plan itself. */
 export interface PlanSummary {
 }
 
@@ -673,7 +673,7 @@ export interface ScenarioChange {
   text: string;
 }
 
-/** What will hurt on a map. */
+/** Weaknesses of a map. */
 export interface SiteFinding {
   kind: string;
   severity: "error" | "warning" | "note";
@@ -702,7 +702,7 @@ export interface Survey {
   identifies?: boolean;
 }
 
-/** What an editor shows at each change. */
+/** The view of an editor after each change. */
 export interface SurveyData {
   ok: boolean;
   faults: Array<DocumentFault>;

@@ -1,4 +1,4 @@
-"""What answers of the API hold, as the page reads them: its types are written from these.
+"""Answers of the API, as the page reads them: its types are written from these.
 
 Answers are plain data that workers and stores make. Nothing here is checked while the studio runs;
 tests compare answers of a studio with these types, key for key.
@@ -81,7 +81,7 @@ class RefusalData(TypedDict):
 
 
 class Limits(TypedDict):
-    """What the server takes at most."""
+    """Limits of the server."""
 
     body: int
     seconds: int
@@ -89,7 +89,7 @@ class Limits(TypedDict):
 
 
 class About(TypedDict):
-    """What a studio is."""
+    """A studio: its version, folder and limits."""
 
     version: str
     folder: str
@@ -202,14 +202,14 @@ class FigureTexts(TypedDict):
 
 
 class Kept(TypedDict):
-    """What a plan has kept of the plan that it was made from: robots."""
+    """How many robots a plan has kept of the plan that it was made from."""
 
     routes: int
     tracks: int
 
 
 class PlanFigures(TypedDict):
-    """What a plan costs [ticks]."""
+    """Costs of a plan [ticks]."""
 
     flowtime: int
     makespan: int
@@ -327,14 +327,14 @@ class Inlined(TypedDict):
 
 
 class FactAndRemedy(TypedDict):
-    """What was found, and what to do."""
+    """A finding and its remedy."""
 
     fact: Phrase
     remedy: Phrase
 
 
 class SiteFinding(TypedDict):
-    """What will hurt on a map."""
+    """Weaknesses of a map."""
 
     kind: str
     severity: Literal["error", "warning", "note"]
@@ -347,7 +347,7 @@ class SiteFinding(TypedDict):
 
 
 class SurveyData(TypedDict):
-    """What an editor shows at each change."""
+    """The view of an editor after each change."""
 
     ok: bool
     faults: list[DocumentFault]
@@ -413,7 +413,7 @@ class PlannerList(TypedDict):
 
 
 class DelayChoices(TypedDict):
-    """Notations of delays, and what each means."""
+    """Notations of delays, and the meaning of each."""
 
     default: str
     examples: dict[str, str]
@@ -463,7 +463,7 @@ class LossList(TypedDict):
 
 
 class GroupRow(TypedDict):
-    """Where a robot is at each time of a table, and what happens to it there."""
+    """Where a robot is at each time of a table, and its marks there."""
 
     robot: str
     kind: Literal["planned", "list 1", "list 2"]
@@ -498,14 +498,14 @@ class ScenarioChange(TypedDict):
 
 
 class Changes(TypedDict):
-    """In what the scenario of a run differs from that of a run before it."""
+    """Differences of the scenario of a run from that of a run before it."""
 
     before: int | None
     changes: list[ScenarioChange]
 
 
 class ComparedFigures(PlanFigures):
-    """What a plan costs, beside another one."""
+    """Costs of a plan, compared with another one."""
 
     time: dict[str, float]
 
@@ -561,7 +561,7 @@ class CircuitData(TypedDict):
 
 
 class Curves(TypedDict):
-    """The period as functions of what can be changed."""
+    """The period as functions of parameters."""
 
     exact: bool
     why: str
@@ -584,13 +584,13 @@ class LapGroup(TypedDict):
 
 
 class LapsAnswer(TypedDict):
-    """What laps in a new order achieve."""
+    """Results of laps in a new order."""
 
     groups: list[LapGroup]
 
 
 class LapsReport(TypedDict):
-    """What a fleet that repeats its trips achieves."""
+    """Results of a fleet that repeats its trips."""
 
     units: UnitNames
     groups: list[LapGroup]
@@ -623,7 +623,7 @@ class LatenessData(TypedDict):
 
 
 class ByClock(TypedDict):
-    """What happens to robots that go by the clock alone."""
+    """Collisions of robots that drive by the clock alone."""
 
     share_of_runs: float
 
@@ -644,7 +644,7 @@ class Ranks(TypedDict):
 
 
 class DelaysReport(TypedDict):
-    """What becomes of a plan with delays."""
+    """Results of a plan with delays."""
 
     units: UnitNames
     tick: Exact
@@ -659,7 +659,7 @@ class DelaysReport(TypedDict):
 
 
 class PlanSummary(TypedDict):
-    """What `plan --json` reports of a plan; the page shows the plan itself."""
+    """The report of `plan --json`; the page shows the plan itself."""
 
 
 Report = LapsReport | DelaysReport | PlanSummary

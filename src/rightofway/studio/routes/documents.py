@@ -135,7 +135,7 @@ async def save_document(studio: InStudio, path: FilePath, save: Save) -> dict[st
 
 @router.post("/validate", tags=["documents"])
 async def validate(studio: InStudio, placed: Placed) -> dict[str, Any]:
-    """List the faults of a document, each with its place, or what the reader notes."""
+    """List the faults of a document, each with its place, or the notes of the reader."""
     result, _ = await studio.ask(
         "validate", document=placed.document, folder=studio.place(placed.folder)
     )
@@ -144,7 +144,7 @@ async def validate(studio: InStudio, placed: Placed) -> dict[str, Any]:
 
 @router.post("/inspect", tags=["documents"])
 async def inspect(studio: InStudio, placed: Placed) -> dict[str, Any]:
-    """List what will hurt on the floor of a document, as `rightofway inspect --json` does."""
+    """List the weaknesses of the floor of a document, as `rightofway inspect --json` does."""
     result, _ = await studio.ask(
         "inspect", document=placed.document, folder=studio.place(placed.folder)
     )
@@ -153,7 +153,7 @@ async def inspect(studio: InStudio, placed: Placed) -> dict[str, Any]:
 
 @router.post("/survey", tags=["documents"], response_class=Response)
 async def survey(studio: InStudio, request: Request, survey: Survey) -> Response:
-    """Return what an editor shows at each change: faults, notes, map, robots, findings."""
+    """Return the view of an editor after each change: faults, notes, map, robots, findings."""
     arguments = survey.model_dump() | {"folder": studio.place(survey.folder)}
     _, blobs = await studio.ask("survey", **arguments)
     return answer_zipped(request, blobs[0])
@@ -205,7 +205,7 @@ def get_draft(studio: InStudio, name: str) -> dict[str, Any]:
 
 @router.put("/drafts/{name:path}", tags=["drafts"])
 def put_draft(studio: InStudio, name: str, draft: DraftBody) -> dict[str, Any]:
-    """Keep what somebody draws; when the answer comes, it is on the disk."""
+    """Keep a drawing; when the answer comes, it is on the disk."""
     if not (0 < len(name) <= 500 and name.isprintable()):  # noqa: PLR2004
         remedy = "give from 1 to 500 characters that can be printed"
         raise Refused(f"{name[:50]!r} is no name of a draft ({remedy})")

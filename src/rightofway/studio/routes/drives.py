@@ -1,4 +1,4 @@
-"""Fleets that are driven: their pages, what happens to them, orders of people."""
+"""Fleets that are driven: their pages, their events, orders of people."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ async def get_drive(studio: InStudio, number: DriveNumber) -> dict[str, Any]:
 
 @api.post("/drives/{number}/stop")
 async def stop_drive(studio: InStudio, number: DriveNumber) -> dict[str, Any]:
-    """End a drive at once; its page plays what has happened."""
+    """End a drive at once; its page plays the past."""
     return (await studio.drives.stop(number)).describe()
 
 
@@ -70,7 +70,7 @@ async def get_page(request: Request, number: int) -> HTMLResponse:
 
 @router.get("/drives/{number}/stream")
 async def get_stream(request: Request, number: int) -> StreamingResponse:
-    """Send what happens as server-sent events, from the last one on that the page has."""
+    """Send events as server-sent events, from the last one on that the page has."""
     known = request.headers.get("last-event-id", request.query_params.get("known", ""))
     frames = _find_watched(request, number).stream_frames(known)
     return StreamingResponse(frames, media_type="text/event-stream")

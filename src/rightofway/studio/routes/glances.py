@@ -1,4 +1,4 @@
-"""What a list of files shows of each, and the examples of the package."""
+"""Glances at files in a list, and the examples of the package."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ async def get_glance(
     name: Named,
     dark: Annotated[bool, Query(description="whether the picture is for a dark page")] = False,
 ) -> Response:
-    """Return what a file, draft or example is: kind, robots, extent, and a picture of its map.
+    """Return a glance at a file, draft or example: kind, robots, extent, and a picture of its map.
 
     Of a file that cannot be read, ``trouble`` says why; a list has no such faults. The answer is
     kept until the file changes.
@@ -70,7 +70,7 @@ async def get_glance(
 
 
 def _read_question(studio: Studio, source: Source, name: str) -> tuple[dict[str, Any], object]:
-    """Return the arguments of the task, and what changes with what is looked at."""
+    """Return the arguments of the task, and a mark of the version that is looked at."""
     if source == "files":
         stat = studio.workspace.find_existing(name).stat()
         return {"path": name}, (stat.st_mtime_ns, stat.st_size)

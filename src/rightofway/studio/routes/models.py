@@ -1,4 +1,4 @@
-"""What requests hold and answers return: pydantic, at this border only."""
+"""Requests and answers as models of pydantic, at this border only."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def answer_zipped(
 
 
 class Model(BaseModel):
-    """Refuses what it does not know."""
+    """Refuses unknown keys."""
 
     model_config = ConfigDict(extra="forbid")
 

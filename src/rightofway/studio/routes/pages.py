@@ -103,7 +103,7 @@ def _read_text(path: str) -> str:
 @about.get("", tags=["studio"])
 @about.get("/", include_in_schema=False)
 def describe(studio: InStudio) -> dict[str, Any]:
-    """Return what this studio is: its version, its folder, the file to open first, its limits."""
+    """Describe this studio: its version, its folder, the file to open first, its limits."""
     return {
         "version": __version__,
         "folder": studio.workspace.folder.name,

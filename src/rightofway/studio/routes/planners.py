@@ -1,4 +1,4 @@
-"""Planners with their options, and what laps, delays and exports can be."""
+"""Planners with their options, and the choices for laps, delays and exports."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a run has made: what plays, pages, files, the document; and plans compared."""
+"""Results of a run: playback, pages, files, the document; and plans compared."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ async def get_run_payload(
         int | None, Query(ge=0, description="run of a simulation to play, from 0")
     ] = None,
 ) -> Response:
-    """Return what the viewer plays: the plan, or the plan so far, perhaps beside others."""
+    """Return the playback of the viewer: the plan, or the plan so far, perhaps beside others."""
     run = studio.runs.get(number)
     if replay is not None:
         content = await _make_replay(studio, run, replay)
@@ -68,7 +68,7 @@ async def get_run_payload(
 
 
 async def _make_replay(studio: Studio, run: Run, replay: int) -> bytes:
-    """Return what the viewer plays of one run of a simulation."""
+    """Return the playback of one run of a simulation."""
     most = run.request.get("runs", 0)
     if replay >= most:
         raise Refused(f"run {run.number} has no run {replay} to play (it made {most})", 404)
@@ -190,7 +190,7 @@ async def get_run_command(studio: InStudio, number: RunNumber) -> dict[str, Any]
 async def compare(
     studio: InStudio, run: Annotated[list[int], Query(min_length=2, max_length=MAX_COMPARED)]
 ) -> dict[str, Any]:
-    """Compare plans: what each costs, when each robot completes, what their scenarios change.
+    """Compare plans: their costs, when each robot completes, changes of their scenarios.
 
     Robots are the same where their names are. ``comparison`` counts all times in one tick.
     """
@@ -202,7 +202,7 @@ async def compare(
 
 @router.get("/runs/{number}/changes", tags=["plans"])
 async def get_run_changes(studio: InStudio, number: RunNumber) -> dict[str, Any]:
-    """Return in what the scenario of a run differs from that of the run ``before``.
+    """Return the differences of the scenario of a run from that of the run ``before``.
 
     That is the run that it was made from, or the last one before it of the same file; null without
     one.

@@ -1,4 +1,4 @@
-"""What workers can do, by name: a task takes ``emit``, blobs and arguments, and returns a result.
+"""Tasks of workers, by name: a task takes ``emit``, blobs and arguments, and returns a result.
 
 The result is plain data, with blobs after it where there are some. Faults are raised as everywhere
 in the library; `rightofway.studio.messages` turns them into data.

@@ -1,4 +1,4 @@
-"""Questions about a plan: why a robot waits, and what if it went first."""
+"""Questions about a plan: why a robot waits, and how the plan would be if it went first."""
 
 from __future__ import annotations
 
@@ -128,7 +128,7 @@ def _list_decisions_behind(plan: Plan, loss: Loss) -> list[int]:
 def flip(
     _emit: Emit, blobs: Blobs, *, waits: str, goes_first: str, tick: int, time_limit: float
 ) -> Result:
-    """Return the plan in which a robot that waits goes first, judged, and what it costs."""
+    """Return the plan in which a robot that waits goes first, judged, and its costs."""
     plan = read(blobs[0])
     pair = _index(plan, "waits", waits), _index(plan, "goes_first", goes_first)
     answer = flip_right_of_way(plan, *pair, Tick(tick), time_limit=time_limit)

@@ -44,7 +44,7 @@ Result = tuple[Any, ...]
 def open_file(_emit: Emit, _blobs: Blobs, *, path: str, count: int | None = None) -> Result:
     """Open a file: a scenario as its document, faults and all; a layout as the map of a new one.
 
-    Robots of a new one are for the user to place. A plan is a blob, with what it costs.
+    Robots of a new one are for the user to place. A plan is a blob, with its costs.
     """
     file = Path(path)
     if is_layout(file):
@@ -75,7 +75,7 @@ def _make_document(kind: str, loaded: Loaded) -> dict[str, Any]:
 
 
 def _read_with_faults(file: Path) -> dict[str, Any]:
-    """Return a scenario that has faults, to be mended in the studio; what is none is refused."""
+    """Return a scenario that has faults, to be mended in the studio; other files are refused."""
     with open_document(file) as document:
         if isinstance(document, dict) and isinstance(document.get("map"), dict):
             return {"kind": "scenario", "document": as_plain(document), "notes": []}
@@ -84,7 +84,7 @@ def _read_with_faults(file: Path) -> dict[str, Any]:
 
 
 def read_document(file: Path) -> Any:
-    """Return what stands in a YAML or JSON file, as plain data."""
+    """Return the content of a YAML or JSON file, as plain data."""
     with open_document(file) as document:
         return as_plain(document)
 
@@ -114,7 +114,7 @@ def _name_faults(faults: Sequence[InputFault], document: Any) -> list[InputFault
 
 
 def validate_document(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) -> Result:
-    """Return the faults of a document, or what its reader notes."""
+    """Return the faults of a document, or the notes of its reader."""
     try:
         loaded = load_document(document, folder)
     except InputError as error:
@@ -125,7 +125,7 @@ def validate_document(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str)
 
 
 def inspect_document(_emit: Emit, _blobs: Blobs, *, document: Any, folder: str) -> Result:
-    """Return what will hurt on the floor of a document, as `rightofway inspect --json` has it."""
+    """Return the weaknesses of the floor of a document, as `rightofway inspect --json` has it."""
     loaded = load_document(document, folder)
     sites = make_sites(loaded.scenario, loaded.notes)
     [(_, site)] = sites.sites
@@ -169,7 +169,7 @@ def compute_digest(scenario: Scenario) -> str:
 
 
 def compute_figures(plan: Plan) -> dict[str, Any]:
-    """Return what a plan costs, in ticks and as people read it, and what it kept of an old plan.
+    """Return the costs of a plan, in ticks and for people, and how much of an old plan it kept.
 
     ``scenario`` is the digest of the scenario that it is of, ``faults`` how many the judge finds.
     """

@@ -1,4 +1,4 @@
-"""What an editor shows of a document at each change, faults or not."""
+"""The view of a document in an editor after each change, faults or not."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def survey_document(
     inspects: bool = True,
     identifies: bool = False,
 ) -> Result:
-    """Return faults, notes, the map with all robots that have no fault, and what will hurt on it.
+    """Return faults, notes, the map with all robots that have no fault, and its weaknesses.
 
     A robot of the site has the `index` that it has in the document. The site is null where the map
     itself has faults. With `identifies`, ``scenario`` is the digest that plans of this scenario
@@ -118,7 +118,7 @@ def read_readable(
 ) -> tuple[Loaded | None, list[int], Sequence[InputFault]]:
     """Return the scenario of a document, which robots it has, and the faults of the document.
 
-    It is without what has faults, and None where the map has some.
+    It is without the parts that have faults, and None where the map has some.
     """
     try:
         return load_document(document, folder), list(_list_robots(document)), ()
@@ -146,7 +146,7 @@ def _list_robots(document: dict[str, Any]) -> range:
 def _read_without(
     document: dict[str, Any], folder: str, faults: Sequence[InputFault]
 ) -> tuple[Loaded | None, list[int]]:
-    """Return the scenario without what has faults, and which robots it has; or None, and none.
+    """Return the scenario without its faulty parts, and which robots it has; or None, and none.
 
     A robot whose home is right stays, without the keys that have faults: it is seen where it is.
     """

@@ -24,9 +24,9 @@ from rightofway.viz.palette import DARK, LIGHT
 def glance_at(
     _emit: Emit, _blobs: Blobs, *, path: str = "", document: Any = None, dark: bool = False
 ) -> Result:
-    """Return what is at a path of the folder, or in a document; its picture is a blob.
+    """Return a glance at a path of the folder, or at a document; its picture is a blob.
 
-    A scenario with faults is looked at without what has faults.
+    A scenario with faults is shown without its faulty parts.
     """
     kind, glance = (
         _read_file(Path(path)) if document is None else ("scenario", _read_document(document, "."))

@@ -24,7 +24,7 @@ SHARE_OF_SENDING = 0.1
 
 
 class PlanningProgress:
-    """Sends what a planner reaches, and keeps its best plan.
+    """Sends the progress of a planner, and keeps its best plan.
 
     Attributes
     ----------
@@ -43,7 +43,7 @@ class PlanningProgress:
         self._emit({"message": str(message), "seconds": self._measure_seconds()})
 
     def take_plan(self, plan: Plan) -> None:
-        """Send what a plan costs, and the plan too where that does not take too much time."""
+        """Send the costs of a plan, and the plan too where that does not take too much time."""
         if not give_verdict(plan).ok:
             return  # only plans that the judge has passed are shown
         self.best, seconds = plan, self._measure_seconds()
@@ -100,7 +100,7 @@ def _run_search(emit: Emit, search: Callable[[dict[str, Any]], Plan]) -> Result:
 
 
 def list_choices(_emit: Emit, _blobs: Blobs) -> Result:
-    """Return rules of laps, notations of delays, formats of other programs, and what they mean."""
+    """Return rules of laps, notations of delays, formats of other programs, and their meanings."""
     from rightofway.cyclic import RULES, TIMETABLE
     from rightofway.execution import CAUSES, DEFAULT_DELAYS
 

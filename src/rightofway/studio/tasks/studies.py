@@ -1,4 +1,4 @@
-"""Studies of a fleet: how it repeats in laps, and what becomes of a plan with delays."""
+"""Studies of a fleet: how it repeats in laps, and how a plan fares with delays."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ def make_laps_if(
 ) -> Result:
     """Let robots repeat their trips with another speed, work time or headway, in a new order.
 
-    The answer has the groups of `rightofway laps --json`, without what is computed visit by visit.
+    The answer has the groups of `rightofway laps --json`, without the values of single visits.
     The map stays as it is, also where the cells of a floor depend on the speeds.
     """
     scenario = load_document(document, folder).scenario
@@ -180,7 +180,7 @@ def simulate(
 def replay_run(
     _emit: Emit, blobs: Blobs, *, run: int, delays: Sequence[str] = (), seed: int = 0, **policy: Any
 ) -> Result:
-    """Return what the viewer plays of one run of a simulation."""
+    """Return the playback of one run of a simulation."""
     from rightofway.execution import DEFAULT_DELAYS, replay
 
     plan = parse_plan(parse_json(blobs[0].decode()))

@@ -31,7 +31,7 @@ Result = tuple[Any, ...]
 
 
 class Shown(TypedDict):
-    """What a page says of a plan beside what is in its file."""
+    """Properties of a plan on a page that its file does not have."""
 
     title: str
     seconds: float | None
@@ -75,7 +75,7 @@ def read(blob: bytes) -> Plan:
 
 
 def make_plan_payload(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
-    """Return what the viewer plays: one plan, or several side by side."""
+    """Return the playback of the viewer: one plan, or several side by side."""
     plan, *others = _list_titled(blobs, shown)
     played = make_payload(plan[0], title=plan[1], others=others)
     return (None, zip_text(as_compact_json(played)))
@@ -117,10 +117,10 @@ def summarize_plan(_emit: Emit, blobs: Blobs) -> Result:
 
 
 def compare_plans(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Result:
-    """Return what plans cost, and each robot's completion time in each of them [time unit].
+    """Return the costs of plans, and each robot's completion time in each of them [time unit].
 
     Costs in ``time`` are in time units, too: the ticks of two scenarios may differ. ``comparison``
-    is what the page of the plans has: figures, changes of the scenarios, times in one tick.
+    is the content of the page of the plans: figures, changes of the scenarios, times in one tick.
     """
     titled = _list_titled(blobs, shown)
     plans, titles = [plan for plan, _ in titled], [title for _, title in titled]
@@ -147,7 +147,7 @@ def compare_plans(_emit: Emit, blobs: Blobs, *, shown: Sequence[Shown]) -> Resul
 
 
 def list_changes(_emit: Emit, blobs: Blobs) -> Result:
-    """Return in what the scenario of a plan differs from that of the plan before."""
+    """Return the differences of the scenario of a plan from that of the plan before."""
     before, after = (read_scenario(parse_json(blob.decode())["scenario"], None) for blob in blobs)
     differences = find_changes(before.scenario, after.scenario)
     return ({"changes": list(map(describe_change, differences))},)

@@ -57,7 +57,7 @@ def make_page(
     no_plan
         Why the fleet has no plan; ``plan`` then holds every robot at its home.
     title
-        What the page is about, usually the name of the file; its heading begins with it.
+        The subject of the page, usually the name of the file; its heading begins with it.
     background
         A picture under the map.
     others
@@ -189,7 +189,7 @@ def make_frame(
 
 
 def make_payload_text(plan: Plan) -> str:
-    """Return what the page needs of a plan as JSON that may stand in a script element."""
+    """Return the plan for the page, as JSON that may stand in a script element."""
     return as_script(make_payload(plan))
 
 

@@ -1,4 +1,4 @@
-"""The page of an inspection: a site drawn, what will hurt on it as a list. Nothing is planned."""
+"""The page of an inspection: a site drawn, its weaknesses as a list. Nothing is planned."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def make_inspection_page(
     levels
         The inspected sites.
     title
-        What the page is about, usually the name of the file.
+        The subject of the page, usually the name of the file.
     description
         Kind and size of the file.
     notes

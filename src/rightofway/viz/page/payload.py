@@ -106,7 +106,7 @@ def make_payload(
     background: Background | None = None,
     others: Sequence[tuple[Plan, str]] = (),
 ) -> Payload:
-    """Return what the page needs, as plain data for JSON.
+    """Return the content of the page, as plain data for JSON.
 
     Parameters
     ----------
@@ -215,7 +215,7 @@ def measure_room(scenario: Scenario) -> Fraction:
 def _refuse_other_kinds(
     steady: object, actual: object, no_plan: object, background: object, others: object
 ) -> None:
-    """Refuse what is shown beside a plan and is of another kind."""
+    """Refuse a result of another kind than the plan beside which it is shown."""
     groups = make_class_reader(SteadyState, "no steady state", "give SteadyState")
     trace = make_class_reader(ExecutionTrace, "no execution", "give a trace of rightofway.simulate")
     reasons = make_class_reader(

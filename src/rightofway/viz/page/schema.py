@@ -1,4 +1,4 @@
-"""What pages are given, as types: plain data for JSON, written by Python, read by JavaScript.
+"""Input of pages, as types: plain data for JSON, written by Python, read by JavaScript.
 
 ``assets/payload.d.ts`` has the same for JavaScript; ``just types-refresh`` writes it. Times are
 ticks, places are in units of the drawing, robots and vertices are given by index.
@@ -95,7 +95,7 @@ class BackgroundData(PlaceData):
 
 
 class CloseData(TypedDict, total=False):
-    """What is nearer than robots need: pairs of lanes, a vertex and a lane, pairs of vertices."""
+    """Places that are too near: pairs of lanes, a vertex and a lane, pairs of vertices."""
 
     crossings: list[tuple[int, int, int, int]]
     beside: list[tuple[int, int, int]]
@@ -103,7 +103,7 @@ class CloseData(TypedDict, total=False):
 
 
 class MapMarks(TypedDict):
-    """What every map has."""
+    """The parts of every map."""
 
     width: float
     height: float
@@ -146,7 +146,7 @@ MapData = TypeAliasType("MapData", GridData | NetworkData)
 
 
 class RobotData(TypedDict):
-    """A robot and what it does; ``vertices`` and ``enter`` are first differences."""
+    """A robot and its track; ``vertices`` and ``enter`` are first differences."""
 
     name: str
     colour: str
@@ -222,7 +222,7 @@ class ForcedLossData(TypedDict):
 
 
 class PlannerData(TypedDict):
-    """How the plan came about: the planner, what it did or gained, what is proven."""
+    """How the plan came about: the planner, its actions or gains, its proof."""
 
     name: str
     method: PhraseData
@@ -232,7 +232,7 @@ class PlannerData(TypedDict):
 class DecisionData(TypedDict):
     """Which of two robots got the right of way, and why; see `Decision`. Texts are by index.
 
-    ``figures`` has what was compared, then its values if the first and if the other robot waits.
+    ``figures`` has the measure, then its values if the first and if the other robot waits.
     """
 
     head: int
@@ -280,7 +280,7 @@ class SteadyData(TypedDict):
 
 
 class DrivenData(TypedDict):
-    """What a robot did on the floor; ``vertices`` is there where they are not as planned."""
+    """The executed track of a robot; ``vertices`` is there where they are not as planned."""
 
     stages: list[StageRow]
     turns: NotRequired[list[TurnRow]]
@@ -300,7 +300,7 @@ class FloorData(TypedDict):
 
 
 class DrivenFrame(TypedDict):
-    """What happened since the frame before; ``begins`` where it is all that is known."""
+    """Events since the frame before; ``begins`` where there are none before."""
 
     number: int
     now: float
@@ -310,7 +310,7 @@ class DrivenFrame(TypedDict):
 
 
 class FeedData(TypedDict):
-    """A fleet that is driven: what is known, and what a page asks for more, if there is more.
+    """A fleet that is driven: its events, and the address of further ones, if there are any.
 
     ``stream`` is the address of frames; ``orders`` that to which orders of people are sent.
     """
@@ -343,7 +343,7 @@ class FiguresText(TypedDict):
 
 
 class ComparedPlan(TypedDict):
-    """What a plan costs in the ticks of a comparison, and its scenario's changes."""
+    """Costs of a plan in the ticks of a comparison, and its scenario's changes."""
 
     planner: str
     seed: int
@@ -424,7 +424,7 @@ class OtherPlan(PlanData):
 
 
 class Payload(PlanData):
-    """What the page of a plan is given; translations are by language, then by English template."""
+    """Input of the page of a plan; translations are by language, then by English template."""
 
     translations: dict[str, dict[str, str]]
     map: MapData
@@ -453,7 +453,7 @@ class LevelData(SiteData):
 
 
 class InspectionPayload(TypedDict):
-    """What the page of an inspection is given."""
+    """Input of the page of an inspection."""
 
     title: str
     translations: dict[str, dict[str, str]]

@@ -1,4 +1,4 @@
-"""What is drawn and with what: a site or a plan prepared for drawing, and a pen over an image."""
+"""Subject and pen of a drawing: a site or a plan prepared for drawing, and a pen over an image."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ class Pen:
         self.draw.rectangle((x0, y0, max(x1 - 1, x0), max(y1 - 1, y0)), colour)
 
     def draw_picture(self, picture: Image.Image, place: PlaceData, opacity: float) -> None:
-        """Lay a picture over what is drawn; ``place`` as `place_of` returns it."""
+        """Lay a picture over the drawing; ``place`` as `place_of` returns it."""
         scale, turn = self.scale * self.fineness, place.get("turn", 0.0)
         left, top = self._locate((place["x"], place["y"]))
         fine = picture.width / place["width"] / scale  # pixels of the picture for one of the image

@@ -36,7 +36,7 @@ DIAL = {"point": 1.38, "size": 0.62}
 
 
 def draw_ground(pen: Pen, scene: Scene, sizes: Sizes, *, routes: bool) -> None:
-    """Draw what does not move, with the routes of all robots if wanted."""
+    """Draw everything that does not move, with the routes of all robots if wanted."""
     draw_roadmap(pen, scene, sizes)
     for robot in range(len(scene.trips)) if routes else ():
         _route(pen, scene, sizes, robot)

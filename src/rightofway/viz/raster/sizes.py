@@ -79,7 +79,7 @@ class Sizes(LaneSizes):
 def compute_sizes(scene: Scene, scale: float) -> Sizes:
     """Return the sizes at a scale [pixels for a unit]; they grow with the cells of a fine scale.
 
-    Where cells are small, what moves stays large enough to be seen, as far as there is room.
+    Where cells are small, robots stay large enough to be seen, as far as there is room.
     """
     plane, is_grid = scene.plane, scene.roadmap.grid is not None
     spacing = math.sqrt(plane.width * plane.height / len(scene.trips)) * scale

@@ -25,7 +25,7 @@ class ListColumn:
     Attributes
     ----------
     heading
-        What it is, without a unit.
+        The quantity, without its unit.
     values
         One for each row. Times are in ticks; a text may stand for a time.
     kind

@@ -1,4 +1,4 @@
-"""What a plan consists of, as lists: its events, its collisions and swaps, its decisions."""
+"""The parts of a plan, as lists: its events, its collisions and swaps, its decisions."""
 
 from __future__ import annotations
 
@@ -219,8 +219,8 @@ def count_conflicts_before(plan: Plan) -> list[int | None]:
     -------
     list
         Ticks of overlap, and swaps unless the planner leaves them: first those of the free-running
-        robots, then what the decision before has left. None where robots were rerouted or have
-        sizes, a collision never ends, or the planner did not count.
+        robots, then the conflicts that the decision before has left. None where robots were
+        rerouted or have sizes, a collision never ends, or the planner did not count.
     """
     if plan.run.reroutes or not plan.scenario.problem.resources.are_points:
         return [None] * len(plan.run.decisions)

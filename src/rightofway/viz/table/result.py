@@ -106,7 +106,7 @@ def _add_sheet(workbook: Any, title: str) -> Any:
 
 
 def _write_summary(sheet: Any, plan: Plan, more: Sequence[tuple[str, str]]) -> None:
-    """Write what the plan costs, then a row for each robot: where its completion time goes."""
+    """Write the costs of the plan, then a row for each robot: where its completion time goes."""
     rows, robots = [*_list_figures(plan), *more], _list_robots(plan)
     headings = robots.list_headings()
     widen(sheet, 1, 1, {*(key for key, _ in rows), *map(str, robots.columns[0].values)})

@@ -1,4 +1,4 @@
-"""What fits into a terminal: lines of a text, columns of a word."""
+"""Texts cut to fit a terminal: lines of a text, columns of a word."""
 
 from __future__ import annotations
 

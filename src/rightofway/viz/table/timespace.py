@@ -56,7 +56,7 @@ Fleets = tuple[tuple[RowKind, Sequence[Track]], ...]
 
 
 class Cell(NamedTuple):
-    """What a robot holds at one tick."""
+    """A place that a robot holds at one tick."""
 
     place: Place
     mark: Mark | None
@@ -117,7 +117,7 @@ class Row:
 
     @property
     def places(self) -> list[Place]:
-        """What the robot holds, tick by tick."""
+        """The places that the robot holds, tick by tick."""
         return [run.cell.place for run in self.runs for _ in range(run.start, run.end)]
 
 
@@ -208,7 +208,7 @@ class TimeSpaceTable:
 
     @property
     def heading(self) -> str:
-        """What stands before the times of the columns: ``time [s]``."""
+        """The label of the times of the columns: ``time [s]``."""
         return "tick" if self.quantities.in_ticks else self.quantities.format_heading("time")
 
     def describe_time(self, tick: int) -> str:

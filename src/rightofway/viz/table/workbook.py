@@ -110,7 +110,7 @@ def write_table(sheet: Any, table: TimeSpaceTable) -> None:
 
 
 def write_legend(sheet: Any, table: TimeSpaceTable) -> None:
-    """Write what fonts and colours of a table mean."""
+    """Write the meaning of fonts and colours of a table."""
     widen(sheet, 1, 1, {name for name, *_ in LEGEND})
     widen(sheet, 2, 2, {meaning for _, meaning, *_ in LEGEND})
     kinds = {"", *(row.kind for row in table.rows)}

@@ -143,7 +143,7 @@ def _write_legend(table: TimeSpaceTable, width: int) -> Iterator[str]:
 
 
 def _write_hints(table: TimeSpaceTable, ticks: int, *, rows_are_cut: bool) -> Iterator[str]:
-    """Yield what a cut text leaves out, and how to see it."""
+    """Yield the parts that a cut text leaves out, and how to see them."""
     missing = ["rows"] if rows_are_cut else []
     if ticks < len(table.ticks):
         shown, last = (

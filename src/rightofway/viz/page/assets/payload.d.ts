@@ -31,7 +31,7 @@ export interface ChangeData {
   text: string;
 }
 
-/** What is nearer than robots need: pairs of lanes, a vertex and a lane, pairs of vertices. */
+/** Places that are too near: pairs of lanes, a vertex and a lane, pairs of vertices. */
 export interface CloseData {
   crossings?: [number, number, number, number][];
   beside?: [number, number, number][];
@@ -46,7 +46,7 @@ export interface ClosureData {
   text: PhraseData;
 }
 
-/** What a plan costs in the ticks of a comparison, and its scenario's changes. */
+/** Costs of a plan in the ticks of a comparison, and its scenario's changes. */
 export interface ComparedPlan {
   planner: string;
   seed: number;
@@ -78,7 +78,7 @@ export interface ComparisonData {
   robots: ComparedRobot[];
 }
 
-/** Which of two robots got the right of way, and why; see `Decision`. Texts are by index. ``figures`` has what was compared, then its values if the first and if the other robot waits. */
+/** Which of two robots got the right of way, and why; see `Decision`. Texts are by index. ``figures`` has the measure, then its values if the first and if the other robot waits. */
 export interface DecisionData {
   head: number;
   detail: number;
@@ -95,7 +95,7 @@ export interface DecisionData {
   figures: [number, number, number][];
 }
 
-/** What a robot did on the floor; ``vertices`` is there where they are not as planned. */
+/** The executed track of a robot; ``vertices`` is there where they are not as planned. */
 export interface DrivenData {
   stages: StageRow[];
   turns?: TurnRow[];
@@ -106,7 +106,7 @@ export interface DrivenData {
   completion: number | null;
 }
 
-/** What happened since the frame before; ``begins`` where it is all that is known. */
+/** Events since the frame before; ``begins`` where there are none before. */
 export interface DrivenFrame {
   number: number;
   now: number;
@@ -135,7 +135,7 @@ export interface FaultsData {
   listed: FaultData[];
 }
 
-/** A fleet that is driven: what is known, and what a page asks for more, if there is more. ``stream`` is the address of frames; ``orders`` that to which orders of people are sent. */
+/** A fleet that is driven: its events, and the address of further ones, if there are any. ``stream`` is the address of frames; ``orders`` that to which orders of people are sent. */
 export interface FeedData {
   frame: DrivenFrame;
   stream?: string;
@@ -205,7 +205,7 @@ export interface GridData {
 
 export type HoldRow = [number, number, "hold" | "off", boolean];
 
-/** What the page of an inspection is given. */
+/** Input of the page of an inspection. */
 export interface InspectionPayload {
   title: string;
   translations: Record<string, Record<string, string>>;
@@ -294,7 +294,7 @@ export interface OtherPlan {
   map?: MapData;
 }
 
-/** What the page of a plan is given; translations are by language, then by English template. */
+/** Input of the page of a plan; translations are by language, then by English template. */
 export interface Payload {
   title: string;
   phrases: PhraseEntry[];
@@ -330,7 +330,7 @@ export type PhraseData = string | [string, Record<string, PhraseData>];
 
 export type PhraseEntry = string | number[];
 
-/** How the plan came about: the planner, what it did or gained, what is proven. */
+/** How the plan came about: the planner, its actions or gains, its proof. */
 export interface PlannerData {
   name: string;
   method: PhraseData;
@@ -343,7 +343,7 @@ export interface RerouteData {
   because: PhraseData;
 }
 
-/** A robot and what it does; ``vertices`` and ``enter`` are first differences. */
+/** A robot and its track; ``vertices`` and ``enter`` are first differences. */
 export interface RobotData {
   name: string;
   colour: string;
