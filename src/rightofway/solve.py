@@ -13,6 +13,7 @@ import numpy as np
 from rightofway.check import check
 from rightofway.deadline import Deadline, limit_work
 from rightofway.errors import GaveUp, InputError, InvalidPlan
+from rightofway.facts import Fact
 from rightofway.model import (
     Objective,
     Outcome,
@@ -35,7 +36,6 @@ from rightofway.model.given import (
 )
 from rightofway.model.outcome import classify_cost
 from rightofway.model.passing import wait_before_chains
-from rightofway.phrases import Phrase
 from rightofway.planners import (
     DEFAULT_PLANNER,
     IMPROVER,
@@ -70,7 +70,7 @@ def solve(
     *,
     start: Plan | None = None,
     options: PlannerOptions | Mapping[str, Any] | None = None,
-    report: Callable[[str], None] | None = None,
+    report: Callable[[Fact | str], None] | None = None,
     on_plan: Callable[[Plan], None] | None = None,
     keep_best: bool = False,
     seconds_per_visit: float = JUDGING,
@@ -98,7 +98,7 @@ def solve(
         Options of the planner: its own dataclass, like ``LnsOptions(iterations=100)``, or names
         with values.
     report
-        Takes sentences on the progress.
+        Takes facts on the progress; ``str`` of one is an English sentence.
     on_plan
         Takes each better plan while the planner goes on. The judge has not seen it.
     keep_best
@@ -144,7 +144,7 @@ def improve(
     seed: int = 0,
     *,
     options: PlannerOptions | Mapping[str, Any] | None = None,
-    report: Callable[[str], None] | None = None,
+    report: Callable[[Fact | str], None] | None = None,
     on_plan: Callable[[Plan], None] | None = None,
     keep_best: bool = False,
     seconds_per_visit: float = JUDGING,
@@ -194,8 +194,8 @@ def _refuse_start(spec: PlannerSpec, plan: Plan, place: str) -> None:
         raise InputError.at("planner", message)
 
 
-def _silent(_: str) -> None:
-    """Take a sentence on progress, and say nothing."""
+def _silent(_: Fact | str) -> None:
+    """Take a fact on progress, and do nothing."""
 
 
 def _settled(
@@ -242,7 +242,7 @@ def _run(
     with limit_work(deadline):
         alone = compute_least_completions(task.scenario, time_limit=deadline.measure_seconds_left())
         if alone is None:
-            raise GaveUp("time ran out while measuring distances (give a longer time limit)")
+            raise GaveUp(Fact("time over", doing=Fact("measuring distances")))
         refuse_stranded(task.scenario, np.flatnonzero(alone < 0).tolist())
         if old is None:  # else it takes longer than a first plan from the old one
             refuse_closed_ways(task.scenario, deadline)
@@ -322,7 +322,7 @@ def _going_on(spec: PlannerSpec, task: Task, old: Plan) -> Draft:
 
     tracks = make_first_plan(task, old)
     if tracks is None:
-        task.report(Phrase("the old plan does not help: planning from nothing"))
+        task.report(Fact("planning from nothing"))
         refuse_closed_ways(task.scenario, task.deadline)
         return spec.load()(task)
     task.has_plan()

@@ -10,6 +10,7 @@ import pytest
 
 import rightofway
 from rightofway.errors import GaveUp
+from rightofway.facts import Fact
 from rightofway.metrics import measure
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Status, Track, compute_cost
 from rightofway.planners import Deadline, PrioritizedOptions, Task
@@ -90,10 +91,13 @@ def test_the_search_sums_costs_by_weights() -> None:
 
 
 def test_progress_tells_flowtime_gap_and_rate() -> None:
-    heard: list[str] = []
-    rightofway.solve(CROWDED, "lns", options={"iterations": 20}, report=heard.append)
-    assert heard
-    assert all("above the bound" in one and "attempts per s" in one for one in heard)
+    told: list[Fact | str] = []
+    rightofway.solve(CROWDED, "lns", options={"iterations": 20}, report=told.append)
+    facts = [fact for fact in told if isinstance(fact, Fact)]
+    assert len(facts) == len(told) > 0
+    assert {fact.kind for fact in facts} == {"value and gap reached"}
+    assert all(fact.values["objective"] == "flowtime" for fact in facts)
+    assert all(fact.values["gap"] >= 0 and fact.values["rate"] > 0 for fact in facts)
 
 
 def test_it_stops_when_time_is_up() -> None:

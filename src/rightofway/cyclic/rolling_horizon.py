@@ -26,8 +26,9 @@ from rightofway.facts import Fact
 from rightofway.planners import Deadline
 from rightofway.planners.two_level import plan_by_two_levels
 from rightofway.precedence import Meeting, Segment
+from rightofway.repair.conflict_resolution import GIVING
 
-SIMULATING, GIVING = Fact("waiting for a state again"), Fact("giving right of way")
+SIMULATING = Fact("waiting for a state again")
 
 
 def two_level(window: Window, meeting: Meeting, segment: Segment) -> Literal[0, 1]:

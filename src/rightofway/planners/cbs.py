@@ -36,9 +36,9 @@ from typing import Any
 
 from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp, NoPlanExists
+from rightofway.facts import Fact
 from rightofway.model import Proof, Status, Tick, compute_cost
 from rightofway.model.outcome import Objective, choose_objective
-from rightofway.phrases import say_count
 from rightofway.planners.lns import improve_best
 from rightofway.repair.bounds import finish_optimum
 from rightofway.repair.fleet_search import make_fleet_search
@@ -152,10 +152,7 @@ class _Tree:
                 [find_blocking_set(scenario, robots, seed=task.seed, deadline=task.deadline)]
             )
         else:
-            remedy = "give a longer time limit, or take another planner"
-            done = say_count(nodes, "node", "nodes")
-            message = f"time ran out in the search for an optimal plan, after {done} ({remedy})"
-            error = GaveUp(message)
+            error = GaveUp(Fact("time over for an optimal plan", nodes=nodes))
             if choose_objective(scenario) is Objective.FLOWTIME:  # the message has a bound of that
                 error.lower_bound = search.bound
             raise error

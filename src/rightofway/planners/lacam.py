@@ -22,8 +22,8 @@ from __future__ import annotations
 from typing import NoReturn
 
 from rightofway.errors import GaveUp, NoPlanExists
+from rightofway.facts import Fact
 from rightofway.model import Status
-from rightofway.phrases import Phrase
 from rightofway.precedence import build_timetable
 from rightofway.repair.impossible import (
     find_blocking_set,
@@ -62,11 +62,11 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
     elif (draft := plan_by_joint_states(task)) is not None:
         return draft
     if not problem.resources.are_points:
-        task.report(Phrase("no end by instants: planning the order of single moves"))
+        task.report(Fact("planning single moves"))
         search = FleetSearch(scenario.problem, seed=task.seed, alone=task.alone)
         return plan_by_moves(task, search)
     if problem.is_open:
-        task.report(Phrase("no end by instants: planning the order of moves without clocks"))
+        task.report(Fact("planning moves without clocks"))
         refuse_blocked_parts(scenario, seed=task.seed, deadline=task.deadline)
     try:
         tracks = plan_by_lacam(
@@ -78,11 +78,9 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
     except NoPlanExists:
         _refuse_blocked(task)
     if not problem.is_open:
-        reason = "keeps clear of closures and barred edges"
-        message = f"robots one after another find no plan that {reason}"
-        raise GaveUp(f"{message} (give a longer time limit, or other places)")
+        raise GaveUp(Fact("no plan in turn among barred edges"))
     if tracks is None:
-        raise GaveUp("time ran out in the search for the whole fleet (give a longer time limit)")
+        raise GaveUp(Fact("time over for the fleet"))
     in_time = build_timetable(problem, tracks)
     assert in_time is not None, "what took place in some order can take place in it again"
     task.has_plan()
@@ -91,7 +89,7 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
 
 def _refuse_blocked(task: Task) -> NoReturn:
     """Raise for a fleet that is proven to have no plan: which robots block each other."""
-    task.report(Phrase("no plan exists: looking for the robots that block each other"))
+    task.report(Fact("looking for blockages"))
     everybody = range(len(task.scenario.robots))
     blockages = find_blocking_set(task.scenario, everybody, seed=task.seed, deadline=task.deadline)
     raise NoPlanExists([blockages]) from None

@@ -21,8 +21,8 @@ from dataclasses import replace
 from functools import partial
 
 from rightofway.errors import GaveUp
+from rightofway.facts import Fact
 from rightofway.model import Improvement, Objective, Status, Tick, Track
-from rightofway.phrases import Phrase, chain_items
 from rightofway.planners.lacam import plan_by_instants, plan_fleet
 from rightofway.planners.prioritized import MOST_ROBOTS, plan_in_turn
 from rightofway.precedence import build_graph_of_plan
@@ -104,7 +104,7 @@ def improve_best(
         together = _together(task) if is_simple else plan_fleet(task)
         plans = [together] if together is not None else []
     if not plans:
-        raise GaveUp("time ran out before there was a first plan (give a longer time limit)")
+        raise GaveUp(Fact("time over without a plan"))
     best = min(plans, key=lambda plan: measure_worth(task, plan.tracks))
     proof = None if first is None else first.proof
     return _improve(task, search, replace(best, proof=proof), is_enough)
@@ -193,7 +193,7 @@ def _improve(
             rate = (done - done_before) / (time.perf_counter() - began)
             if (search.value, search.cost) < reached:
                 task.better(search.list_tracks)
-            task.report(_progress(task, search.value, bound, rate))
+            task.report(_describe_progress(task, search.value, bound, rate))
             if search.idle >= patience or deadline.measure_seconds_left() == 0:
                 break
     except KeyboardInterrupt:
@@ -224,14 +224,12 @@ def _is_over(search: FleetSearch, goal: tuple[int, int | None], is_enough: IsEno
     return is_enough is not None and is_enough(search.value)
 
 
-def _progress(task: Task, cost: int, bound: int, rate: float) -> str:
-    """Return what the search has reached."""
-    reached = task.scenario.quantities.format_duration(cost)
-    figures = [Phrase("{cause} {time}", cause=str(find_objective(task)), time=reached)]
-    if bound:
-        figures.append(Phrase("{gap} above the bound", gap=f"{cost / bound - 1:.1%}"))
-    figures.append(Phrase("{rate} attempts per s", rate=f"{rate:.0f}"))
-    return chain_items(figures)
+def _describe_progress(task: Task, cost: int, bound: int, rate: float) -> Fact:
+    """Return the value that the search has reached, its gap, and its attempts per second."""
+    values = {"objective": find_objective(task).value, "value": cost, "rate": round(rate)}
+    if not bound:
+        return Fact("value reached", task.scenario, **values)
+    return Fact("value and gap reached", task.scenario, **values, gap=cost / bound - 1)
 
 
 def _found(

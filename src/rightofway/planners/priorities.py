@@ -36,8 +36,8 @@ from dataclasses import replace
 from typing import Literal
 
 from rightofway.errors import GaveUp
+from rightofway.facts import Fact
 from rightofway.model import Status, Tick
-from rightofway.phrases import Phrase
 from rightofway.planners.rights_of_way import plan_by_rule
 from rightofway.precedence import Meeting
 from rightofway.repair.conflict_resolution import (
@@ -49,6 +49,8 @@ from rightofway.repair.conflict_resolution import (
 from rightofway.repair.objectives import find_objective, measure_worth
 from rightofway.repair.routing import choose_routes
 from rightofway.repair.task import Draft, Task
+
+TRYING = Fact("trying orders of robots")
 
 Worth = tuple[Tick, Tick]
 """The value of a plan, and its cost, as `measure_worth` returns them [ticks]."""
@@ -138,19 +140,15 @@ def _best_of(
 
     def plan(order: Order) -> Worth:
         nonlocal tried, best, least
-        task.deadline.check("trying orders of the robots")
+        task.deadline.check(TRYING)
         draft = plan_by_rule(task, distances, routes, plan_by_priority(order))
         reached = measure_worth(task, draft.tracks)
         tried += 1
         if best is None or reached < least:
             best, least = draft, reached
             task.better(lambda: draft.tracks)
-            value = task.scenario.quantities.format_duration(reached[0])
-            values = {"number": str(tried), "value": str(value)}
-            objective = Phrase(find_objective(task).value)
-            task.report(
-                Phrase("order {number}: {objective} {value}", objective=objective, **values)
-            )
+            values = {"order": tried, "objective": find_objective(task).value}
+            task.report(Fact("value of order", task.scenario, **values, value=reached[0]))
         return reached
 
     try:

@@ -18,6 +18,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from rightofway.deadline import Deadline
+from rightofway.facts import Fact
 from rightofway.model import Scenario, Status, Stop, compute_cost
 from rightofway.planners.lacam import plan_fleet
 from rightofway.precedence import build_graph_of_plan, build_timetable
@@ -54,7 +55,7 @@ def prioritized(task: Task) -> Draft:
     draft = plan_in_turn(task, make_fleet_search(task), task.options["order"])
     if draft is not None:
         return draft
-    task.deadline.check("planning robots one after another")
+    task.deadline.check(Fact("planning in turn"))
     status = Status("together after in turn")
     return replace(plan_fleet(task), status=status)
 

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp
+from rightofway.facts import Fact
 from rightofway.precedence.timed_event_graph import TimedEventGraph, trace_circuit
 
 
@@ -145,7 +146,7 @@ def find_line_at(
     try:
         circuit = trace_circuit(len(graph), arcs.stretch(length), time_limit)
     except ValueError as error:
-        raise GaveUp(f"the numbers of this period are too large ({error})") from None
+        raise GaveUp(Fact("numbers too large for a period", limit=str(error))) from None
     if circuit is None:
         return None
     chosen = circuit.arcs

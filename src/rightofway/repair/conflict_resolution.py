@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rightofway.errors import GaveUp
+from rightofway.facts import Fact
 from rightofway.model import Decision, Route, Tick, Track
 from rightofway.model.kept_facts import RerouteReason
 from rightofway.precedence import (
@@ -27,6 +28,8 @@ from rightofway.repair.task import Task
 
 Right = tuple[int, int]
 """Two visits of the graph, of which the first goes first."""
+
+GIVING = Fact("giving right of way")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -74,7 +77,7 @@ class PartialPlan:
     def resolve_all(self, rule: Rule) -> None:
         """Resolve the earliest conflict until none is left; defer where the rule cannot."""
         while True:
-            self.task.deadline.check("giving right of way")
+            self.task.deadline.check(GIVING)
             meeting = self.graph.find_next_meeting()
             if meeting is None:
                 rotation = find_rotation(self.task.scenario.problem, self._list_tracks())
@@ -109,7 +112,7 @@ class PartialPlan:
     def defer(self, robots: Sequence[int], why: RerouteReason) -> None:
         """Take out one of some robots that no waiting keeps apart; the others keep their rights."""
         if not self.sees_swaps:
-            raise GaveUp(f"{why} (the published method is stuck here; try two-level)")
+            raise GaveUp(Fact("method is stuck", reason=why))
         everyone = np.ones(len(self.routes), np.uint8)
         robot = max(
             robots,

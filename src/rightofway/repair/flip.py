@@ -6,12 +6,12 @@ are planned again around all others, the one that waited before the other one.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from rightofway.check import check
 from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp
+from rightofway.facts import Fact
 from rightofway.model import Plan, Tick, Track, compute_completions
 from rightofway.precedence import PrecedenceGraph, build_graph_of_plan
 from rightofway.repair.fleet_search import make_fleet_search
@@ -55,11 +55,9 @@ def flip_right_of_way(
     GaveUp
         If the plan has faults, no right of way of the two is there, or neither was found.
     """
-    scenario, names = plan.scenario, [robot.name for robot in plan.scenario.robots]
-    judged = check(plan)
+    scenario, judged = plan.scenario, check(plan)
     if not judged.ok:
-        remedy = "plan again with a planner that leaves none"
-        raise GaveUp(f"the plan has {judged.summary}: no right of way can be flipped ({remedy})")
+        raise GaveUp(Fact("plan with faults", faults=judged.total))
     task = Task(scenario=scenario, deadline=Deadline.after(time_limit))
     graph = build_graph_of_plan(scenario.problem, plan.tracks)
     rights = [
@@ -68,29 +66,27 @@ def flip_right_of_way(
         if graph.place(second)[0] == waits and graph.place(first)[0] == goes_first
     ]
     if not rights:
-        raise GaveUp(f"{names[waits]} never waits for {names[goes_first]} (choose another wait)")
+        raise GaveUp(Fact("never waits for", scenario, waits=waits, goes_first=goes_first))
     first, second = min(rights, key=lambda right: (abs(graph.enter(right[1]) - tick), right))
     search = LocalSearch(task, graph)
     if search.reverse(first, second) and search.resolve():
         return Flipped(tracks=tuple(graph.build_tracks()), keeps_routes=True)
     tracks = _on_other_routes(task, plan, waits, goes_first)
     if tracks is None:
-        why = _why_not(graph, names, first, second)
-        raise GaveUp(
-            f"{names[waits]} cannot go before {names[goes_first]}: {why}, and no other way brings"
-            f" {names[waits]} home sooner (try another wait, or move a home or a stop)"
-        )
+        why = _explain_order(graph, first, second)
+        fact = Fact("cannot go before", scenario, waits=waits, goes_first=goes_first, why=why)
+        raise GaveUp(fact)
     return Flipped(tracks=tracks, keeps_routes=False)
 
 
-def _why_not(graph: PrecedenceGraph, names: Sequence[str], first: int, second: int) -> str:
+def _explain_order(graph: PrecedenceGraph, first: int, second: int) -> Fact:
     """Return why a visit cannot come before another one."""
     (other, index), (robot, end) = graph.place(first), graph.place(second)
     if index == 0:
-        return f"{names[other]} starts in its way"
+        return Fact("starts in its way", robot=other)
     if end == len(graph.routes[robot]) - 1:
-        return f"{names[robot]} ends in the way of {names[other]}"
-    return "robots would block each other"
+        return Fact("ends in the way", robot=robot, other=other)
+    return Fact("would block each other")
 
 
 def _on_other_routes(

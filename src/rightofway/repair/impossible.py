@@ -41,6 +41,8 @@ from rightofway.search.missing_ways import (
 )
 from rightofway.site import VertexId
 
+FINDING_WAYS = Fact("finding ways around closures")
+
 EFFORT = 4_000_000
 """Choices of robots in all trials of the deletion filter."""
 
@@ -138,7 +140,7 @@ def refuse_closed_ways(
         return
     distances, blockages = Distances(scenario.roadmap), []
     for robot in range(len(scenario.robots)) if robots is None else robots:
-        deadline.check("looking for ways around closures")
+        deadline.check(FINDING_WAYS)
         if not _has_track_alone(scenario, robot, distances, deadline):
             blockages.append(_closed_in(scenario, robot, distances, deadline))
             if len(blockages) == MAX_REASONS:

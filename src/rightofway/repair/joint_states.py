@@ -25,6 +25,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from rightofway.errors import GaveUp, NoPlanExists
+from rightofway.facts import Fact
 from rightofway.model import Status
 from rightofway.repair.impossible import explain_no_room, find_smallest_set
 from rightofway.repair.task import Draft, Task
@@ -63,7 +64,7 @@ def plan_by_joint_states(task: Task) -> Draft | None:
     def is_blocked(robots: Sequence[int]) -> bool:
         plan = search(robots)
         if not plan.has_ended:
-            raise GaveUp("too many joint states")
+            raise GaveUp(Fact("too many joint states", states=MOST_STATES))
         return plan.tracks is None
 
     plan = search(everybody)

@@ -27,11 +27,14 @@ from itertools import chain
 from typing import NamedTuple
 
 from rightofway.errors import GaveUp
+from rightofway.facts import Fact
 from rightofway.model import Objective
 from rightofway.precedence import Meeting, PrecedenceGraph, find_rotation
 from rightofway.repair.conflict_resolution import list_rights_if_waits
 from rightofway.repair.objectives import compute_value, find_objective, list_weights
 from rightofway.repair.task import Task
+
+REVERSING = Fact("reversing rights of way")
 
 MOST_FAVOURS = 3
 """How many robots are favoured or disfavoured in a round, at most."""
@@ -120,7 +123,7 @@ class LocalSearch:
             critical = list(self.list_critical_rights())
             self.draw.shuffle(critical)
             for first, second in critical:
-                self.task.deadline.check("flipping rights of way")
+                self.task.deadline.check(REVERSING)
                 improved |= self.flip(first, second)
 
     def list_critical_rights(self) -> Iterator[tuple[int, int]]:

@@ -31,12 +31,15 @@ from typing import NamedTuple
 
 from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp, NoPlanExists
+from rightofway.facts import Fact
 from rightofway.model import Scenario, Status, Tick, Track, compute_least_dwell
 from rightofway.native import list_excluded
 from rightofway.repair.impossible import explain_no_room, find_smallest_set, make_fleet_of
 from rightofway.repair.task import Draft, Task
 from rightofway.search import Distances, FleetSearch
 from rightofway.site import VertexId
+
+ORDERING = Fact("ordering moves")
 
 MOST_STATES = 100_000
 """States that are expanded at most."""
@@ -76,8 +79,7 @@ def plan_by_moves(task: Task, search: FleetSearch) -> Draft:
     """
     moves = _moves(task, SingleMoves(task.scenario), MOST_STATES)
     if task.scenario.problem.closures is not None:
-        message = "robots one after another find no plan that keeps clear of closures"
-        raise GaveUp(f"{message} (give a longer time limit, or fewer closures)")
+        raise GaveUp(Fact("no plan in turn among closures"))
     search.start(_in_sequence(task, moves))
     search.retime()
     task.has_plan()
@@ -105,8 +107,7 @@ def _moves(task: Task, floor: SingleMoves, most_states: int) -> list[Move]:
     if moves is not None:
         return moves
     if not floor.is_proof:
-        message = "no order of single moves exists; robots might have to rotate"
-        raise GaveUp(f"{message} (choose occupancy: both, or give robots more room)")
+        raise GaveUp(Fact("no order of single moves"))
 
     def is_blocked(robots: Sequence[int]) -> bool:
         fleet = make_fleet_of(task.scenario, robots)
@@ -127,9 +128,9 @@ def _search(floor: SingleMoves, most_states: int, deadline: Deadline) -> list[Mo
         if not waiting:
             return None
         if expanded == most_states:
-            raise GaveUp(f"no order of moves in {most_states} states (give robots more room)")
+            raise GaveUp(Fact("too many states of moves", states=most_states))
         if expanded % (1 + BETWEEN_CHECKS // len(floor.itineraries)) == 0:
-            deadline.check("searching for an order of moves")
+            deadline.check(ORDERING)
         to_go, _, state = heappop(waiting)
         if to_go == 0:
             return _path(came_from, state)

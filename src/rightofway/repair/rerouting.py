@@ -6,10 +6,13 @@ import random
 from collections import Counter, deque
 from collections.abc import Iterable
 
+from rightofway.facts import Fact
 from rightofway.model import Tick, Track
 from rightofway.repair.routing import find_shortest_track
 from rightofway.repair.task import Task
 from rightofway.search import Booking, Bookings, Distances, find_earliest_track
+
+REROUTING = Fact("rerouting")
 
 TRIES_PER_ROBOT = 10
 """How often robots are rerouted at most, per robot of the fleet."""
@@ -104,7 +107,7 @@ def reroute(
     for _ in range(TRIES_PER_ROBOT * len(table.itineraries)):
         if not waiting:
             return made_way
-        task.deadline.check("sending robots another way")
+        task.deadline.check(REROUTING)
         robot = waiting.popleft()
         if table.place(robot):
             continue

@@ -8,6 +8,7 @@ from itertools import pairwise
 
 from rightofway.deadline import limit_loop
 from rightofway.errors import GaveUp, InputError
+from rightofway.facts import Fact
 from rightofway.model import Itinerary, Route, Scenario, Track, join_route, join_track, make_route
 from rightofway.repair.impossible import refuse_stranded, refuse_the_impossible
 from rightofway.repair.task import Task
@@ -15,8 +16,7 @@ from rightofway.search import Bookings, Congestion, Distances, find_earliest_tra
 from rightofway.search.distances import Path
 from rightofway.site import Roadmap, VertexId
 
-ROUTING = "choosing routes"
-"""What takes the time, for messages."""
+ROUTING = Fact("choosing routes")
 
 
 def choose_routes(task: Task) -> tuple[Distances, list[Route]]:
@@ -41,9 +41,7 @@ def choose_routes_among_closures(task: Task, distances: Distances) -> list[Route
         left = task.deadline.measure_seconds_left()
         track = find_earliest_track(robot, bookings, distances, time_limit=left)
         if track is None:
-            name = task.scenario.robots[robot].name
-            message = f"{name} finds no way among closures with the headway of planning"
-            raise GaveUp(f"{message} (allow rotations, or choose prioritized)")
+            raise GaveUp(Fact("no way with headway of planning", task.scenario, robot=robot))
         routes.append(make_route(task.scenario.roadmap, itinerary, track))
     return routes
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.deadline import NO_DEADLINE, Deadline
+from rightofway.facts import Fact
 from rightofway.model import (
     Decision,
     ForcedLoss,
@@ -37,7 +38,7 @@ class Task:
     deadline
         When to stop.
     report
-        Takes a sentence on progress.
+        Takes a fact on progress; English text from planners of other packages.
     has_plan
         Planners that improve a first plan call it as soon as they have one. Only the first call
         counts.
@@ -57,7 +58,7 @@ class Task:
     options: Mapping[str, Any] = field(default_factory=dict)
     seed: int = 0
     deadline: Deadline = NO_DEADLINE
-    report: Callable[[str], None] = lambda _: None
+    report: Callable[[Fact | str], None] = lambda _: None
     has_plan: Callable[[], None] = lambda: None
     better: Callable[[Callable[[], Sequence[Track]]], None] = lambda _: None
     start: tuple[Track, ...] | None = None

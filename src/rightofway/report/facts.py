@@ -202,6 +202,7 @@ class FactWriter:
             "name": self._write_name,
             "number": format_decimal,
             "percent": lambda share: f"{round(100 * share)} %",
+            "fine_percent": lambda share: mark_figure(f"{share:.1%}"),
             "robot": self.name_robot,
             "robots": lambda robots: join_items(list(map(self.name_robot, robots))),
             "rounded": lambda number: mark_figure(f"{number:.3g}"),

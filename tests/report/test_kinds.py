@@ -1,0 +1,113 @@
+"""Every fact of the package has a template with its values; none is a sentence itself."""
+
+import ast
+import json
+import re
+from collections.abc import Iterator
+
+import pytest
+
+from rightofway.facts import Fact
+from rightofway.model import RerouteReason
+from tests.builders.fleets import grid_fleet
+from tests.builders.sources import SOURCES, parse_modules
+
+TEMPLATES = json.loads((SOURCES / "texts" / "en.json").read_text("utf-8"))["facts"]
+VALUE = re.compile(r"\{(\w+)(?::\w+)?\}")
+
+
+def list_facts() -> Iterator[tuple[str, set[str] | None]]:
+    """Yield the kind and the names of the values of each fact; None where they are not listed."""
+    for module in parse_modules().values():
+        for node in ast.walk(module):
+            match node:
+                case ast.Call(func=ast.Name(id="Fact"), args=[ast.Constant(value=str(kind)), *_]):
+                    names = {keyword.arg for keyword in node.keywords if keyword.arg}
+                    yield kind, names if all(it.arg for it in node.keywords) else None
+
+
+def test_every_kind_of_fact_has_a_template() -> None:
+    assert {kind for kind, _ in list_facts()} - set(TEMPLATES) == set()
+
+
+def test_every_fact_has_the_values_of_its_template() -> None:
+    lacking = [
+        (kind, text, names)
+        for kind, names in list_facts()
+        for texts in [TEMPLATES[kind]]
+        for text in ([texts] if isinstance(texts, str) else texts.values())
+        if names is not None and not set(VALUE.findall(text)) <= names
+    ]
+    assert lacking == []
+
+
+PAIR = grid_fleet(["...."], [("N0", "N1"), ("N3", "N2")])
+IN_THE_WAY = Fact("starts in its way", robot=1)
+
+
+@pytest.mark.parametrize(
+    ("fact", "sentence"),
+    [
+        (
+            Fact("time over", doing=Fact("reading the map")),
+            "time ran out while reading the map (give a longer time limit)",
+        ),
+        (
+            Fact("time over", doing="counting sheep"),
+            "time ran out while counting sheep (give a longer time limit)",
+        ),
+        (
+            Fact("part done", doing=Fact("finding incompatible bookings"), done=3, parts=8),
+            (
+                "finding vertices and lanes that two robots may not book at once, 3 of 8 parts of"
+                " the roadmap done"
+            ),
+        ),
+        (
+            Fact("plan with faults", faults=1),
+            (
+                "the plan has 1 fault: no right of way can be flipped"
+                " (plan again with a planner that leaves none)"
+            ),
+        ),
+        (
+            Fact("never waits for", PAIR, waits=0, goes_first=1),
+            "R1 never waits for R2 (choose another wait)",
+        ),
+        (
+            Fact("cannot go before", PAIR, waits=0, goes_first=1, why=IN_THE_WAY),
+            (
+                "R1 cannot go before R2: R2 starts in its way, and no other way brings R1 home"
+                " sooner (try another wait, or move a home or a stop)"
+            ),
+        ),
+        (
+            Fact("method is stuck", reason=RerouteReason("rotation", robots=["R1", "R2", "R3"])),
+            (
+                "R1, R2, R3 would move round in a circle at one instant"
+                " (the published method is stuck here; try two-level)"
+            ),
+        ),
+        (
+            Fact("time over for an optimal plan", nodes=2),
+            (
+                "time ran out in the search for an optimal plan, after 2 nodes"
+                " (give a longer time limit, or take another planner)"
+            ),
+        ),
+        (
+            Fact("value and gap reached", PAIR, objective="flowtime", value=7, gap=0.125, rate=80),
+            "flowtime 7 time units, 12.5% above the bound, 80 attempts per s",
+        ),
+        (
+            Fact("value reached", PAIR, objective="makespan", value=1, rate=80),
+            "makespan 1 time unit, 80 attempts per s",
+        ),
+        (
+            Fact("value of order", PAIR, order=3, objective="flowtime", value=7),
+            "order 3: flowtime 7 time units",
+        ),
+    ],
+)
+def test_a_fact_of_planners_is_a_sentence(fact: Fact, sentence: str) -> None:
+    assert str(fact) == sentence
