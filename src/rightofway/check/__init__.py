@@ -5,9 +5,11 @@ It reads the scenario in ticks and the tracks, nothing else: no planner, no sear
 
 from __future__ import annotations
 
+from itertools import chain
+
 from rightofway.check.closures import judge_barred, judge_closures
 from rightofway.check.conflicts import judge_bookings, judge_rotations, judge_swaps
-from rightofway.check.faults import Fault, FaultCollector, FaultKind, Report
+from rightofway.check.faults import Fault, FaultGroup, FaultKind, Report, make_report
 from rightofway.check.space import judge_space
 from rightofway.check.tracks import judge_drives, judge_stops, judge_trips, judge_turns
 from rightofway.check.visits import lay_out_visits
@@ -56,17 +58,17 @@ def check(plan: Plan, *, limit: int = 1000) -> Report:
     """
     visits = lay_out_visits(require_plan(plan))
     limit = require_number("limit", limit, 0, 2**31 - 1)
-    scenario, collector = plan.scenario, FaultCollector(limit)
-    judge_drives(visits, scenario, collector)
-    judge_turns(visits, scenario, collector)
-    judge_stops(visits, scenario, collector)
-    judge_trips(plan, visits, scenario, collector)
-    judge_bookings(plan, visits, scenario, collector)
-    judge_swaps(visits, scenario, collector)
-    if not plan.scenario.rules.rotations:
-        judge_rotations(visits, scenario, collector)
-    judge_space(plan, visits, scenario, collector)
-    judge_zones(plan, visits, scenario, collector)
-    judge_barred(visits, scenario, collector)
-    judge_closures(plan, visits, scenario, collector)
-    return collector.report()
+    found = chain[Fault | FaultGroup](
+        judge_drives(visits),
+        judge_turns(visits),
+        judge_stops(visits),
+        judge_trips(visits),
+        judge_bookings(visits),
+        judge_swaps(visits),
+        judge_rotations(visits),
+        judge_space(visits),
+        judge_zones(visits),
+        judge_barred(visits),
+        judge_closures(visits),
+    )
+    return make_report(found, limit)

@@ -16,9 +16,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.check.faults import Fault, FaultCollector
+from rightofway.check.faults import Fault
 from rightofway.check.visits import Visits
-from rightofway.model import NEVER, Closure, Plan, Scenario, Tick
+from rightofway.model import NEVER, Closure, Scenario, Tick
 from rightofway.site import Roadmap, VertexId
 
 Place = tuple[int, int]
@@ -27,46 +27,43 @@ Place = tuple[int, int]
 Vector = tuple[Fraction, Fraction]
 
 
-def judge_barred(visits: Visits, scenario: Scenario, collector: FaultCollector) -> None:
+def judge_barred(visits: Visits) -> Iterator[Fault]:
     """Find drives along edges that are barred for the robot's type, or too near to a wall."""
-    roadmap, following = scenario.roadmap, np.roll(visits.vertex, -1)
+    scenario, following = visits.scenario, np.roll(visits.vertex, -1)
     for visit in np.flatnonzero(visits.barred).tolist():
         robot, tail, head = (
             int(value) for value in (visits.robot[visit], visits.vertex[visit], following[visit])
         )
         robot_type = scenario.robots[robot].type
-        kind = int(roadmap.class_of_edge[visits.edge[visit]])
-        is_barred = robot_type in roadmap.edge_classes[kind].barred
-        collector.add(
-            Fault(
-                kind="barred",
-                robots=(robot,),
-                vertices=(VertexId(tail), VertexId(head)),
-                tick=Tick(int(visits.leave[visit])),
-                numbers={"type": robot_type if is_barred else None},
-                scenario=scenario,
-            )
+        kind = int(scenario.roadmap.class_of_edge[visits.edge[visit]])
+        is_barred = robot_type in scenario.roadmap.edge_classes[kind].barred
+        yield Fault(
+            kind="barred",
+            robots=(robot,),
+            vertices=(VertexId(tail), VertexId(head)),
+            tick=Tick(int(visits.leave[visit])),
+            numbers={"type": robot_type if is_barred else None},
+            scenario=scenario,
         )
 
 
-def judge_closures(
-    plan: Plan, visits: Visits, scenario: Scenario, collector: FaultCollector
-) -> None:
+def judge_closures(visits: Visits) -> Iterator[Fault]:
     """Find bookings of what is closed.
 
     A robot books its vertices, headway included, and the edges that it drives along. A closure
     begins at the tick at or before its ``from`` and ends at the tick at or after its ``until``.
     """
-    if not plan.scenario.closures:
+    scenario = visits.scenario
+    if not scenario.closures:
         return
-    tick, booked = plan.scenario.problem.clock.tick, _list_bookings(plan, visits)
-    reaches = [robot.radius + plan.scenario.rules.clearance for robot in plan.scenario.robots]
+    tick, booked = scenario.problem.clock.tick, _list_bookings(visits)
+    reaches = [robot.radius + scenario.rules.clearance for robot in scenario.robots]
     sizes = sorted(set(reaches))
     size = np.array([sizes.index(reach) for reach in reaches])[booked.robot]
-    n = plan.scenario.roadmap.n_vertices
+    n = scenario.roadmap.n_vertices
     codes, kind = np.unique((booked.places @ [n, 1]) * len(sizes) + size, return_inverse=True)
-    for closure in plan.scenario.closures:
-        shut = _Shut(closure, plan.scenario.roadmap)
+    for closure in scenario.closures:
+        shut = _Shut(closure, scenario.roadmap)
         begin = floor(closure.from_ / tick)
         end = None if closure.until is None else ceil(closure.until / tick)
         at_the_time = booked.end > begin
@@ -83,7 +80,7 @@ def judge_closures(
         for k in at_once[is_shut[kind[at_once]]].tolist():
             first, second = booked.places[k].tolist()
             moment = max(int(booked.start[k]), begin)
-            collector.add(_make_fault(int(booked.robot[k]), (first, second), moment, end, scenario))
+            yield _make_fault(int(booked.robot[k]), (first, second), moment, end, scenario)
 
 
 class _Booked(NamedTuple):
@@ -95,9 +92,9 @@ class _Booked(NamedTuple):
     end: NDArray[Any]
 
 
-def _list_bookings(plan: Plan, visits: Visits) -> _Booked:
+def _list_bookings(visits: Visits) -> _Booked:
     """Return what robots book: vertices, and edges while they drive along them."""
-    headway = plan.scenario.problem.booking_rules.headway
+    headway = visits.scenario.problem.booking_rules.headway
     never = max(visits.leave.max(), NEVER) + headway
     stays, drives = np.flatnonzero(visits.known), np.flatnonzero(visits.edge >= 0)
     tails, heads = visits.vertex[drives], np.roll(visits.vertex, -1)[drives]

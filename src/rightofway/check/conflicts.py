@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.check.faults import Fault, FaultCollector, FaultKind
+from rightofway.check.faults import Fault, FaultGroup, FaultKind
 from rightofway.check.visits import Visits
-from rightofway.model import Plan, Scenario, Tick
+from rightofway.model import Tick
 from rightofway.model.sorting import order_by
 from rightofway.site import VertexId
 
@@ -40,11 +40,9 @@ def _list_pairs(first: Indices, after: Indices) -> Iterator[tuple[Indices, Indic
         begin = end
 
 
-def judge_bookings(
-    plan: Plan, visits: Visits, scenario: Scenario, collector: FaultCollector
-) -> None:
+def judge_bookings(visits: Visits) -> Iterator[FaultGroup]:
     """Find vertex conflicts, and those that only the headway makes."""
-    headway = plan.scenario.problem.booking_rules.headway
+    headway = visits.scenario.problem.booking_rules.headway
     crowded = _find_crowded(visits.vertex, visits.vertex_start, visits.vertex_end + headway)
     robot, vertex, last = visits.robot[crowded], visits.vertex[crowded], visits.last[crowded]
     start, leave = visits.vertex_start[crowded], visits.vertex_end[crowded]
@@ -63,12 +61,12 @@ def judge_bookings(
             "earliest": int(leave[first] + headway),
         }
 
-    def report(
+    def group(
         kind: FaultKind,
         first: Indices,
         second: Indices,
         describe: Callable[[int, int], Mapping[str, Any]],
-    ) -> None:
+    ) -> FaultGroup:
         def fault(position: int) -> Fault:
             pair = int(first[position]), int(second[position])
             in_order = [int(robot[booking]) for booking in pair]
@@ -78,20 +76,20 @@ def judge_bookings(
                 vertices=(VertexId(int(vertex[pair[0]])),),
                 tick=Tick(int(start[pair[1]])),
                 numbers={"one": in_order[0], "other": in_order[1], **describe(*pair)},
-                scenario=scenario,
+                scenario=visits.scenario,
             )
 
         ends = robot[first], robot[second]
         robots = np.minimum(*ends), np.maximum(*ends)
-        collector.add_all(kind, start[second], robots, fault)
+        return FaultGroup(kind, start[second], robots, fault)
 
     after = _count_begun(vertex, start, leave + headway)
     for first, second in _list_pairs(np.arange(len(start)) + 1, after):
         strangers = robot[first] != robot[second]
         at_once = start[second] < leave[first]
         conflicts, too_soons = strangers & at_once, strangers & ~at_once
-        report("vertex conflict", first[conflicts], second[conflicts], describe_conflict)
-        report("headway", first[too_soons], second[too_soons], describe_headway)
+        yield group("vertex conflict", first[conflicts], second[conflicts], describe_conflict)
+        yield group("headway", first[too_soons], second[too_soons], describe_headway)
 
 
 def _find_crowded(vertex: Indices, start: NDArray[Any], end: NDArray[Any]) -> Indices:
@@ -117,7 +115,7 @@ def _count_begun(vertex: Indices, start: NDArray[Any], end: NDArray[Any]) -> Ind
     return begun
 
 
-def judge_swaps(visits: Visits, scenario: Scenario, collector: FaultCollector) -> None:
+def judge_swaps(visits: Visits) -> Iterator[FaultGroup]:
     """Find pairs of robots that exchange two vertices."""
 
     def fault(first: Indices, second: Indices, position: int) -> Fault:
@@ -127,7 +125,7 @@ def judge_swaps(visits: Visits, scenario: Scenario, collector: FaultCollector) -
             robots=tuple(int(visits.robot[move]) for move in moves),
             vertices=tuple(VertexId(int(visits.vertex[move])) for move in moves),
             tick=Tick(int(visits.leave[moves[0]])),
-            scenario=scenario,
+            scenario=visits.scenario,
         )
 
     move, begin, after = _find_opposite(visits)
@@ -137,7 +135,7 @@ def judge_swaps(visits: Visits, scenario: Scenario, collector: FaultCollector) -
         strangers = visits.robot[first] != visits.robot[second]
         first, second = first[strangers], second[strangers]
         robots = visits.robot[first], visits.robot[second]
-        collector.add_all(
+        yield FaultGroup(
             "swap conflict", visits.leave[first], robots, partial(fault, first, second)
         )
 
@@ -180,11 +178,13 @@ def _mark_alike(*columns: NDArray[Any]) -> tuple[NDArray[np.bool_], NDArray[np.b
     return as_before[:-1] | as_before[1:], ~as_before[:-1]
 
 
-def judge_rotations(visits: Visits, scenario: Scenario, collector: FaultCollector) -> None:
-    """Find circles of three or more robots that move at one instant.
+def judge_rotations(visits: Visits) -> Iterator[Fault]:
+    """Find circles of three or more robots that move at one instant, where rules forbid them.
 
     Where robots leave one vertex together, which is a vertex conflict, the first is followed.
     """
+    if visits.scenario.rules.rotations:
+        return
     heads: dict[Tick, dict[int, int]] = defaultdict(dict)
     robots: dict[tuple[Tick, int], int] = {}  # the one that leaves a vertex at a tick
     for visit in _find_moves(visits).tolist():
@@ -195,15 +195,14 @@ def judge_rotations(visits: Visits, scenario: Scenario, collector: FaultCollecto
     for tick, head_of in heads.items():
         for circle in _find_circles(head_of):
             moving = [robots[tick, vertex] for vertex in circle]
-            fault = Fault(
+            yield Fault(
                 kind="rotation",
                 robots=tuple(sorted(moving)),
                 vertices=tuple(map(VertexId, circle)),
                 tick=tick,
                 numbers={"moving": moving},
-                scenario=scenario,
+                scenario=visits.scenario,
             )
-            collector.add(fault)
 
 
 def _find_circles(head_of: Mapping[int, int]) -> Iterator[list[int]]:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -137,39 +137,37 @@ class Report:
         return get_teller().tell_fact(self)
 
 
-class FaultCollector:
-    """Counts all faults, in any order, and keeps the earliest: a bad plan may have millions."""
+class FaultGroup(NamedTuple):
+    """Faults of one kind that a rule found at once: a bad plan may have millions.
 
-    def __init__(self, limit: int) -> None:
-        self._limit = limit
-        self._counts: Counter[FaultKind] = Counter()
-        self._kept: list[Fault] = []
+    Attributes
+    ----------
+    kind
+        Which rule.
+    ticks
+        When each begins [ticks]; shape (n,).
+    robots
+        As in `Fault`, an array of shape (n,) for each place in the tuple.
+    make
+        Makes the fault of a position in these arrays; it is called for the earliest only.
+    """
 
-    def add(self, fault: Fault) -> None:
-        """Add one fault."""
-        self._counts[fault.kind] += 1
-        self._kept.append(fault)
+    kind: FaultKind
+    ticks: NDArray[Any]
+    robots: tuple[NDArray[Any], ...]
+    make: Callable[[int], Fault]
 
-    def add_all(
-        self,
-        kind: FaultKind,
-        ticks: NDArray[Any],
-        robots: tuple[NDArray[Any], ...],
-        fault_at: Callable[[int], Fault],
-    ) -> None:
-        """Add many faults of a kind that begin at ``ticks``; arrays have shape (n,).
 
-        ``robots`` are as in `Fault`, one array for each place in the tuple. ``fault_at`` makes the
-        fault of a position in these arrays; it is called for the earliest only.
-        """
-        if len(ticks):
-            self._counts[kind] += len(ticks)
-            earliest = np.lexsort((*reversed(robots), ticks))[: self._limit]
-            self._kept.extend(fault_at(int(position)) for position in earliest)
-
-    def report(self) -> Report:
-        """Return the judgement on all faults added."""
-        self._kept.sort(key=lambda fault: (fault.tick, fault.robots, fault.kind, fault.vertices))
-        return Report(
-            faults=tuple(self._kept[: self._limit]), counts=dict(sorted(self._counts.items()))
-        )
+def make_report(found: Iterable[Fault | FaultGroup], limit: int) -> Report:
+    """Count all faults, and list the earliest, as many as ``limit``."""
+    counts, kept = Counter[FaultKind](), list[Fault]()
+    for group in found:
+        if isinstance(group, Fault):
+            counts[group.kind] += 1
+            kept.append(group)
+        elif len(group.ticks):
+            counts[group.kind] += len(group.ticks)
+            earliest = np.lexsort((*reversed(group.robots), group.ticks))[:limit]
+            kept.extend(map(group.make, earliest.tolist()))
+    kept.sort(key=lambda fault: (fault.tick, fault.robots, fault.kind, fault.vertices))
+    return Report(faults=tuple(kept[:limit]), counts=dict(sorted(counts.items())))

@@ -17,9 +17,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.check.faults import Fault, FaultCollector
+from rightofway.check.faults import Fault
 from rightofway.check.visits import Visits
-from rightofway.model import Plan, Scenario, Tick
+from rightofway.model import Tick
 from rightofway.model.sorting import order_by
 from rightofway.site import Roadmap, VertexId
 
@@ -56,14 +56,12 @@ class _Times:
         )
 
 
-def judge_space(plan: Plan, visits: Visits, scenario: Scenario, collector: FaultCollector) -> None:
+def judge_space(visits: Visits) -> Iterator[Fault]:
     """Find bookings of different places that exclude each other, and robots that come too near."""
-    radii = [robot.radius for robot in plan.scenario.robots]
-    if not any(radii):
-        return
-    shapes = _Shapes(plan.scenario.roadmap, visits, radii, plan.scenario.rules.clearance)
-    _judge_bookings(plan, visits, shapes, scenario, collector)
-    _judge_discs(visits, shapes, scenario, collector)
+    if any(robot.radius for robot in visits.scenario.robots):
+        shapes = _Shapes(visits)
+        yield from _judge_bookings(visits, shapes)
+        yield from _judge_discs(visits, shapes)
 
 
 class _Near(NamedTuple):
@@ -76,9 +74,9 @@ class _Near(NamedTuple):
 class _Shapes:
     """The shapes that a plan uses: vertices first, then lanes, in whole multiples of a length."""
 
-    def __init__(
-        self, roadmap: Roadmap, visits: Visits, radii: list[Fraction], clearance: Fraction
-    ) -> None:
+    def __init__(self, visits: Visits) -> None:
+        roadmap, clearance = visits.scenario.roadmap, visits.scenario.rules.clearance
+        radii = [robot.radius for robot in visits.scenario.robots]
         n = roadmap.n_vertices
         drives = visits.edge >= 0
         tail, head = visits.vertex[drives], np.roll(visits.vertex, -1)[drives]
@@ -285,10 +283,8 @@ def _find_first_of_each(
         yield best
 
 
-def _judge_bookings(
-    plan: Plan, visits: Visits, shapes: _Shapes, scenario: Scenario, collector: FaultCollector
-) -> None:
-    headway = plan.scenario.problem.booking_rules.headway
+def _judge_bookings(visits: Visits, shapes: _Shapes) -> Iterator[Fault]:
+    headway = visits.scenario.problem.booking_rules.headway
     stays, drives = np.flatnonzero(visits.known), np.flatnonzero(visits.edge >= 0)
     bookings = _Times(
         shape=np.concatenate((visits.vertex[stays], shapes.of_drive[drives])),
@@ -307,33 +303,27 @@ def _judge_bookings(
     for k in _find_first_of_each(bookings, first, second, start):
         pair = sorted((int(first[k]), int(second[k])), key=lambda entry: int(bookings.robot[entry]))
         robots = tuple(int(bookings.robot[entry]) for entry in pair)
-        places = [_list_ends(visits, bookings, entry, scenario) for entry in pair]
-        collector.add(
-            Fault(
-                kind="space conflict",
-                robots=robots,
-                vertices=(*places[0], *places[1]),
-                tick=Tick(int(start[k])),
-                numbers={"places": places},
-                scenario=scenario,
-            )
+        places = [_list_ends(visits, bookings, entry) for entry in pair]
+        yield Fault(
+            kind="space conflict",
+            robots=robots,
+            vertices=(*places[0], *places[1]),
+            tick=Tick(int(start[k])),
+            numbers={"places": places},
+            scenario=visits.scenario,
         )
 
 
-def _list_ends(
-    visits: Visits, times: _Times, entry: int, scenario: Scenario
-) -> tuple[VertexId, ...]:
+def _list_ends(visits: Visits, times: _Times, entry: int) -> tuple[VertexId, ...]:
     """Return the vertex of an entry, or tail and head of its edge."""
     visit = int(times.visit[entry])
     tail = VertexId(int(visits.vertex[visit]))
-    if times.shape[entry] < scenario.roadmap.n_vertices:
+    if times.shape[entry] < visits.scenario.roadmap.n_vertices:
         return (tail,)
     return tail, VertexId(int(visits.vertex[visit + 1]))
 
 
-def _judge_discs(
-    visits: Visits, shapes: _Shapes, scenario: Scenario, collector: FaultCollector
-) -> None:
+def _judge_discs(visits: Visits, shapes: _Shapes) -> Iterator[Fault]:
     """Find robots that come too near at any instant of their stays and straight drives."""
     begun = np.where(
         visits.edge >= 0, np.maximum(visits.leave - visits.drive, visits.enter), visits.leave
@@ -354,26 +344,24 @@ def _judge_discs(
     for k in _find_first_of_each(motions, first, second, square):
         pair = sorted((int(first[k]), int(second[k])), key=lambda entry: int(motions.robot[entry]))
         robots = tuple(int(motions.robot[entry]) for entry in pair)
-        places = [_list_ends(visits, motions, entry, scenario) for entry in pair]
+        places = [_list_ends(visits, motions, entry) for entry in pair]
         needed = int(
             shapes.compute_least_distances(
                 motions.robot[first[k : k + 1]], motions.robot[second[k : k + 1]]
             )[0]
         )
-        collector.add(
-            Fault(
-                kind="too close",
-                robots=robots,
-                vertices=(*places[0], *places[1]),
-                tick=Tick(floor(when[k])),
-                numbers={
-                    "places": places,
-                    "distance": shapes.compute_length(square[k]),
-                    "needed": shapes.compute_length(Fraction(needed**2)),
-                    "instant": when[k],
-                },
-                scenario=scenario,
-            )
+        yield Fault(
+            kind="too close",
+            robots=robots,
+            vertices=(*places[0], *places[1]),
+            tick=Tick(floor(when[k])),
+            numbers={
+                "places": places,
+                "distance": shapes.compute_length(square[k]),
+                "needed": shapes.compute_length(Fraction(needed**2)),
+                "instant": when[k],
+            },
+            scenario=visits.scenario,
         )
 
 

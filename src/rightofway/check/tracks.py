@@ -11,19 +11,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.check.faults import Fault, FaultCollector, FaultKind
+from rightofway.check.faults import Fault, FaultGroup, FaultKind
 from rightofway.check.turning import MICRO
 from rightofway.check.visits import Visits
-from rightofway.model import Itinerary, Plan, Scenario, Stage, Tick
+from rightofway.model import Itinerary, Scenario, Stage, Tick
 from rightofway.site import VertexId
 
 
-def judge_drives(visits: Visits, scenario: Scenario, collector: FaultCollector) -> None:
+def judge_drives(visits: Visits) -> Iterator[FaultGroup]:
     """Find unknown vertices, jumps, drives that are too fast and times that go backwards."""
 
-    def report(
+    def group(
         kind: FaultKind, broken: NDArray[np.bool_], describe: Callable[[int], Mapping[str, Any]]
-    ) -> None:
+    ) -> FaultGroup:
         where = np.flatnonzero(broken)
         # An unknown vertex is wrong as soon as it is entered, a move at the instant it is made.
         times, ends = (visits.enter, 1) if kind == "unknown vertex" else (visits.leave, 2)
@@ -36,30 +36,30 @@ def judge_drives(visits: Visits, scenario: Scenario, collector: FaultCollector) 
                 vertices=tuple(map(VertexId, visits.vertex[visit : visit + ends].tolist())),
                 tick=Tick(int(times[visit])),
                 numbers=describe(visit),
-                scenario=scenario,
+                scenario=visits.scenario,
             )
 
-        collector.add_all(kind, times[where], (visits.robot[where],), fault)
+        return FaultGroup(kind, times[where], (visits.robot[where],), fault)
 
     def describe_drive(visit: int) -> Mapping[str, Any]:
         drive = int(visits.drive[visit])
         earliest = int(visits.enter[visit]) + drive
         return {"time": int(stay[visit]), "least": drive, "earliest": earliest}
 
-    last_vertex = scenario.roadmap.n_vertices - 1
+    last_vertex = visits.scenario.roadmap.n_vertices - 1
     stay, moves, joined = visits.leave - visits.enter, ~visits.last, visits.edge >= 0
     both_known = visits.known & np.roll(visits.known, -1)
-    report("unknown vertex", ~visits.known, lambda _: {"last": last_vertex})
-    report(
+    yield group("unknown vertex", ~visits.known, lambda _: {"last": last_vertex})
+    yield group(
         "backwards",
         moves & (stay < 0),
         lambda visit: {"enter": int(visits.enter[visit]), "leave": int(visits.leave[visit])},
     )
-    report("jump", moves & both_known & ~joined, lambda _: {})
-    report("too fast", joined & (stay >= 0) & (stay < visits.drive), describe_drive)
+    yield group("jump", moves & both_known & ~joined, lambda _: {})
+    yield group("too fast", joined & (stay >= 0) & (stay < visits.drive), describe_drive)
 
 
-def judge_turns(visits: Visits, scenario: Scenario, collector: FaultCollector) -> None:
+def judge_turns(visits: Visits) -> Iterator[FaultGroup]:
     """Find changes of heading that are too fast."""
     stay = visits.leave - visits.enter
     broken = (visits.edge >= 0) & (stay >= visits.drive) & (stay < visits.drive + visits.turn)
@@ -81,13 +81,13 @@ def judge_turns(visits: Visits, scenario: Scenario, collector: FaultCollector) -
                 "next": following,
                 "earliest": int(visits.enter[visit]) + turn + drive,
             },
-            scenario=scenario,
+            scenario=visits.scenario,
         )
 
-    collector.add_all("turn cut short", visits.leave[where], (visits.robot[where],), fault)
+    yield FaultGroup("turn cut short", visits.leave[where], (visits.robot[where],), fault)
 
 
-def judge_stops(visits: Visits, scenario: Scenario, collector: FaultCollector) -> None:
+def judge_stops(visits: Visits) -> Iterator[FaultGroup]:
     """Find stops at vertices that robots only drive through."""
     spare = visits.leave - visits.enter - visits.drive - visits.turn
     where = np.flatnonzero(visits.passed & (visits.edge >= 0) & (spare > 0))
@@ -101,28 +101,27 @@ def judge_stops(visits: Visits, scenario: Scenario, collector: FaultCollector) -
             vertices=(VertexId(int(visits.vertex[visit])),),
             tick=Tick(enter),
             numbers={"time": time, "late": enter + time},
-            scenario=scenario,
+            scenario=visits.scenario,
         )
 
-    collector.add_all("stop at pass", visits.enter[where], (visits.robot[where],), fault)
+    yield FaultGroup("stop at pass", visits.enter[where], (visits.robot[where],), fault)
 
 
-def judge_trips(plan: Plan, visits: Visits, scenario: Scenario, collector: FaultCollector) -> None:
+def judge_trips(visits: Visits) -> Iterator[Fault]:
     """Find wrong homes, wrong ends, missed stops and work cut short."""
     spare = np.maximum(visits.leave - visits.enter - visits.drive - visits.turn, 0).tolist()
     begin = 0
-    for robot, track in enumerate(plan.tracks):
+    for robot, track in enumerate(visits.plan.tracks):
         end = begin + len(track)
         trip = _Trip(
             robot=robot,
-            itinerary=scenario.problem.itineraries[robot],
+            itinerary=visits.scenario.problem.itineraries[robot],
             vertices=track.vertices.tolist(),
             enter=track.enter.tolist(),
             spare=spare[begin:end],
-            scenario=scenario,
+            scenario=visits.scenario,
         )
-        for fault in trip.find_faults():
-            collector.add(fault)
+        yield from trip.find_faults()
         begin = end
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.check.turning import compute_turns
-from rightofway.model import Plan
+from rightofway.model import Plan, Scenario
 from rightofway.site import Roadmap
 
 SAFE = 2**60
@@ -27,6 +27,7 @@ class Visits:
     large for that.
     """
 
+    plan: Plan
     robot: NDArray[np.int64]
     vertex: NDArray[np.int64]  # as it is drawn
     enter: NDArray[Any]  # [ticks]
@@ -43,6 +44,11 @@ class Visits:
     vertex_end: NDArray[Any]  # when it ends, without headway [ticks]
     edge_start: NDArray[Any]  # when the booking of the edge begins [ticks]
     edge_end: NDArray[Any]  # when it ends, without headway [ticks]
+
+    @property
+    def scenario(self) -> Scenario:
+        """The scenario of the plan."""
+        return self.plan.scenario
 
 
 def lay_out_visits(plan: Plan) -> Visits:
@@ -67,6 +73,7 @@ def lay_out_visits(plan: Plan) -> Visits:
     drive, barred = np.maximum(drive, 0), np.array(drive < 0, bool)
     bookings = _book(plan, enter=enter, leave=leave, drive=drive, last=last, passed=passed)
     return Visits(
+        plan=plan,
         robot=robot,
         vertex=vertex,
         enter=enter,

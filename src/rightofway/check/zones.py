@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from heapq import heappop, heappush
 from typing import NamedTuple
 
-from rightofway.check.faults import Fault, FaultCollector
+from rightofway.check.faults import Fault
 from rightofway.check.visits import Visits
-from rightofway.model import Plan, Scenario, Tick
+from rightofway.model import Scenario, Tick
 from rightofway.site import VertexId
 from rightofway.site.zones import Zone
 
@@ -22,27 +22,27 @@ class _Stay(NamedTuple):
     vertex: int
 
 
-def judge_zones(plan: Plan, visits: Visits, scenario: Scenario, collector: FaultCollector) -> None:
+def judge_zones(visits: Visits) -> Iterator[Fault]:
     """Find zones that two robots book at the same time.
 
     A booking of a vertex or an edge of the zone books the zone, approach and headway included.
     """
-    for zone in plan.scenario.roadmap.zones:
+    for zone in visits.scenario.roadmap.zones:
         inside: list[tuple[int, int, _Stay]] = []  # a heap by end, without what is over
         known: set[tuple[int, int, int]] = set()
-        for stay in sorted(_list_stays(plan, visits, zone)):
+        for stay in sorted(_list_stays(visits, zone)):
             while inside and inside[0][0] <= stay.start:
                 heappop(inside)
             for _, _, other in inside:
                 pair = (min(stay.robot, other.robot), max(stay.robot, other.robot), other.end)
                 if other.robot != stay.robot and pair not in known:
                     known.add(pair)
-                    collector.add(_make_fault(zone, stay, other, scenario))
+                    yield _make_fault(zone, stay, other, visits.scenario)
             heappush(inside, (stay.end, len(inside), stay))
 
 
-def _list_stays(plan: Plan, visits: Visits, zone: Zone) -> Iterator[_Stay]:
-    headway = plan.scenario.problem.booking_rules.headway
+def _list_stays(visits: Visits, zone: Zone) -> Iterator[_Stay]:
+    headway = visits.scenario.problem.booking_rules.headway
     vertices, edges = set(zone.vertices), set(zone.edges)
     vertex, robot, last = visits.vertex.tolist(), visits.robot.tolist(), visits.last.tolist()
     start, end = visits.vertex_start.tolist(), (visits.vertex_end + headway).tolist()

@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
-from rightofway.model import NEVER, Scenario
-from rightofway.precedence import DelayModel, Stoppage
+from rightofway.model import NEVER, Plan, Scenario
+from rightofway.precedence import ActionDependencyGraph, DelayModel, Stoppage
 from rightofway.values import list_of, read_at, read_exact, read_label
 
 DEFAULT_DELAYS = "exponential:0.2"
@@ -192,3 +192,9 @@ def delay_model_of(delays: Sequence[Delay], scenario: Scenario) -> DelayModel:
         pace=tuple(pace.values()),
         stoppages=tuple(tuple(sorted(own)) for own in stoppages.values()),
     )
+
+
+def make_delayed_graph(plan: Plan, delays: Sequence[Delay]) -> ActionDependencyGraph:
+    """Return a plan as it is executed with delays that `read_delays` returned."""
+    model = delay_model_of(delays, plan.scenario)
+    return ActionDependencyGraph(plan.scenario, plan.tracks, model)

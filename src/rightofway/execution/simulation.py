@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from rightofway.arguments import checks_arguments
 from rightofway.check import check
 from rightofway.errors import InputError
-from rightofway.execution.delays import DEFAULT_DELAYS, Delay, delay_model_of, read_delays
+from rightofway.execution.delays import DEFAULT_DELAYS, Delay, make_delayed_graph, read_delays
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
 from rightofway.execution.statistics import (
     Collisions,
@@ -104,7 +104,8 @@ def simulate(
         raise InputError.at("runs", f"{runs} is less than one run (give 1 or more)")
     runs, seed = require_number("runs", runs, 1, MOST_RUNS), require_seed(seed)
     deadline = Deadline.after(time_limit)
-    causes, adg = _delayed(plan, delays)
+    causes = read_delays(delays, plan.scenario)
+    adg = make_delayed_graph(plan, causes)
     policy = ExecutionPolicy(switch=switch, replan=replan)
     parts: list[_Runs] = []
     traces: dict[int, ExecutionTrace] = {}
@@ -167,22 +168,9 @@ def replay(
     InputError
         If the delays cannot be read.
     """
-    _, adg = _delayed(plan, delays)
+    adg = make_delayed_graph(plan, read_delays(delays, plan.scenario))
     policy = ExecutionPolicy(switch=switch, replan=replan)
     return ExecutionMonitor(adg, policy, seed, run, Deadline()).trace()
-
-
-def _delayed(
-    plan: Plan, delays: str | Iterable[str]
-) -> tuple[tuple[Delay, ...], ActionDependencyGraph]:
-    """Return the causes of delay, and the plan as it is executed with them."""
-    causes = read_delays(delays, plan.scenario)
-    return causes, _make_graph(plan, causes)
-
-
-def _make_graph(plan: Plan, causes: tuple[Delay, ...]) -> ActionDependencyGraph:
-    model = delay_model_of(causes, plan.scenario)
-    return ActionDependencyGraph(plan.scenario, plan.tracks, model)
 
 
 def _execute(
@@ -238,7 +226,7 @@ class _RunReader:
     @cached_property
     def _adg(self) -> ActionDependencyGraph:
         plan, causes, *_ = self._given
-        return _make_graph(plan, causes)
+        return make_delayed_graph(plan, causes)
 
 
 class _Runs(NamedTuple):
