@@ -49,7 +49,7 @@ def deal_homes(
     Raises
     ------
     InputError
-        If there are too few places, with their numbers and what to do.
+        If there are too few places, with their numbers and the remedy.
     """
     places = {*roadmap.drawing.parking, *roadmap.drawing.charging}
     parking = sorted(place for place in places if not roadmap.is_passed(place))

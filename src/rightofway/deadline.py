@@ -1,8 +1,8 @@
 """When to stop, and a deadline for the work that goes into a scenario and its routes.
 
-A large file takes seconds to read, and its scenario derives what it needs when it is made. Both are
-done far below the command that has the time limit, so that `limit_work` hands the deadline down; so
-are the routes of laps.
+A large file takes seconds to read, and its scenario derives arrays and tables when it is made. Both
+are done far below the command that has the time limit, so that `limit_work` hands the deadline
+down; so are the routes of laps.
 """
 
 from __future__ import annotations

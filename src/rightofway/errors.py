@@ -8,7 +8,7 @@
     ├── GaveUp          no plan was found; one may exist
     └── InvalidPlan     a planner handed back a plan that the judge refuses (a defect of ours)
 
-A message says where, what (with the value) and what to do.
+A message gives the place, the fault with its value, and the remedy.
 """
 
 from __future__ import annotations
@@ -184,7 +184,7 @@ class InputFault:
     where
         Its place: a key, keys and indices, or a `Location`.
     words
-        What is wrong, with the value, and what to do about it in brackets. ``{other}`` stands for
+        The fault, with the value, and the remedy in brackets. ``{other}`` stands for
         the other place.
     other
         Another place that it has to do with, where there is one.
@@ -205,7 +205,7 @@ class InputFault:
 
     @property
     def message(self) -> str:
-        """What is wrong, with the value, and what to do about it in brackets."""
+        """The fault, with the value, and the remedy in brackets."""
         if self.other is None:
             return self.words
         other, path = self.other, self.location.path
@@ -335,7 +335,7 @@ def name_file(source: str) -> Iterator[None]:
 
 
 class KernelLimit(InputError, OverflowError):
-    """The native core's integers cannot hold a number of the input, or of what follows from it."""
+    """The native core's integers cannot hold a number of the input, or one derived from it."""
 
 
 @dataclass(frozen=True, slots=True)

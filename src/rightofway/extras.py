@@ -41,7 +41,7 @@ def need(library: str, purpose: str) -> None:
     library
         The name of the library.
     purpose
-        What needs it, for the message.
+        The feature that needs it, for the message.
     """
     extra = get_value(EXTRAS, library, "library")
     if find_spec(library) is None:

@@ -30,7 +30,7 @@ class PackageFigures:
         return waits(plan)
 
     def compute_lost_time(self, plan: Plan) -> tuple[LostTime, ...]:
-        """Return what each robot of a plan loses to others."""
+        """Return the losses of each robot of a plan to others."""
         from rightofway.metrics import compute_lost_time
 
         return compute_lost_time(plan)

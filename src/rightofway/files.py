@@ -57,7 +57,7 @@ def make_archive(save: Callable[[BytesIO], object]) -> bytes:
 
 
 def as_path(given: str | os.PathLike[str], place: str = "path") -> Path:
-    """Return what a caller gave as the path of a file.
+    """Return the path of a file that a caller gave.
 
     Parameters
     ----------
@@ -78,14 +78,14 @@ def as_path(given: str | os.PathLike[str], place: str = "path") -> Path:
 
 
 def write_whole(path: str | os.PathLike[str], content: bytes | str) -> None:
-    """Write a file so that at every moment it holds what it held before, or all that is new.
+    """Write a file so that at every moment it holds its old content or all of the new one.
 
     Parameters
     ----------
     path
         Where; a file that is there already is replaced, a device is written to.
     content
-        What; text is written as UTF-8.
+        The content; text is written as UTF-8.
 
     Raises
     ------

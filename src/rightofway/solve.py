@@ -289,7 +289,7 @@ def _run(
 def _outcome(
     spec: PlannerSpec, task: Task, draft: Draft, plan: Plan, *, keeps_rules: bool
 ) -> Outcome:
-    """Return what is proven of a plan: by its planner, and by the robots alone."""
+    """Return the proof of a plan: by its planner, and by the robots alone."""
     alone, objective = plan.lower_bound, find_objective(task)
     if objective.has_makespan:
         weights = list_weights(plan.scenario)

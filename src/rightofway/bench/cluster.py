@@ -34,7 +34,7 @@ def run_on_cluster(
     Parameters
     ----------
     cases
-        What to run.
+        The cases to run.
     address
         Of the scheduler: ``tcp://host:8786``. Its workers need this package, of this version.
     report

@@ -41,7 +41,7 @@ def run_here(cases: Iterable[Case], *, jobs: int | None = None) -> Iterator[Row]
     Parameters
     ----------
     cases
-        What to run.
+        The case to run.
     jobs
         How many at a time; as many as there are cores by default.
 

@@ -1,4 +1,4 @@
-"""A report on results: what was solved, how fast and how well; as a page or as Markdown."""
+"""A report on results: solved cases, times and quality; as a page or as Markdown."""
 
 from __future__ import annotations
 

@@ -79,10 +79,9 @@ class Results:
     InputError
         If it holds something else, or another run is writing to it.
 
-    Notes
-    -----
-    A row is one line and is written by one call, then flushed to the disk. What a kill leaves of a
-    line that was being written is cut off by the next run, which does the case again.
+    Notes ----- A row is one line and is written by one call, then flushed to the disk. The rest
+    that a kill leaves of a line that was being written is cut off by the next run, which does the
+    case again.
     """
 
     def __init__(self, path: Path | str) -> None:

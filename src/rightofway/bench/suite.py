@@ -124,7 +124,7 @@ class Case:
 
 @checks_arguments
 def read_suite(path: Path | str) -> tuple[Case, ...]:
-    """Read a suite and every file that it names; return every combination of what it lists.
+    """Read a suite and every file that it names; return every combination of its lists.
 
     The planners of one fleet are next to each other.
 
@@ -290,7 +290,7 @@ def _read_fleet(document: SuiteFleetDocument) -> _Fleet:
 
 
 def _try_out(speeds: Sequence[Fraction], rules: Mapping[str, Any]) -> None:
-    """Have the readers of scenarios find what is wrong with rules and speeds taken together."""
+    """Have the readers of scenarios find faults of rules and speeds taken together."""
     robots = [
         {"name": f"R{index}", "home": [0, index], "target": [0, index], "speed": speed}
         for index, speed in enumerate(speeds)

@@ -1,9 +1,9 @@
 """Robots with a size: bookings that exclude each other and overlap, and discs that meet.
 
 The judge has its own geometry. A shape is a vertex, or the straight lane between two vertices. Two
-shapes that may be too near are found in a hash of square cells; then what happens on each of the
+shapes that may be too near are found in a hash of square cells; then the motions on each of the
 two is compared in order of time. Whole multiples of one length, of a tick and of each drive decide
-exactly; floating-point numbers only leave out what is far apart.
+exactly; floating-point numbers only leave out pairs that are far apart.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ LEEWAY = 1e-7
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Times:
-    """What robots do on shapes, and when; each array has shape (n,)."""
+    """Stays and drives on shapes, with their times; each array has shape (n,)."""
 
     shape: Indices
     robot: Indices

@@ -130,7 +130,7 @@ class _Trip:
     """A robot's track against its itinerary.
 
     `spare` is how long each visit lasts beyond the drive that ends it and the turn before, less
-    what has been worked there so far [ticks]; the last visit's counts for nothing, it never ends.
+    the work done there so far [ticks]; 0 for the last visit, which never ends.
     `too_short` holds, for each stage, which may recur in every lap, the visits that were: a heap of
     (-spare, visit).
     """

@@ -1,4 +1,4 @@
-"""``rightofway collisions``: where free-running robots meet, and what each decision has left."""
+"""``rightofway collisions``: where free-running robots meet, and conflicts left."""
 
 from __future__ import annotations
 

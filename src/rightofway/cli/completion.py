@@ -1,8 +1,8 @@
-"""What a shell completes: planners, their options, and files by their endings.
+"""Completions of a shell: planners, their options, and files by their endings.
 
 Click makes the scripts for the shells; `docs/command-line.md` says how to switch them on. Here is
-what our arguments add, and two repairs for Bash, which takes ``name=value`` for three words and
-puts a blank after a folder.
+completions of our arguments, and two repairs for Bash, which takes ``name=value`` for three words
+and puts a blank after a folder.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What commands read: scenarios and plans, ours and those of other programs."""
+"""Input of commands: scenarios and plans, ours and those of other programs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``rightofway inspect``: what a layout, a map or a scenario is, and what will hurt on it."""
+"""``rightofway inspect``: kind and size of a layout, map or scenario, and its weaknesses."""
 
 from __future__ import annotations
 

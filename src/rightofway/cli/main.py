@@ -79,7 +79,7 @@ class _Modules(Mapping[str, click.Command]):
 
 
 class _Commands(click.Group):
-    """The commands, listed by what they are for."""
+    """The commands, listed by purpose."""
 
     def format_commands(self, _ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write a section for each group; no sentence is cut."""
@@ -182,7 +182,7 @@ ENDINGS: dict[type[BaseException], tuple[int, str]] = {
 
 
 def run(args: Sequence[str] | None = None, session: _Session | None = None) -> int:
-    """Run a command and return its exit code; what went wrong is said on standard error.
+    """Run a command and return its exit code; errors go to standard error.
 
     Time limits count from when the process of a session began; without one, from the command on.
     """

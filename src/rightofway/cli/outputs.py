@@ -61,7 +61,7 @@ def plan_output_option(content: str) -> Decorator:
 
 
 def make_page_option(content: str) -> Decorator:
-    """Return the option --page of a command; ``what`` is what the page plays."""
+    """Return the option --page of a command; ``what`` names the content of the page."""
     return click.option(
         "--page", metavar="FILE",
         callback=require_writable(*PAGE_SUFFIXES, stdout=False),

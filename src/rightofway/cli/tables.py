@@ -43,7 +43,7 @@ Examples:
 
 
 def _shown_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the options that choose what is shown."""
+    """Add the options that choose the shown part of a plan."""
     for option in (
         ticks_option,
         click.option("--robots", metavar="NAMES", help="Only these robots, with commas between."),
@@ -59,7 +59,7 @@ def _shown_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Shown:
-    """What of a plan is shown, and how times are written."""
+    """The shown part of a plan, and how times are written."""
 
     first_tick: int
     last_tick: int | None
@@ -236,7 +236,7 @@ def _table_data(table: TimeSpaceTable) -> dict[str, Any]:
 
 
 def describe_clock(quantities: Quantities) -> dict[str, Any]:
-    """Return what the times of a report for programs are measured in."""
+    """Return the unit of the times in a report for programs."""
     units = quantities.units
     return {
         "tick": format_number(quantities.tick),

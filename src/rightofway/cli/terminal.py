@@ -1,4 +1,4 @@
-"""What commands print: reports of 80 columns, messages, progress."""
+"""Output of commands: reports of 80 columns, messages, progress."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ CLEAR = "\r\x1b[2K"
 
 
 def speak_utf8() -> None:
-    """Write UTF-8 as our files are, whatever the locale; a terminal gets what it can show."""
+    """Write UTF-8 whatever the locale; a terminal gets the characters that it can show."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             encoding = None if stream.isatty() else "utf-8"
@@ -80,7 +80,7 @@ def say_written(path: object) -> None:
 
 
 def complain(message: str) -> None:
-    """Write what is wrong to standard error, also for users who want no messages."""
+    """Write an error to standard error, also for users who want no messages."""
     click.echo("\n".join(map(escape_text, message.split("\n"))), err=True)
 
 
@@ -111,7 +111,7 @@ def show_progress(
 
     The line begins with the time since the command began, and the time limit [s] if there is one:
     ``3.1 of 10 s, flowtime 5273``. It is brought up to date twice a second. Of a line that is too
-    long for the terminal, what follows the last commas is left out.
+    long for the terminal, the text after the last commas is left out.
     """
     if is_quiet() or not sys.stderr.isatty():
         yield lambda _: None

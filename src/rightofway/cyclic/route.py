@@ -408,7 +408,7 @@ def split_groups(scenario: Scenario, fleet: Sequence[CyclicRoute]) -> list[list[
 
 @dataclass(frozen=True, slots=True)
 class LapRows:
-    """What a lap books, and what it excludes other robots from.
+    """The bookings of a lap, and the places that it excludes other robots from.
 
     Attributes
     ----------
@@ -423,7 +423,7 @@ class LapRows:
 
 
 def make_lap_rows(scenario: Scenario, robot: int, lap: Lap) -> LapRows:
-    """Return what a lap of a robot books and excludes."""
+    """Return the bookings of a lap of a robot, and the places that it excludes."""
     resources = scenario.problem.resources
     booked = frozenset(
         np.concatenate(resources.list_rows_of_lap(scenario.roadmap, robot, lap.vertices)).tolist()

@@ -139,7 +139,7 @@ class Window:
         raise TooShort(meeting.robots)
 
     def _list_rows(self) -> BookedRows | None:
-        """Return what the visits book where robots have a size; the last vertices are free."""
+        """Return the visits' bookings where robots have a size; the last vertices are free."""
         scenario = self.context.scenario
         resources = scenario.problem.resources
         lists = bind_lists(resources)

@@ -12,7 +12,7 @@ __all__ = ["DriveResult"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DriveResult:
-    """What happened when robots drove a plan.
+    """The result of a drive of a plan.
 
     Attributes
     ----------
@@ -20,7 +20,7 @@ class DriveResult:
         The plan.
     trace
         Where simulated robots were, and how long each visit and drive took; None at a broker, of
-        laps, and where people have changed what robots were to do.
+        laps, and where people have changed the work of robots.
     completion
         When each robot came to the end of its route [ticks], None for a robot of which that is not
         known; None of laps, and where there is no trace of simulated robots.
@@ -31,7 +31,7 @@ class DriveResult:
     now
         When the run ended [ticks].
     waits
-        How often each robot stood at the end of what was released to it, until others had left.
+        How often each robot stood at the end of its released parts, until others had left.
     messages
         How many messages were sent, by the last part of their topic; at a broker since the start.
     """

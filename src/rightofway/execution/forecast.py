@@ -2,7 +2,8 @@
 
 A stay or drive that is overdue by n ticks is expected to last n more ticks. A robot that waits for
 its right of way only is expected to move as soon as it gets it. Other durations are as planned, and
-longer by a delay that is known. Closures bind what has not begun. A forecast knows `Progress` only.
+longer by a delay that is known. Closures bind actions that have not begun. A forecast knows
+`Progress` only.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from rightofway.precedence import ActionDependencyGraph, PrecedenceGraph, build_
 
 
 class Forecast:
-    """What is expected at a tick, and what can still be changed.
+    """The expected times at a tick, and the rights of way that can still be changed.
 
     Attributes
     ----------
@@ -75,7 +76,7 @@ class Forecast:
         return bool(self.broken) or (bool(self.adg.scenario.closures) and not self.is_possible)
 
     def _graph(self, begun: NDArray[np.bool_]) -> PrecedenceGraph:
-        """Return the graph of expected durations, in which closures do not bind what has begun."""
+        """Return the graph of expected durations; closures do not bind begun actions."""
         return build_graph(
             self.adg.scenario.problem,
             [self._route(robot) for robot in range(len(self.adg.routes))],

@@ -2,8 +2,8 @@
 
 Whenever a robot is later than last expected, the monitor makes a forecast: rights of way are
 switched, and where the whole fleet has fallen behind, the rest is replanned. It is replanned as
-well whenever a robot breaks down, and when closures leave a late robot no way. Only what has
-happened by the instant decides.
+well whenever a robot breaks down, and when closures leave a late robot no way. Only events that
+have happened by the instant decides.
 
 References
 ----------

@@ -1,7 +1,7 @@
-"""Progress: what is known at an instant of robots that carry out a plan.
+"""Progress: the knowledge at an instant of robots that carry out a plan.
 
-Forecasts, switching and replanning take progress only, and never what a simulation knows beyond the
-instant. `derive_progress` makes it from the delays of a simulated run.
+Forecasts, switching and replanning take progress only, never the future that a simulation knows
+after the instant. `derive_progress` makes it from the delays of a simulated run.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ Times = NDArray[np.int64]  # a time for each visit [ticks]; shape (N,)
 
 
 class Activity(Enum):
-    """What a robot does at its last visit that has begun."""
+    """The activity of a robot at its last visit that has begun."""
 
     STAYS = "stays"  # it works or turns
     DRIVES = "drives"  # to the next vertex, which it has booked under ``occupancy: both`` only
@@ -28,7 +28,7 @@ class Activity(Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Progress:
-    """What robots have reached at an instant, visits numbered as in `ActionDependencyGraph`.
+    """The progress of robots at an instant, visits numbered as in `ActionDependencyGraph`.
 
     Attributes
     ----------
@@ -41,7 +41,7 @@ class Progress:
         From when each visit has booked its vertex, `NEVER` if it has not yet [ticks]; int64[N]. A
         robot holds the visit that it has reached and all later ones with a tick.
     activity
-        What each robot does.
+        The activity of each robot.
     broken
         Robots that have broken down: nothing more is expected of them.
     delay
@@ -89,7 +89,7 @@ def derive_progress(
 def _activity(
     adg: ActionDependencyGraph, delay_sample: DelaySample, progress: Progress, robot: int
 ) -> Activity:
-    """Return what a robot does, from its delays and what has begun."""
+    """Return the activity of a robot, from its delays and its begun actions."""
     first, end = adg.first_visit[robot : robot + 2].tolist()
     visit = first + int(np.count_nonzero(progress.entered[first:end])) - 1
     books_ahead = adg.scenario.problem.booking_rules.books_ahead

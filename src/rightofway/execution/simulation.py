@@ -230,7 +230,7 @@ class _RunReader:
 
 
 class _Runs(NamedTuple):
-    """Some runs, and what was changed in them during execution."""
+    """Some runs, and the changes made in them during execution."""
 
     batch: RunBatch
     unchanged: NDArray[np.int64] | None = None  # the completion times without changes

@@ -1,4 +1,4 @@
-"""The builder of a fleet: each call adds a part, and says at once what is wrong with the part."""
+"""The builder of a fleet: each call adds a part, and reports its faults at once."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class FleetBuilder:
         (x, y) of the lower left corner of a grid or a map file on the site [length unit]; (0, 0) is
         the corner that has the least x and y by default.
     units
-        What lengths and times are measured in, for reports: ``{"length": "m", "time": "s"}``.
+        The units of lengths and times, for reports: ``{"length": "m", "time": "s"}``.
     spacing
         Edges that are longer are split into pieces of at most that length [length unit]. By
         default, ``"auto"``, edges are split that are longer than three times the least distance
@@ -176,7 +176,7 @@ class FleetBuilder:
         barred
             Types of robots that may not be there.
         surcharge
-            What makes each edge into it less liked, not slower [time unit].
+            A cost that makes each edge into it less liked, not slower [time unit].
         is_passed
             Whether robots only drive through, without a stop.
 
@@ -221,7 +221,7 @@ class FleetBuilder:
         barred
             Types of robots that may not use it.
         surcharge
-            What makes it less liked, not slower [time unit].
+            A cost that makes it less liked, not slower [time unit].
 
         Raises
         ------
@@ -328,7 +328,8 @@ class FleetBuilder:
         Raises
         ------
         InputError
-            For a place that is not on the map, with what is there, and for a value of a wrong kind.
+            For a place that is not on the map, with the obstacle there, and for a value of a wrong
+            kind.
         """
         source = f"robot {quote(name)}"
         if radius is not None and size is not None:
@@ -385,8 +386,8 @@ class FleetBuilder:
         until
             When it ends [time unit]; never by default.
         radius
-            What is nearer than this, a robot's radius and the clearance is closed for that robot,
-            too [length unit]; nothing more by default.
+            Everything nearer than this, a robot's radius and the clearance is closed for that
+            robot, too [length unit]; nothing more by default.
 
         Raises
         ------

@@ -40,7 +40,7 @@ class DrawnLanes:
     edges
         Tail, head, length if it is given, and the other attributes of each directed edge.
     barred, surcharges, passed
-        What vertices were given.
+        Properties given for vertices.
     zones
         Zones by the names of their vertices and edges.
     is_drawn

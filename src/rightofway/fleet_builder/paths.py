@@ -32,7 +32,7 @@ def plan_of_paths(scenario: Scenario, paths: Mapping[str, Sequence[Any]]) -> Pla
     Raises
     ------
     InputError
-        If a robot has no path, or a place is not known. What breaks a rule is no fault here:
+        If a robot has no path, or a place is not known. A broken rule is no fault here:
         `rightofway.check` judges it.
 
     Examples

@@ -288,10 +288,8 @@ def find_near_misses(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NearM
     tracks
         One track for each robot.
 
-    Notes
-    -----
-    Bookings of places that exclude each other overlap. What follows without a gap for the same two
-    robots is one near miss.
+    Notes ----- Bookings of places that exclude each other overlap. Overlaps that follow without a
+    gap for the same two robots is one near miss.
     """
     require_one_for_each(scenario.robots, tracks=tracks)
     resources = scenario.problem.resources

@@ -1,4 +1,4 @@
-"""Plans beside each other: what each costs, when each robot completes, what their scenarios change.
+"""Plans side by side: their costs, when each robot completes, changes of their scenarios.
 
 Robots are the same where their names are. Times of all plans are counted in one tick, which divides
 the ticks of all of them.

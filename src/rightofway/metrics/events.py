@@ -1,6 +1,6 @@
 """The visits of a plan as a list for people and programs: robot, place, time, purpose.
 
-A visit is one row: a robot enters a place, does there what it came for, perhaps waits for another
+A visit is one row: a robot enters a place, works or turns there, perhaps waits for another
 robot, and leaves. `make_event_columns` is the one table of which `Plan.to_dataframe`, files and
 reports are made.
 """
@@ -63,7 +63,7 @@ def list_events(plan: Plan) -> tuple[Event, ...]:
     Parameters
     ----------
     plan
-        A plan that keeps the rules; of others, what the tracks claim.
+        A plan that keeps the rules; of others, the claims of the tracks.
     """
     stays = plan.stays
     try:

@@ -52,7 +52,7 @@ def compute_lost_time(plan: Plan) -> tuple[LostTime, ...]:
     Parameters
     ----------
     plan
-        A plan that keeps the rules; of others, the numbers are what the tracks claim.
+        A plan that keeps the rules; of others, the numbers are claims of the tracks.
 
     Returns
     -------

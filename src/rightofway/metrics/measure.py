@@ -26,7 +26,7 @@ class Metrics:
     makespan
         The latest completion time [ticks].
     lower_bound
-        No plan has a smaller flowtime [ticks]: the sum of ``alone``, or what the planner has proven
+        No plan has a smaller flowtime [ticks]: the sum of ``alone``, or the bound of the planner
         if that is more.
     waiting
         The sum of all times that robots stand still without work [ticks].
@@ -77,7 +77,7 @@ def measure(plan: Plan) -> Metrics:
     Parameters
     ----------
     plan
-        A plan that keeps the rules; of others, the numbers are what the tracks claim.
+        A plan that keeps the rules; of others, the numbers are claims of the tracks.
 
     Raises
     ------

@@ -34,7 +34,7 @@ MOST_NAMED = 200
 def find_nearness(site: Site, joints: frozenset[int]) -> Iterator[Finding]:
     """Yield vertices, lanes and walls nearer than robots are wide, and lanes that cross.
 
-    Joints between pieces of a lane are no vertices: what is near to one is near to the lane.
+    Joints between pieces of a lane are no vertices: things near to one are near to the lane.
     """
     yield from _find_beside_walls(site)
     yield from _find_near(site, joints)

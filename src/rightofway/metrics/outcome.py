@@ -10,7 +10,7 @@ from rightofway.model.outcome import classify_cost
 
 @checks_arguments
 def derive_outcome(plan: Plan) -> Outcome:
-    """Return what its planner has proven of a plan, or what the sum of the robots alone proves.
+    """Return the proof of a plan: by its planner, or by the sum of the robots alone.
 
     Parameters
     ----------

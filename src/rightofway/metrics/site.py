@@ -89,7 +89,7 @@ class Inspection:
 
 @dataclass(frozen=True, kw_only=True)
 class Site:
-    """What is inspected: a roadmap, its places, and the fleet if there is one.
+    """The subject of an inspection: a roadmap, its places, and the fleet if there is one.
 
     Attributes
     ----------

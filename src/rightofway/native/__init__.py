@@ -1,4 +1,4 @@
-"""The waist of the native core: its twin of a problem, and what it takes beside."""
+"""The waist of the native core: its twin of a problem, and its other inputs."""
 
 from rightofway.native.bookings import (
     BookedRows,

@@ -1,4 +1,4 @@
-"""What visits book, and when those places are closed, as kernels take it."""
+"""Bookings of visits, and closures of their places, as kernels take them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from rightofway.native.resources import bind_lists
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class BookedRows:
-    """What the visits of robots with a size book.
+    """The bookings of robots with a size.
 
     Attributes
     ----------
@@ -190,7 +190,7 @@ def find_overlaps(
 
 
 def bind_rows(rows: BookedRows | None) -> _core.VisitRows | None:
-    """Return what visits book as kernels take it.
+    """Return the bookings of visits as kernels take them.
 
     Parameters
     ----------

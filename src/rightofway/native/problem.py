@@ -1,4 +1,4 @@
-"""The native core: its twin of a problem, and what compiled it."""
+"""The native core: its twin of a problem, and the compiler of the core."""
 
 from __future__ import annotations
 
@@ -143,5 +143,5 @@ def make_tracks(
 
 
 def name_compiler() -> str:
-    """Return the name and version of what compiled the native core, like ``GCC 12.2.0``."""
+    """Return the name and version of the compiler of the native core, like ``GCC 12.2.0``."""
     return _core.compiler()

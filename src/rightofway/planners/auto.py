@@ -59,7 +59,7 @@ def auto(task: Task) -> Draft:
 
 
 def _best(task: Task) -> Draft:
-    """Return the best plan of several methods, with what is proven of it."""
+    """Return the best plan of several methods, with its proof."""
     prover = _Prover(task)
     first = _explained(task)
     if first is not None:
@@ -127,7 +127,7 @@ class _Prover:
         self._search: ConflictBasedSearch | None = None
 
     def prove(self, draft: Draft, nodes: int, share: float = 1.0) -> Draft:
-        """Return a plan with what is proven of it, or the optimum."""
+        """Return a plan with its proof, or the optimum."""
         task, objective = self._task, find_objective(self._task)
         if objective.has_makespan:
             return self._prove_with_makespan(draft, nodes, share)

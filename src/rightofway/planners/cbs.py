@@ -122,7 +122,7 @@ class _Tree:
         )
 
     def finish(self, first: Draft | None) -> Draft:
-        """Return the optimum, a plan within the factor, or the first plan with what is proven."""
+        """Return the optimum, a plan within the factor, or the first plan with its proof."""
         task, scenario, search = self._task, self._task.scenario, self._search
         upper = None if first is None else compute_cost(scenario, first.tracks)
         is_interrupted = first and first.improvement and first.improvement.interrupted
@@ -165,7 +165,7 @@ class _Tree:
 
 
 def _with_makespan(task: Task, first: Draft) -> Draft:
-    """Return the best plan by its makespan, or its makespan and flowtime, with what is proven."""
+    """Return the best plan by its makespan, or its makespan and flowtime, with its proof."""
     objective, factor = find_objective(task), Fraction(task.options["suboptimality"])
     search = MakespanSearch(
         task=task,

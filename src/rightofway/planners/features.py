@@ -1,4 +1,4 @@
-"""What planners can do, and the refusal of scenarios that need more than a planner can."""
+"""Abilities of planners, and the refusal of scenarios that need more than a planner can."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from rightofway.model.resources import refuse_sizes
 
 
 class Feature(StrEnum):
-    """Something that a planner can do; a planner without it is refused what needs it.
+    """Something that a planner can do; a planner without it refuses scenarios that need it.
 
     Attributes
     ----------

@@ -3,7 +3,7 @@
 The robots have an order. Where two of them conflict, the robot of higher priority goes first and
 the other waits before the segment that they share, whatever the delay. Only where that is
 impossible does the first robot wait. Everything else is as in `two_level`: routes, segments, and
-what happens where no waiting helps.
+the course where no waiting helps.
 
 The three planners differ in the orders that they try. ``fixed-priority`` tries that of the
 scenario. ``random-priority`` draws orders and keeps the best plan. ``priority-search`` climbs: it

@@ -32,11 +32,11 @@ class PlannerSpec:
     target
         ``module:function``; the function is a `Planner`.
     summary
-        What it does, in a sentence.
+        Its method, in a sentence.
     options_type
         Its options.
     features
-        What it can do: whether it starts from a plan, and which scenarios it knows.
+        Its abilities: whether it starts from a plan, and which scenarios it knows.
     """
 
     name: str

@@ -62,7 +62,7 @@ class _Option:
 class _MovementGroup:
     """All conflicts of two robots resolved, and the sum of both completion times [ticks].
 
-    ``value`` is what the objective of the planner makes of the two completion times: for the
+    ``value`` is the objective of the planner for the two completion times: for the
     flowtime of robots of one weight their sum, as published.
     """
 

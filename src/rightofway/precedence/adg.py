@@ -105,7 +105,7 @@ class DelaySample(NamedTuple):
 
 
 class Execution(NamedTuple):
-    """Times of one run; `NEVER` for what does not happen.
+    """Times of one run; `NEVER` for actions that do not happen.
 
     Attributes
     ----------

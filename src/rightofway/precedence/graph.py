@@ -85,7 +85,7 @@ class PrecedenceGraph:
     frozen
         Visits that no right of way may delay: `give_way` refuses it.
     rows
-        What the visits book, where robots have a size.
+        The bookings of the visits, where robots have a size.
     closed
         When the places of visits are closed: a visit that would book one of them then comes later.
 
@@ -148,7 +148,7 @@ class PrecedenceGraph:
         ``first`` has ended.
 
         False, with nothing changed, if that is impossible: ``first`` never leaves, ``second`` is
-        there from the start or frozen, both would deadlock with what is decided already, or a visit
+        there from the start or frozen, both would deadlock with earlier decisions, or a visit
         would be at a place while it is closed.
         """
         self._delays_frozen = second in self._frozen
@@ -206,7 +206,7 @@ class PrecedenceGraph:
         Raises
         ------
         ValueError
-            If some visit cannot take place: what took place in an order can take place in it
+            If some visit cannot take place: visits that took place in an order can take place in it
             again, but not always with a longer headway before a closure.
         """
         if not self.keeps_order(when):

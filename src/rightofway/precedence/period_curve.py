@@ -38,7 +38,7 @@ class Growth:
     fixed, slope
         At least 0; int64, shape (N,).
     parts
-        What both are divided by.
+        The divisor of both.
     """
 
     of: NDArray[np.int64]

@@ -206,7 +206,7 @@ class _Use(NamedTuple):
 
 
 def _list_uses(scenario: Scenario, robot: int, track: Track) -> list[_Use]:
-    """Return what a robot books: each vertex and each edge."""
+    """Return the bookings of a robot: each vertex and each edge."""
     resources, roadmap = scenario.problem.resources, scenario.roadmap
     vertices, enter = track.vertices.tolist(), track.enter.tolist()
     own = resources.get_vertex_row(robot, 0)

@@ -1,4 +1,4 @@
-"""What would help: how the cycle time follows what takes time, exactly, both ways and how far.
+"""Remedies: how the cycle time follows each duration, exactly, both ways and how far.
 
 Let something that takes time (a robot's driving, a work time, the headway) take less of it, by the
 same part everywhere. Each circuit's mean falls in proportion to how much of that is on it, so the
@@ -57,7 +57,7 @@ def compute_sensitivity(
     tight: NDArray[np.bool_] | None = None,
     time_limit: float | None = None,
 ) -> Sensitivity:
-    """Return how the cycle time follows what takes its share of the arcs.
+    """Return how the cycle time follows the duration that has a share of the arcs.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ def compute_sensitivity(
         How much of each arc's length it is [ticks]; int64, shape (M,), at most the length. Or the
         lengths of the arcs as a function of the part of that time that is left: 1 is as it is.
     tight
-        What `find_tight_arcs` returns, where several shares are asked for.
+        The result of `find_tight_arcs`, where several shares are asked for.
     time_limit
         For each search [s].
 
@@ -138,7 +138,7 @@ def find_critical_circuit_without(
     graph
         Laps and orders.
     share
-        What can be saved, as in `compute_sensitivity`.
+        The time that can be saved, as in `compute_sensitivity`.
     part
         The part of the share that is saved, 0 to 1.
     time_limit

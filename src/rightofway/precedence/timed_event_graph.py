@@ -42,7 +42,7 @@ class CyclicSchedule:
     robots
         The numbers of the group's robots in their scenario.
     laps
-        What each of them repeats.
+        The lap that each of them repeats.
     counts
         How many laps each makes in a period; at least 1.
     period
@@ -83,7 +83,7 @@ def unroll_schedule(timetable: CyclicSchedule, times: int) -> CyclicSchedule:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Arcs:
-    """What waits for what, in arrays of shape (M,).
+    """Arcs between visits that wait for each other, in arrays of shape (M,).
 
     Attributes
     ----------
@@ -133,7 +133,7 @@ class Circuit:
 
 
 class TimedEventGraph:
-    """The visits of one period and what each has to wait for.
+    """The visits of one period and the arcs into each.
 
     Parameters
     ----------
@@ -142,7 +142,7 @@ class TimedEventGraph:
     rules
         When visits book.
     rows
-        What the visits book, where robots have a size.
+        The bookings of the visits, where robots have a size.
 
     Attributes
     ----------

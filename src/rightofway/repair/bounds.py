@@ -1,8 +1,8 @@
 """Lower bounds of all plans of a fleet; the longer it takes, the higher.
 
-Two methods, in turn. Conflict-based search adds what pairs of robots lose to each other, and goes
-on to the optimum where it can: strong for small fleets and in one-wide aisles. Prices of places
-take all robots together: strong on full floors.
+Two methods, in turn. Conflict-based search adds the losses of pairs of robots to each other, and
+goes on to the optimum where it can: strong for small fleets and in one-wide aisles. Prices of
+places take all robots together: strong on full floors.
 
 References
 ----------
@@ -47,7 +47,7 @@ STATES_OF_ACTIONS = 10_000
 def prove_bound(
     scenario: Scenario, *, time_limit: float | None = None, nodes: int = 0, steps: int = 0
 ) -> tuple[Proof, bool]:
-    """Prove a lower bound of what planners minimize; the longer, the higher.
+    """Prove a lower bound of the objective; the longer, the higher.
 
     Returns
     -------
@@ -71,7 +71,7 @@ def prove_bound(
 
 
 def finish_optimum(task: Task, draft: Draft) -> Draft:
-    """Return an optimal plan with few drives and waits, and what forces that it is no better.
+    """Return an optimal plan with few drives and waits, and the forced losses that prove it.
 
     Other plans as they are. A plan whose decisions are explained keeps its tracks.
     """
@@ -98,7 +98,7 @@ def _act_less(task: Task, draft: Draft) -> Draft:
 
 
 def _explain(task: Task, draft: Draft) -> Draft:
-    """Return a plan with what forces its objective, where it is proven to be optimal.
+    """Return a plan with its forced losses, where it is proven to be optimal.
 
     A bounded number of steps finds that: without a time limit reached the same losses each time.
     """

@@ -24,7 +24,7 @@ SEARCHES = 100
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Flipped:
-    """What follows from a flipped right of way.
+    """The result of a flipped right of way.
 
     Attributes
     ----------
@@ -47,7 +47,7 @@ def flip_right_of_way(
     -------
     Flipped
         The earliest timetable on the same routes, with conflicts that follow from the flip resolved
-        one after the other by what they cost. Where that is impossible, both robots planned again
+        one after the other by their costs. Where that is impossible, both robots planned again
         around the others, if the robot that waited completes sooner than in the plan.
 
     Raises

@@ -193,8 +193,9 @@ def _describe_closure(scenario: Scenario, closure: Closure) -> Fact:
 def refuse_blocked_parts(scenario: Scenario, *, seed: int, deadline: Deadline) -> None:
     """Raise if robots in one of several parts of a map, which no edge joins, have no plan.
 
-    A search over the whole fleet tries what the robots of one part do with all that the others do.
-    Part by part, the proof takes far fewer steps; the search ends undecided after a number of them.
+    A search over the whole fleet tries each move of the robots of one part with all moves of the
+    others. Part by part, the proof takes far fewer steps; the search ends undecided after a number
+    of them.
 
     Raises
     ------
@@ -254,7 +255,7 @@ def find_smallest_set(
 def make_fleet_of(scenario: Scenario, robots: Iterable[int]) -> Scenario:
     """Return some of the robots as a fleet of their own, in the same ticks.
 
-    Its rules ask no more of them, so that what has no plan here has none in the whole fleet.
+    Its rules ask no more of them, so a part without a plan has none in the whole fleet.
     """
     fleet = tuple(scenario.robots[robot] for robot in robots)
     rules = scenario.rules

@@ -1,8 +1,8 @@
 """A plan of least cost of a few robots, or the proof that no plan exists, by their joint states.
 
 For robots among closures or barred edges that find no plan one after another. The search goes over
-what all robots do at each instant (``cpp/cbs/joint_search.hpp``), and it ends also where there is
-no plan.
+the moves of all robots at each instant (``cpp/cbs/joint_search.hpp``), and it ends also where there
+is no plan.
 
 References
 ----------

@@ -1,6 +1,6 @@
 """Local search on fixed routes: flips of rights of way that make robots late.
 
-A plan is routes and rights of way. What a robot loses, it loses on its critical path: the rights of
+A plan is routes and rights of way. A robot loses time only on its critical path: the rights of
 way that its completion time depends on. The search flips one of these, for the whole segment that
 both robots share, resolves the conflicts that follow by the choice that costs least, and keeps the
 result if the plan is better by the objective. Where no flip helps any more, a few robots get the
@@ -174,7 +174,7 @@ class LocalSearch:
         return False
 
     def resolve_one(self, meeting: Meeting, preference: _Preference | None) -> bool:
-        """Let one of two robots wait, by preference or by what it costs; false if neither can."""
+        """Let one of two robots wait, by preference or by its cost; false if neither can."""
         graph, mark = self.graph, self.graph.checkpoint()
         segment = graph.find_segment(*meeting.visits)
         choices = []

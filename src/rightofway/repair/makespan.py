@@ -38,7 +38,7 @@ def measure_alone(task: Task) -> list[int]:
 
 @dataclass
 class MakespanSearch:
-    """A plan, the best so far, and what is proven of it.
+    """A plan, the best so far, and its proof.
 
     Attributes
     ----------

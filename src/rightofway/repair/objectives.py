@@ -1,4 +1,4 @@
-"""What a planner is asked to minimize, and how it compares plans by that."""
+"""The objective of a planner, and how it compares plans by it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rightofway.repair.task import Task
 
 
 def find_objective(task: Task) -> Objective:
-    """Return what the option ``objective`` asks for; flowtime for planners without that option.
+    """Return the value of the option ``objective``; flowtime for planners without that option.
 
     Raises
     ------

@@ -22,7 +22,7 @@ START_HOLD = 4
 
 
 class _Reservations:
-    """The tracks of some robots of a fleet, and what these tracks book."""
+    """The tracks of some robots of a fleet, and their bookings."""
 
     def __init__(self, task: Task, distances: Distances, tracks: dict[int, Track]) -> None:
         scenario = task.scenario

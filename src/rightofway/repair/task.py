@@ -68,7 +68,7 @@ class Task:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Draft:
-    """What a planner found, before the judge has seen it.
+    """The plan of a planner, before the judge has seen it.
 
     Attributes
     ----------

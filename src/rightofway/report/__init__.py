@@ -1,4 +1,4 @@
-"""What people and programs read about plans, laps and executions: sentences, reports, data.
+"""Reports on plans, laps and executions for people and programs: sentences, tables, data.
 
 Its modules are imported one by one: a report on laps needs `cyclic`, one on a plan does not.
 """

@@ -1,4 +1,4 @@
-"""The bottleneck of laps in words: what the robots of a critical circuit do, step by step."""
+"""The bottleneck of laps in words: the actions on a critical circuit, step by step."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ MAX_ROBOTS = 4
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CircuitStep:
-    """What one robot does on a critical circuit until the next step can begin.
+    """Actions of one robot on a critical circuit until the next step can begin.
 
     Attributes
     ----------
@@ -35,7 +35,7 @@ class CircuitStep:
     ticks
         How long it takes [ticks].
     text
-        What the robot does; the sentence goes on from its name.
+        The actions; the sentence continues after the robot's name.
     """
 
     kind: Literal["work", "way", "right of way", "laps"]
@@ -60,7 +60,7 @@ def list_circuit_steps(pieces: Sequence[Piece], scenario: Scenario) -> list[Circ
 def _steps_of_robot(
     run: Sequence[Piece], awaited: int, scenario: Scenario, place: PlaceNames
 ) -> Iterator[CircuitStep]:
-    """Yield what one robot does without waiting for others."""
+    """Yield the actions of one robot without waiting for others."""
     home = scenario.robots[run[0].robot].home
     arrivals = [
         k for k, piece in enumerate(run) if piece.kind == "way" and piece.places[-1] == home
@@ -109,7 +109,7 @@ def _step(piece: Piece, awaited: int, scenario: Scenario, place: PlaceNames) -> 
 
 
 def describe_circuit(pieces: Sequence[Piece], scenario: Scenario, *, most: int = MAX_STEPS) -> str:
-    """Return what the robots of a critical circuit do, in one sentence.
+    """Return the actions of the robots of a critical circuit, in one sentence.
 
     That is ``R2 enters N4 once R1 has left N4, drives to N8, works at N8, drives home; …``.
     """

@@ -16,7 +16,7 @@ MAX_ROBOTS = 20
 
 
 def report_drive(result: DriveResult, quantities: Quantities) -> str:
-    """Return what was done, how much later than planned, and by how many messages.
+    """Return the work done, how much later than planned, and by how many messages.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The examples of the package: their folder, their names, what each one is."""
+"""The examples of the package: their folder, their names and subjects."""
 
 from __future__ import annotations
 

@@ -95,7 +95,7 @@ def report_inspection(
     results: Sequence[tuple[str, Site, Inspection]],
     limit: int,
 ) -> Iterator[Part]:
-    """Yield what a file is, what its reader notes, and for each level its size and its findings.
+    """Yield the kind of a file, the reader's notes, and for each level its size and findings.
 
     ``limit`` findings of each kind are listed; the name of a level is empty where there is but one.
     """

@@ -1,4 +1,4 @@
-"""Sentences on what the judge finds: faults, each with its reason and a remedy."""
+"""Sentences on faults found by the judge, each with its reason and a remedy."""
 
 from __future__ import annotations
 

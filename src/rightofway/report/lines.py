@@ -36,14 +36,14 @@ class Paragraph:
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """Text that is not broken, as what stands in it is wide as it is."""
+    """Text whose lines are not broken, because their width matters."""
 
     text: str
 
 
 @dataclass(frozen=True, slots=True)
 class Facts:
-    """Keys, and beside each what there is to say on it: one column for all."""
+    """Keys, each with a text beside it: one column for all."""
 
     rows: Sequence[tuple[str, str]]
 
@@ -55,7 +55,7 @@ class Table:
     Attributes
     ----------
     head
-        What the names are, then the headings of the columns.
+        The heading of the names, then those of the columns.
     rows
         A name, then its cells; a row may have one cell in place of all.
     has_remarks

@@ -87,7 +87,7 @@ def summarize_plan(plan: Plan, quantities: Quantities, *, with_lost_time: bool =
 
 
 def describe_planning(plan: Plan, quantities: Quantities) -> str:
-    """Return what the planner did, in words that need no knowledge of its method."""
+    """Describe the work of the planner without terms of its method."""
     run, metrics, words = plan.run, measure(plan), Words(plan=plan, quantities=quantities)
     parts = [run.name]
     if run.seconds is not None:
@@ -314,7 +314,7 @@ def report_bounds(
     is_reached: bool,
     losses: Sequence[ForcedLoss] = (),
 ) -> list[Part]:
-    """Return what no plan can be below, and when each robot would be done alone.
+    """Return the lower bound of plans, and when each robot would be done alone.
 
     ``proof`` is of a higher bound, which a plan may have reached; ``losses`` say why it is higher.
     """
@@ -356,7 +356,7 @@ def report_bounds(
 def report_check(
     file: str, plan: Plan, judgement: Report, quantities: Quantities
 ) -> Iterator[Part]:
-    """Yield what the judge finds in the plan of a file, each fault in a line."""
+    """Yield the faults of the plan of a file, each in a line."""
     if judgement.ok:
         yield Line(
             Phrase(

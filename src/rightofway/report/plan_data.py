@@ -15,7 +15,7 @@ from rightofway.values import format_number
 
 
 def describe_measures(scenario: Scenario) -> dict[str, Any]:
-    """Return what the numbers of a report for programs are measured in."""
+    """Return the units of the numbers in a report for programs."""
     tick = format_number(scenario.problem.clock.tick)
     return {"tick": tick, "units": asdict(scenario.units)}
 

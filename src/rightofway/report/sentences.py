@@ -1,4 +1,4 @@
-"""Sentences on a plan: where robots lose time and why, what the planner decided, what is wrong.
+"""Sentences on a plan: where robots lose time and why, decisions of the planner, faults.
 
 All are phrases: reports, pages, notebooks and the studio show them, each in its language.
 """
@@ -49,7 +49,7 @@ class Words:
         return "" if robot is None else self.plan.scenario.robots[robot].name
 
     def name_place(self, vertex: int | None) -> str:
-        """Return what a sentence calls a vertex."""
+        """Return the name of a vertex in a sentence."""
         return "" if vertex is None else self.places(vertex)
 
     def name_way(self, vertices: Sequence[int]) -> str:
@@ -67,12 +67,12 @@ class Words:
 
     @cached_property
     def places(self) -> PlaceNames:
-        """What people call the vertices."""
+        """The names of the vertices for people."""
         return PlaceNames(self.plan.scenario, numbered=True)
 
     @cached_property
     def closed(self) -> Sequence[tuple[tuple[int, ...], int]]:
-        """What is closed for a while: its vertices, and until when."""
+        """A place closed for a while: its vertices, and until when."""
         scenario = self.plan.scenario
         times = ((closure, read_closed_ticks(closure, scenario)) for closure in scenario.closures)
         return [
@@ -93,7 +93,7 @@ class Words:
 
 
 def describe_proof(plan: Plan) -> str:
-    """Return what is proven of a plan, beside its lower bound; empty if that is nothing."""
+    """Return the proof of a plan, apart from its lower bound; empty if there is none."""
     outcome, metrics = derive_outcome(plan), measure(plan)
     if outcome.kind is OutcomeKind.OPTIMAL:
         if metrics.flowtime == metrics.flowtime_alone:
@@ -126,7 +126,7 @@ def list_forced_losses(plan: Plan) -> Sequence[ForcedLoss]:
 
 
 def summarize_forced_loss(scenario: Scenario, loss: ForcedLoss, quantities: Quantities) -> Phrase:
-    """Return what robots lose in every plan, or how long they need, in a few words."""
+    """Return the losses of robots in every plan, or how long they need, in a few words."""
     names = join_items([scenario.robots[robot].name for robot in loss.robots])
     values = {"robots": names, "time": _lost_time(loss, quantities)}
     if loss.objective is not Objective.MAKESPAN:
@@ -189,7 +189,7 @@ def _lost_time(loss: ForcedLoss, quantities: Quantities) -> str:
 
 
 def describe_improvement(improvement: Improvement, quantities: Quantities) -> Phrase:
-    """Return what a search gained over its first plan, and in how many attempts."""
+    """Return the gain of a search over its first plan, and the number of attempts."""
     gain = Phrase("found no better plan")
     if improvement.saved > 0:
         gain = Phrase("saved {time}", time=quantities.format_duration(improvement.saved))
@@ -235,7 +235,7 @@ def describe_executed_loss(words: Words, loss: Loss, unplanned: int) -> Phrase:
 
 
 def _wait_in_words(words: Words, loss: Loss, names: Mapping[str, str]) -> Phrase:
-    """Return for whom a robot waits; for a wait for no robot, what may be closed then."""
+    """Return for whom a robot waits; for no robot: the places that may be closed then."""
     if loss.for_robot is not None:
         freed = words.name_place(loss.freed)
         if loss.freed == loss.towards:
@@ -432,7 +432,7 @@ def _sums_in_words(words: Words, decision: Decision, waits: str) -> Phrase:
 
 
 def list_figures(words: Words, decision: Decision) -> list[tuple[Phrase, str, str]]:
-    """Return the figures that were compared: what each is, then for each robot if it waits."""
+    """Return the compared figures: the name of each, then its value if each robot waits."""
     rows = list[tuple[Phrase, str, str]]()
     if any(count is not None for count in decision.conflicts_left):
         impossible = Phrase("impossible")
@@ -448,7 +448,7 @@ def list_figures(words: Words, decision: Decision) -> list[tuple[Phrase, str, st
 
 
 def describe_figures(words: Words, decision: Decision) -> list[Phrase]:
-    """Return what both choices lead to, in a sentence for each figure that was compared."""
+    """Return the results of both choices, a sentence for each compared figure."""
     first_name, other = map(words.name_robot, decision.robots)
     return [
         Phrase(
@@ -470,7 +470,7 @@ def explain_decision(words: Words, decision: Decision) -> str:
 
 
 def describe_closure(closure: Closure, scenario: Scenario) -> Phrase:
-    """Return what is closed, and when."""
+    """Return the closed places, and when they are closed."""
     moment, place = scenario.quantities.format_moment, PlaceNames(scenario, numbered=True)
     vertices, (begin, end) = (
         list_closed_vertices(closure, scenario),

@@ -10,16 +10,16 @@ UNLIMITED = 2**62
 
 
 class PriceAscent:
-    """A lower bound of what planners minimize, kept in the native core while it is raised.
+    """A lower bound of the objective, kept in the native core while it is raised.
 
     A vertex has a price at a tick where several robots want it. Each robot takes its cheapest
-    track, prices included. What all of them pay, less the sum of all prices, is a bound of plans,
-    because no two robots of a plan pay one price.
+    track, prices included. The sum of their payments, less the sum of all prices, is a bound of
+    plans, because no two robots of a plan pay one price.
 
     Parameters
     ----------
     problem
-        What the fleet has to do; every robot can reach its places.
+        The trips of the fleet; every robot can reach its places.
 
     Notes
     -----

@@ -28,7 +28,7 @@ MILLION, MOST_FACTOR = 10**6, 10**6
 
 
 class JointPlan(NamedTuple):
-    """A plan of least cost of some robots, alone on the roads, or what is proven of it.
+    """A plan of least cost of some robots, alone on the roads, or its proven bound.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class ConflictBasedSearch:
     Parameters
     ----------
     problem
-        What the fleet has to do; every robot can reach its places.
+        The trips of the fleet; every robot can reach its places.
     cardinal
         Whether conflicts that cost both robots something are resolved first.
     bypass

@@ -55,9 +55,9 @@ class Congestion:
     shares
         In how many shares a tick is counted.
     station
-        What it costs more to enter each vertex; int64, shape (V,) [shares per tick].
+        The extra cost of entering each vertex; int64, shape (V,) [shares per tick].
     oncoming
-        For each robot what it costs more to go against it [shares per tick].
+        For each robot the extra cost of driving against it [shares per tick].
     """
 
     def __init__(

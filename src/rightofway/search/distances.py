@@ -35,7 +35,7 @@ class Distances:
     roadmap
         The graph that robots drive on.
     checkpoint
-        Called before each table and each path; what it raises ends the work.
+        Called before each table and each path; its exception ends the work.
 
     Notes
     -----
@@ -118,7 +118,7 @@ class Distances:
         return self._symmetric[edge_ticks]
 
     def compute_cost(self, path: Path, edge_ticks: tuple[Tick, ...]) -> int | None:
-        """Return what it takes to drive a path [ticks]; None where an edge is missing."""
+        """Return the duration of a path [ticks]; None where an edge is missing."""
         vertices = np.array(path, np.int32)
         if len(path) and not 0 <= vertices.min() <= vertices.max() < self.roadmap.n_vertices:
             k = int(np.argmax((vertices < 0) | (vertices >= self.roadmap.n_vertices)))

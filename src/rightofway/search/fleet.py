@@ -55,15 +55,15 @@ class FleetSearch:
     Parameters
     ----------
     problem
-        What the fleet has to do.
+        The trips of the fleet.
     seed
         For all that is drawn.
     threads
         How many threads improve the plan; the plan does not depend on it. None or 0: all cores.
     alone
-        What `compute_least_completions` returned for the same trips [ticks], where that is known.
+        The result of `compute_least_completions` for the same trips [ticks], where that is known.
     objective
-        What `improve` minimizes. Of plans with equal makespan it prefers those of less flowtime.
+        The objective of `improve`. Of plans with equal makespan it prefers those of less flowtime.
     """
 
     def __init__(

@@ -40,7 +40,7 @@ def plan_by_lacam(
     Parameters
     ----------
     problem
-        What the fleet has to do; no two robots end at one vertex.
+        The trips of the fleet; no two robots end at one vertex.
     seed
         For ties.
     most_effort

@@ -35,7 +35,7 @@ from rightofway.site import Roadmap, VertexId
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class RoundTrip:
-    """What a robot has to do in one lap, whose route is not chosen yet.
+    """The trip of a robot in one lap, whose route is not chosen yet.
 
     Attributes
     ----------
@@ -143,7 +143,7 @@ class PeriodicBookings:
     rules
         When visits book.
     rows
-        What laps book, where robots have a size.
+        The bookings of laps, where robots have a size.
     """
 
     def __init__(
@@ -198,7 +198,7 @@ class PeriodicBookings:
         Parameters
         ----------
         robot, lap
-            The robot, and what it repeats.
+            The robot, and the lap that it repeats.
         visits
             Which visits, numbered from those of its first lap on.
         enter, leave
@@ -297,11 +297,11 @@ class PeriodicBookings:
     def find_blockers(
         self, robot: int, lap: Lap, begins: int = -NEVER, until: int = NEVER
     ) -> set[int]:
-        """Return the robots that have booked what the last search, for this lap, could not."""
+        """Return the robots whose bookings refused the last search of this lap."""
         return self._list_users(self._find_not_reached(robot, lap), begins, until)
 
     def keeps_out(self, other: int, home_of: Lap, robot: int, lap: Lap) -> bool:
-        """Return whether a robot at home excludes what the last search, for this lap, needed."""
+        """Return whether a robot at home excludes places that the last search needed."""
         needed = self._find_not_reached(robot, lap)
         if self._rows is None:
             return bool(needed[0] == home_of.vertices[0])

@@ -37,7 +37,7 @@ class Booking(NamedTuple):
 
 
 class Bookings:
-    """What robots with a track book, and closures; no two bookings of a vertex overlap.
+    """Bookings of robots with a track, and closures; no two bookings of a vertex overlap.
 
     Robots with a size book rows of `Resources`, a vertex or an edge; a booking marks all rows from
     which it excludes other robots.
@@ -81,7 +81,7 @@ class Bookings:
             self.book(row, booking)
 
     def book(self, row: int, booking: Booking) -> None:
-        """Book one vertex, or mark what one row excludes."""
+        """Book one vertex, or mark the rows that one row excludes."""
         for mark in list_excluded(self.resources, row):
             self._put(mark, *booking)
             self._of[booking.robot].append((mark, booking.start))
@@ -92,7 +92,7 @@ class Bookings:
             self.table.erase(row, start, robot)
 
     def make_bookings(self, robot: int, track: Track) -> Iterator[tuple[int, Booking]]:
-        """Yield what a track would book, visit by visit."""
+        """Yield the bookings of a track, visit by visit."""
         problem, rules, enter = self.problem, self.problem.booking_rules, track.enter
         vertices, first_row = track.vertices.tolist(), self.get_vertex_row(robot, 0)
         drives = compute_drives_along(problem.roadmap, problem.itineraries[robot], vertices)
@@ -134,7 +134,7 @@ def find_earliest_track(
     robot
         Which robot; it can reach every stage.
     bookings
-        What the other robots have booked.
+        The bookings of the other robots.
     distances
         Tables for the lower bounds that guide the search.
     time_limit
