@@ -16,6 +16,7 @@ from rightofway.model.plan import (
     StartPlan,
     Wait,
 )
+from rightofway.model.planned_work import PlannedItem, PlannedTour
 from rightofway.model.problem import Arc, Itinerary, Problem, Stage, compute_least_dwell
 from rightofway.model.resources import Resources
 from rightofway.model.robot import Occupancy, Robot, Rules, Stop, TripEnd, Turn, Walls
@@ -86,6 +87,8 @@ __all__ = [
     "Outcome",
     "OutcomeKind",
     "Plan",
+    "PlannedItem",
+    "PlannedTour",
     "PlannerRun",
     "Problem",
     "Proof",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
-from typing import Any, Literal, TypeVar
+from typing import Any, Literal, TypeVar, cast
 
 from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, find_nearest, quote
@@ -14,12 +14,20 @@ from rightofway.model.kept_facts import RerouteReason, Status
 from rightofway.model.lost_time import LostTime
 from rightofway.model.outcome import ForcedLoss, Objective, Outcome
 from rightofway.model.passing import unfold_tracks
+from rightofway.model.planned_work import (
+    PlannedItem,
+    PlannedTour,
+    assign_plan,
+    refuse_wrong_tours,
+    time_tours,
+)
 from rightofway.model.robot import Robot
 from rightofway.model.route import Track
 from rightofway.model.scenario import Scenario
 from rightofway.model.stays import Stays, find_stays
 from rightofway.model.steady_state import SteadyState, refuse_unknown_robots
 from rightofway.model.units import Tick
+from rightofway.model.work import UnservedReason
 from rightofway.site import VertexId
 from rightofway.values import (
     allow_none,
@@ -28,9 +36,16 @@ from rightofway.values import (
     make_class_reader,
     make_word_reader,
     read_at,
+    read_integer,
 )
 
 T = TypeVar("T")
+
+
+def _read_unserved(value: object) -> tuple[int, UnservedReason]:
+    if isinstance(value, list | tuple) and len(value) == 2:  # noqa: PLR2004 (a job and a reason)
+        return read_integer(value[0]), cast("UnservedReason", value[1])
+    raise ValueError(f"{quote(value)} is no unserved job (give its index and the reason)")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -256,11 +271,17 @@ class Plan:
         How it came about.
     steady
         From when on the plan repeats itself, where that is known; shown, not judged.
+    tours
+        Of a scenario with jobs: what each robot does in which visits. Where the scenario has
+        tours, they follow from its tours and the tracks unless they are given.
+    unserved
+        Of a scenario with jobs: indices of the jobs that no robot does, each with the reason.
 
     Raises
     ------
     InputError
-        If there is not a track for each robot, or ``steady`` is not of this plan.
+        If there is not a track for each robot, or ``steady``, tours or unserved jobs are not of
+        this plan.
 
     Notes
     -----
@@ -272,10 +293,13 @@ class Plan:
     tracks: tuple[Track, ...]
     run: PlannerRun
     steady: tuple[SteadyState, ...] = ()
+    tours: tuple[PlannedTour, ...] | None = None
+    unserved: tuple[tuple[int, UnservedReason], ...] = ()
     _figures: dict[str, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        read = {
+        item = make_class_reader(PlannedItem, "no item", "give PlannedItem(visit=index, …)")
+        read: dict[str, Callable[[object], object]] = {
             "scenario": make_class_reader(Scenario, "no scenario", "load one with rightofway.load"),
             "tracks": list_of(
                 make_class_reader(Track, "no track", "make it with Track.of(vertices, enter)")
@@ -284,6 +308,8 @@ class Plan:
             "steady": list_of(
                 make_class_reader(SteadyState, "no steady state", "give SteadyState")
             ),
+            "tours": allow_none(list_of(list_of(item))),
+            "unserved": list_of(_read_unserved),
         }
         coerce_fields(self, "", **read)
         robots, tracks = len(self.scenario.robots), len(self.tracks)
@@ -294,6 +320,13 @@ class Plan:
         object.__setattr__(self, "tracks", unfold_tracks(self.scenario.roadmap, self.tracks))
         names = [robot.name for robot in self.scenario.robots]
         refuse_unknown_robots(self.steady, names, list(map(len, self.tracks)))
+        if self.tours is None and self.scenario.tours is not None:
+            object.__setattr__(self, "tours", time_tours(self.scenario, self.tracks))
+            return  # its itineraries follow these tours
+        refuse_wrong_tours(self.scenario, self.tracks, self.tours, self.unserved)
+        if self.tours is not None:
+            scenario = assign_plan(self.scenario, self.tracks, self.tours)
+            object.__setattr__(self, "scenario", scenario)
 
     def __repr__(self) -> str:
         count = len(self.tracks)
@@ -320,7 +353,9 @@ class Plan:
     @property
     def stays(self) -> tuple[Stays, ...]:
         """The parts of each robot's visits: waits, work, turns; computed once."""
-        return self.compute_once("stays", lambda: find_stays(self.scenario, self.tracks))
+        return self.compute_once(
+            "stays", lambda: find_stays(self.scenario, self.tracks, self.tours)
+        )
 
     @property
     def completions(self) -> tuple[Tick, ...]:

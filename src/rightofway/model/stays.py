@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,9 @@ from rightofway.model.route import Track, compute_least_dwells, find_serving_vis
 from rightofway.model.scenario import Scenario
 from rightofway.model.units import NEVER, Tick
 from rightofway.site import Roadmap
+
+if TYPE_CHECKING:
+    from rightofway.model.planned_work import PlannedTour
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -45,7 +49,9 @@ class Stays:
     completion: Tick
 
 
-def find_stays(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Stays, ...]:
+def find_stays(
+    scenario: Scenario, tracks: Sequence[Track], tours: Sequence[PlannedTour] | None = None
+) -> tuple[Stays, ...]:
     """Return what the visits of a fleet are for.
 
     Parameters
@@ -54,6 +60,9 @@ def find_stays(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Stays, ...]
         The problem.
     tracks
         One track for each robot; they may break the rules.
+    tours
+        Of a plan with jobs: what each robot does in which visits. None: stages are served as early
+        as visits last long enough.
 
     Notes
     -----
@@ -72,12 +81,22 @@ def find_stays(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Stays, ...]
     spare = np.append(np.diff(enter), 0) - drive - turns
     spare[ends - 1] = NEVER
     all_serves = []
-    for own, track, itinerary in zip(owns, tracks, scenario.problem.itineraries, strict=True):
-        serves = find_serving_visits(itinerary.stages, track.vertices, spare[own])
-        dwell[own] = compute_least_dwells(itinerary.stages, serves, len(track))
+    for robot, (own, track) in enumerate(zip(owns, tracks, strict=True)):
+        if tours is None:
+            stages = scenario.problem.itineraries[robot].stages
+            serves = find_serving_visits(stages, track.vertices, spare[own])
+            dwell[own] = compute_least_dwells(stages, serves, len(track))
+        else:
+            serves = [item.visit for item in tours[robot]]
+            dwell[own] = _dwells_of_tour(scenario, robot, len(track), tours[robot])
         all_serves.append(tuple(serves))
     dwell += turns
     completion = (enter + dwell)[ends - 1].tolist()
+    if tours is not None:
+        completion = [
+            _complete_tour(scenario, robot, track, tour)
+            for robot, (track, tour) in enumerate(zip(tracks, tours, strict=True))
+        ]
     waits = spare + turns - dwell
     waits[ends - 1] = 0
     return tuple(
@@ -91,6 +110,32 @@ def find_stays(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Stays, ...]
         )
         for own, serves, done in zip(owns, all_serves, completion, strict=True)
     )
+
+
+def _dwells_of_tour(
+    scenario: Scenario, robot: int, n_visits: int, tour: PlannedTour
+) -> NDArray[np.int64]:
+    """Return the ticks of work, charges and the turn at a stop of each visit; shape (n,)."""
+    assert scenario.problem.work is not None, "tours are of jobs"
+    dwell = np.zeros(n_visits, np.int64)
+    for item in tour:
+        dwell[item.visit] += item.end - item.begin
+    left = sorted({item.visit for item in tour if item.visit < n_visits - 1})
+    dwell[left] += scenario.problem.work.robots[robot].turn
+    return dwell
+
+
+def _complete_tour(scenario: Scenario, robot: int, track: Track, tour: PlannedTour) -> Tick:
+    """Return when a robot with a tour completes [ticks].
+
+    It then rests; one that does not return home may still drive to make room.
+    """
+    assert scenario.problem.work is not None, "tours are of jobs"
+    state = scenario.problem.work.robots[robot]
+    end = max([state.ready, *(item.end for item in tour[-1:])])
+    if tour and state.home is None:
+        return end
+    return max(end, Tick(int(track.enter[-1])))
 
 
 def compute_drives(scenario: Scenario, tracks: Sequence[Track]) -> NDArray[np.int64]:
