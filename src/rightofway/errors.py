@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 from fractions import Fraction
 from itertools import takewhile
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from rightofway.facts import Fact
 from rightofway.phrases import Phrase, join_items
@@ -395,7 +395,7 @@ class NoPlanExists(RightOfWayError):
             dict.fromkeys(name for blockage in self.blockages for name in blockage.vertices)
         )
 
-    def as_dict(self) -> dict[str, object]:
+    def as_dict(self) -> dict[str, Any]:
         """Return the blockages as plain data for JSON."""
         return {
             "reasons": [

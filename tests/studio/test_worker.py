@@ -74,3 +74,4 @@ def test_each_ending_has_its_kind_and_a_message(error: BaseException, kind: str)
     told = as_error(error)
     assert told["kind"] == kind
     assert told["message"]
+    assert ("phrase" in told) == (kind in {"gave_up", "stopped", "memory"})

@@ -18,11 +18,11 @@ from typing import TYPE_CHECKING, Any
 
 from typing_extensions import TypedDict
 
-from rightofway.errors import join_names
+from rightofway.errors import Blockage, join_names
 from rightofway.facts import Fact
 from rightofway.model import Scenario
 from rightofway.model.place_names import PlaceNames, describe_middle
-from rightofway.phrases import Phrase, chain_items, join_first, join_items, mark_figure
+from rightofway.phrases import Phrase, chain_items, join_first, join_items, mark_figure, to_parts
 from rightofway.quantities import Quantities, format_decimal
 from rightofway.units import Units
 
@@ -115,8 +115,10 @@ class FactWriter:
             return self._forms[form](value)
         return self.write(Fact(form, number=value))
 
-    def export(self, fact: Fact) -> FactData:
+    def export(self, fact: Fact | str) -> FactData:
         """Return a fact as plain data for JSON: robots and vertices by name, times in ticks."""
+        if isinstance(fact, str):
+            fact = Fact("other", text=fact)
         forms = dict(list_forms(find_template(fact)))
         values = {
             name: self._export_value(forms.get(name, ""), value)
@@ -271,6 +273,19 @@ class FactWriter:
 def write_note(note: str | Fact) -> str:
     """Return a fact as a sentence; text stays as it is."""
     return FactWriter(getattr(note, "about", None)).write(note)
+
+
+def pack_note(note: str | Fact) -> Any:
+    """Return a fact for pages, which write it in their language; text stays as it is."""
+    return to_parts(write_note(note))
+
+
+def write_blockage(blockage: Blockage) -> str:
+    """Return the reason of a blockage, and its remedy if there is one."""
+    reason, remedy = blockage.reason, blockage.remedy
+    about = getattr(reason, "about", None)
+    both = Fact("fact and remedy", about, fact=reason, remedy=remedy)
+    return write_note(both if remedy else reason)
 
 
 def write_notes(notes: Iterable[str | Fact]) -> list[str]:

@@ -63,7 +63,7 @@ def list_names(scenario: Scenario, group: GroupResult) -> list[str]:
 
 
 def write_reason(group: GroupResult, quantities: Quantities | None = None) -> str:
-    """Return the deadlock or the limit that ended a group; empty where its pattern repeats."""
+    """Return in words why a group ended; empty where its pattern repeats."""
     if group.why is None:
         return ""
     return FactWriter(group.context.scenario, quantities).write(group.why)
@@ -110,7 +110,7 @@ def _group_data(scenario: Scenario, group: GroupResult, *, by_visit: bool) -> di
     data: dict[str, Any] = {
         "robots": names,
         "ends": group.ends,
-        "why": write_reason(group),
+        "why": None if group.why is None else FactWriter(scenario).export(group.why),
         "transient": format_number(time(pattern.transient)) if pattern else None,
         "begins": format_number(time(pattern.begins)) if pattern else None,
         "period": format_number(time(pattern.period)) if pattern else None,
@@ -187,11 +187,12 @@ def _curves_data(scenario: Scenario, group: GroupResult) -> dict[str, Any] | Non
     graph, pattern = group.build_graph(), group.pattern
     if graph is None or pattern is None or len(graph) > MAX_VISITS_OF_SENSITIVITY:
         return None
-    data: dict[str, Any] = {"exact": scenario.problem.clock.exact, "why": ""}
+    data: dict[str, Any] = {"exact": scenario.problem.clock.exact, "why": None}
     try:
         found_curves = compute_parameter_curves(scenario, graph)
     except GaveUp as error:
-        return data | {"why": str(error), "curves": [], "circuits": []}
+        why = FactWriter(scenario).export(error.reason)
+        return data | {"why": why, "curves": [], "circuits": []}
     circuits: dict[tuple[int, ...], int] = {}
     curves = [
         {

@@ -14,6 +14,9 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from rightofway.errors import GaveUp, InputError, InputFault, NoPlanExists, describe_defect
+from rightofway.facts import Fact
+from rightofway.phrases import to_parts
+from rightofway.report.facts import write_blockage, write_note
 
 LENGTH = struct.Struct(">Q")
 """How the length of a message is written."""
@@ -42,16 +45,27 @@ def as_error(error: BaseException) -> dict[str, Any]:
             message = "\n".join(str(fault.name_file("")) for fault in error.faults)
             return {"kind": "input", "message": message, "faults": listed}
         case NoPlanExists():
-            return {"kind": "no_plan", "message": f"no plan exists: {error}", **error.as_dict()}
+            data = error.as_dict()
+            for reason, blockage in zip(data["reasons"], error.blockages, strict=True):
+                reason["phrase"] = to_parts(write_blockage(blockage))
+            return {"kind": "no_plan", "message": f"no plan exists: {error}", **data}
         case GaveUp():
-            return {"kind": "gave_up", "message": f"no plan found: {error}"}
+            return _describe_error(
+                "gave_up",
+                Fact("no plan found", getattr(error.reason, "about", None), reason=error.reason),
+            )
         case KeyboardInterrupt():
-            return {"kind": "stopped", "message": "stopped before there was a plan"}
+            return _describe_error("stopped", Fact("stopped before a plan"))
         case MemoryError():
-            message = "this needs more memory than a worker may take (give a smaller problem)"
-            return {"kind": "memory", "message": message}
+            return _describe_error("memory", Fact("out of memory"))
         case _:
             return {"kind": "defect", "message": describe_defect(error)}
+
+
+def _describe_error(kind: str, fact: Fact) -> dict[str, Any]:
+    """Return a fact in English as ``message``, and with kind and values as ``phrase``."""
+    phrase = write_note(fact)
+    return {"kind": kind, "message": phrase, "phrase": to_parts(phrase)}
 
 
 def as_fault_data(fault: InputFault) -> dict[str, Any]:

@@ -9,6 +9,8 @@ from collections.abc import AsyncGenerator, Mapping
 from dataclasses import asdict, dataclass, field, fields
 from typing import Any, Literal
 
+from rightofway.facts import Fact
+from rightofway.report.facts import pack_note
 from rightofway.studio.crew import Crew, WorkerCall
 from rightofway.studio.errors import Busy, Refused, StudioError
 from rightofway.studio.events import Event, Listeners
@@ -57,7 +59,7 @@ class Run:
     created, started, ended
         Seconds since 1970.
     status
-        The status of the planner.
+        The status of the planner, for people: kind and values.
     figures
         The costs of its plan.
     error
@@ -80,7 +82,7 @@ class Run:
     created: float = field(default_factory=time.time)
     started: float | None = None
     ended: float | None = None
-    status: str = ""
+    status: list[Any] | None = None
     figures: dict[str, Any] | None = None
     error: dict[str, Any] | None = None
     points: list[tuple[float, int]] = field(default_factory=list)
@@ -141,7 +143,7 @@ class Runs:
             self._runs[number] = run
             if run.state == "running":
                 run.state, run.ended = "interrupted", time.time()
-                run.status = "the studio went down; the best plan so far is kept"
+                run.status = pack_note(Fact("studio went down"))
                 await self._save(run)
             elif run.state == "queued":
                 self._get_queue(run).put_nowait(number)
@@ -306,7 +308,7 @@ class Runs:
             await asyncio.gather(*work.tasks)
             is_wanted = work.wants == "cancelled" or (work.wants and run.revision)
             run.state, run.error = work.wants or "failed", None if is_wanted else failed.error
-            run.status = "the best plan so far is kept" if run.revision else ""
+            run.status = pack_note(Fact("best plan kept")) if run.revision else None
         except Exception as error:  # noqa: BLE001 (the other runs go on)
             run.state, run.error = "failed", as_error(error)
         finally:

@@ -105,7 +105,8 @@ export interface CurvePiece {
 /** The period as functions of parameters. */
 export interface Curves {
   exact: boolean;
-  why: string;
+  why: FactData | null;
+  reason: PhraseData | null;
   curves: Array<CurveData>;
   circuits: Array<CircuitData>;
 }
@@ -152,7 +153,6 @@ export interface DelaysReport {
   by_clock: ByClock;
   spread: SpreadData | null;
   ranks: Ranks;
-  text: string;
 }
 
 /** One thing wrong with a document: where, as text, as keys and indices, and for people. */
@@ -210,6 +210,7 @@ export interface DriveList {
 export interface ErrorData {
   kind: string;
   message: string;
+  phrase?: PhraseData;
   status?: number;
   faults?: Array<DocumentFault>;
   reasons?: Array<Reason>;
@@ -330,7 +331,8 @@ export interface LapConflict {
 /** Robots that share places, and how they repeat themselves; null where they do not. */
 export interface LapGroup {
   robots: Array<string>;
-  why: PhraseData | string;
+  why: FactData | null;
+  reason: PhraseData | string;
   period: number | string | null;
   laps_per_period: Record<string, number>;
   mean_lap: Record<string, number | string | null>;
@@ -349,7 +351,6 @@ export interface LapsAnswer {
 export interface LapsReport {
   units: UnitNames;
   groups: Array<LapGroup>;
-  text: string;
 }
 
 /** Lateness of the fleet and of each robot. */
@@ -555,10 +556,11 @@ export interface Ranks {
   flowtime: Array<number | null>;
 }
 
-/** A proof that no plan exists: its kind, its English sentence, and the vertices in it. */
+/** A proof that no plan exists: its kind, its sentence, and the vertices in it. */
 export interface Reason {
   kind: string;
   reason: string;
+  phrase: PhraseData | string;
   robots: Array<string>;
   vertices: Array<string>;
 }
@@ -600,7 +602,7 @@ export interface RunData {
   created: number;
   started: number | null;
   ended: number | null;
-  status: string;
+  status: PhraseData | null;
   figures: PlanFigures | null;
   error: ErrorData | null;
   points: Array<[number, number]>;
@@ -627,7 +629,7 @@ export interface RunProgress {
   seconds?: number;
   flowtime?: number;
   lower_bound?: number;
-  message?: string;
+  progress?: PhraseData;
 }
 
 /** The settings of the task of a run; which there are depends on its kind. */

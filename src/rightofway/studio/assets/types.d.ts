@@ -181,7 +181,6 @@ export type ComparisonPayload = ComparisonData;
 /** A run, with what this page knows of it. */
 export interface LiveRun extends RunData {
   bound?: number;
-  message?: string;
   since?: number;
 }
 

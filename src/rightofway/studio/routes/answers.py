@@ -54,10 +54,11 @@ class DocumentFault(TypedDict):
 
 
 class Reason(TypedDict):
-    """A proof that no plan exists: its kind, its English sentence, and the vertices in it."""
+    """A proof that no plan exists: its kind, its sentence, and the vertices in it."""
 
     kind: str
     reason: str
+    phrase: Phrase | str
     robots: list[str]
     vertices: list[str]
 
@@ -67,6 +68,7 @@ class ErrorData(TypedDict):
 
     kind: str
     message: str
+    phrase: NotRequired[Phrase]
     status: NotRequired[int]
     faults: NotRequired[list[DocumentFault]]
     reasons: NotRequired[list[Reason]]
@@ -258,7 +260,7 @@ class RunData(TypedDict):
     created: float
     started: float | None
     ended: float | None
-    status: str
+    status: Phrase | None
     figures: PlanFigures | None
     error: ErrorData | None
     points: list[tuple[float, float]]
@@ -288,7 +290,7 @@ class RunProgress(TypedDict):
     seconds: NotRequired[float]
     flowtime: NotRequired[int]
     lower_bound: NotRequired[int]
-    message: NotRequired[str]
+    progress: NotRequired[Phrase]
 
 
 class PlanFound(TypedDict):
@@ -564,7 +566,8 @@ class Curves(TypedDict):
     """The period as functions of parameters."""
 
     exact: bool
-    why: str
+    why: FactData | None
+    reason: Phrase | None
     curves: list[CurveData]
     circuits: list[CircuitData]
 
@@ -573,7 +576,8 @@ class LapGroup(TypedDict):
     """Robots that share places, and how they repeat themselves; null where they do not."""
 
     robots: list[str]
-    why: Phrase | str
+    why: FactData | None
+    reason: Phrase | str
     period: Exact | None
     laps_per_period: dict[str, int]
     mean_lap: dict[str, Exact | None]
@@ -594,7 +598,6 @@ class LapsReport(TypedDict):
 
     units: UnitNames
     groups: list[LapGroup]
-    text: str
 
 
 class LatenessFigures(TypedDict):
@@ -655,7 +658,6 @@ class DelaysReport(TypedDict):
     by_clock: ByClock
     spread: SpreadData | None
     ranks: Ranks
-    text: str
 
 
 class PlanSummary(TypedDict):

@@ -12,6 +12,7 @@ from rightofway.metrics import compute_lost_time
 from rightofway.model import Loss, Plan, Status, Tick
 from rightofway.phrases import Phrase, to_parts
 from rightofway.repair.flip import flip_right_of_way
+from rightofway.report.facts import pack_note
 from rightofway.report.sentences import Words, describe_decision, describe_losses, explain_decision
 from rightofway.studio.messages import Blobs, Emit, zip_text
 from rightofway.studio.tasks.documents import compute_figures
@@ -142,7 +143,7 @@ def flip(
     result = {
         "figures": compute_figures(flipped_plan),
         "before": compute_figures(plan),
-        "status": str(status),
+        "status": pack_note(status),
     }
     return (result, format_plan(flipped_plan).encode())
 

@@ -11,6 +11,7 @@ from rightofway.facts import Fact
 from rightofway.io import FOREIGN_FORMATS, format_plan, parse_plan
 from rightofway.io.json_text import parse_json
 from rightofway.model import Plan, Status
+from rightofway.report.facts import pack_note
 from rightofway.solve import improve as improved
 from rightofway.solve import solve
 from rightofway.studio.messages import Blobs, Emit
@@ -39,8 +40,8 @@ class PlanningProgress:
         self._next = 0.0
 
     def report(self, message: Fact | str) -> None:
-        """Send the English sentence of a fact."""
-        self._emit({"message": str(message), "seconds": self._measure_seconds()})
+        """Send a fact, for people."""
+        self._emit({"progress": pack_note(message), "seconds": self._measure_seconds()})
 
     def take_plan(self, plan: Plan) -> None:
         """Send the costs of a plan, and the plan too where that does not take too much time."""
@@ -95,8 +96,9 @@ def _run_search(emit: Emit, search: Callable[[dict[str, Any]], Plan]) -> Result:
             raise
         run = replace(progress.best.run, status=Status("stopped"))
         best = replace(progress.best, run=run)
-    status = {"status": str(best.run.status), "seconds": best.run.seconds}
-    return ({"figures": compute_figures(best), **status}, format_plan(best).encode())
+    result = {"figures": compute_figures(best), "seconds": best.run.seconds}
+    status = None if best.run.status is None else pack_note(best.run.status)
+    return ({**result, "status": status}, format_plan(best).encode())
 
 
 def list_choices(_emit: Emit, _blobs: Blobs) -> Result:

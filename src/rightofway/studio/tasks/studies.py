@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rightofway.errors import GaveUp, InputError
+from rightofway.facts import read_fact
 from rightofway.io import format_plan, parse_plan
 from rightofway.io.json_text import parse_json
 from rightofway.model import Scenario
 from rightofway.phrases import to_parts
-from rightofway.report.execution import report as simulation_report
-from rightofway.report.laps import report_laps
-from rightofway.report.laps_data import make_laps_data
+from rightofway.report.facts import pack_note, write_note
+from rightofway.report.laps_data import make_laps_data, write_reason
 from rightofway.report.plan_data import describe_measures
 from rightofway.studio.messages import Blobs, Emit
 from rightofway.studio.tasks.documents import compute_digest, compute_figures, load_document
@@ -67,7 +67,7 @@ def _run_laps(
 def make_laps(emit: Emit, _blobs: Blobs, *, document: Any, folder: str, **settings: Any) -> Result:
     """Let robots repeat their trips.
 
-    The report is that of `rightofway laps --json`, with the one for people as ``text``.
+    The report is that of `rightofway laps --json`, with reasons for people as ``reason``.
     """
     from rightofway.cyclic import make_excerpt, plan_of_laps
     from rightofway.model.steady_state import keep_within
@@ -76,17 +76,25 @@ def make_laps(emit: Emit, _blobs: Blobs, *, document: Any, folder: str, **settin
     run = _run_laps(scenario, emit, **settings)
     shown, steady = make_excerpt(run)
     payload = as_compact_json(make_payload(shown, steady=steady)).encode()
-    text = report_laps(run, scenario.quantities)
-    report = to_parts({**make_laps_data(run), "text": text})
-    result: dict[str, Any] = {"report": report, "has_payload": True}
+    result: dict[str, Any] = {"report": _describe_laps(run), "has_payload": True}
     try:
         whole = plan_of_laps(run)
     except GaveUp as reason:  # a robot that is home for ever blocks others: only laps are shown
-        return ({**result, "status": str(reason)}, payload)
+        return ({**result, "status": pack_note(reason.reason)}, payload)
     whole = replace(whole, steady=keep_within(steady, list(map(len, whole.tracks))))
     digest = compute_digest(scenario)  # that of `whole` says how many laps are shown
     costs = {**compute_figures(whole), "scenario": digest}
     return ({**result, "figures": costs}, payload, format_plan(whole).encode())
+
+
+def _describe_laps(run: CyclicResult, *, by_visit: bool = True) -> Any:
+    """Return the data of laps, with each reason as a sentence, too."""
+    data = make_laps_data(run, by_visit=by_visit)
+    for group, row in zip(run.groups, data["groups"], strict=True):
+        row["reason"] = write_reason(group)
+        if curves := row["curves"]:
+            curves["reason"] = curves["why"] and write_note(read_fact(curves["why"]))
+    return to_parts(data)
 
 
 def make_laps_if(
@@ -112,7 +120,7 @@ def make_laps_if(
     except ValueError as error:
         raise InputError.at("value", str(error)) from None
     run = _run_laps(_change_value(scenario, kind, robot, stop, wanted), emit, **settings)
-    answer = to_parts(make_laps_data(run, by_visit=False))
+    answer = _describe_laps(run, by_visit=False)
     return ({key: answer[key] for key in ("groups", "throughput_per_hour")},)
 
 
@@ -148,9 +156,9 @@ def simulate(
 ) -> Result:
     """Execute a plan with delays; a stop keeps the runs that were made.
 
-    The report is that of `rightofway simulate --json`. Beside it are the one for people as
-    ``text``, the flowtime of each run in classes of equal width as ``spread``, runs from the best
-    to the worst as ``ranks``, and the number of the run with the largest flowtime as ``worst``.
+    The report is that of `rightofway simulate --json`, with the flowtime of each run in classes of
+    equal width as ``spread``, runs from the best to the worst as ``ranks``, and the number of the
+    run with the largest flowtime as ``worst``.
     """
     from rightofway.execution import DEFAULT_DELAYS
     from rightofway.execution import simulate as execute
@@ -168,7 +176,6 @@ def simulate(
         **describe_measures(given.scenario),
         **outcome.as_dict(),
         "played": played,
-        "text": simulation_report(outcome, given.scenario.quantities),
         "worst": outcome.find_worst_run(),
         "spread": compute_spread(outcome),
         "ranks": compute_ranks(outcome),

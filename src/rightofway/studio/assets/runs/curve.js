@@ -3,6 +3,7 @@
 import { html, useEffect, useState } from "../vendor/htm-preact.js";
 import { connection } from "../connection.js";
 import { figure } from "../../../viz/page/assets/language/language.js";
+import { said as phraseText } from "../../../viz/page/assets/language/library.js";
 import { Quantities } from "../../../viz/page/assets/language/quantities.js";
 import { words } from "../words.js";
 import { secondsOf } from "./list.js";
@@ -97,7 +98,7 @@ function Caption({ run: { state, figures, status }, isFaulty, bound, seconds }) 
     ${said && html`<${Term} of="flowtime" /> <b>${said.duration(figures.flowtime)}</b>, `}
     ${said && html`<${Term} of="bound" /> ${said.duration(figures.lower_bound)}`}
     ${said && figures.flowtime > (bound ?? Infinity) && ` (+${figure(figures.text.gap ?? "")})`}
-    ${!isLive && status && html` <span class="hint" lang="en">${status}</span>`}
+    ${!isLive && status && html` <span class="hint">${phraseText(status)}</span>`}
   </figcaption>`;
 }
 

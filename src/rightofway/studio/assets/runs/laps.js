@@ -116,7 +116,7 @@ export function Laps({ studio, report }) {
   const open = own?.period === null ? own : largest(groups.filter(({ period }) => period === null));
   const isAlone = groups.length === 1;
   return html`
-    ${open && html`<p class="open-group">${words.openGroup(several(open.robots), open.robots.length, phraseText(open.why))}</p>`}
+    ${open && html`<p class="open-group">${words.openGroup(several(open.robots), open.robots.length, phraseText(open.reason))}</p>`}
     ${group && !isAlone && html`<p class="hint">${words.groupOf(several(group.robots), groups.length)}</p>`}
     ${group && group.period !== null && html`<${Pace} key=${`${studio.runs.shown} ${group.robots[0]}`} studio=${studio} report=${report} group=${group} chosen=${chosen} />`}`;
 }
@@ -205,7 +205,7 @@ function Pace({ studio, report, group, chosen }) {
       ) => html`<${Slider} key=${curve.key} curve=${curve} said=${said} now=${at} studio=${studio}
         position=${moved?.curve === curve ? moved.position : 0} move=${move} release=${release} />`,
     )}
-    <p class="hint">${[group.curves?.why, curves.length > shown.length && words.moreSliders, group.curves?.exact === false && words.rounded].filter(Boolean).join(" ")}</p>`;
+    <p class="hint">${[group.curves?.reason && phraseText(group.curves.reason), curves.length > shown.length && words.moreSliders, group.curves?.exact === false && words.rounded].filter(Boolean).join(" ")}</p>`;
 }
 
 /**
@@ -266,7 +266,7 @@ const leaders = ({ bottleneck }) =>
 function answerOf(answer, { robots }) {
   if ("message" in answer) return { why: answer.message };
   const found = present(answer.groups.find((each) => each.robots.includes(robots[0])));
-  if (found.period === null) return { why: phraseText(found.why) };
+  if (found.period === null) return { why: phraseText(found.reason) };
   return { period: fraction(found.period), laps: lapsIn(found) };
 }
 

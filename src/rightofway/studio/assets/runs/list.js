@@ -2,7 +2,8 @@
 
 import { html, useEffect, useState } from "../vendor/htm-preact.js";
 import { Field } from "../field.js";
-import { figure } from "../../../viz/page/assets/language/language.js";
+import { figure, language } from "../../../viz/page/assets/language/language.js";
+import { said as phraseText } from "../../../viz/page/assets/language/library.js";
 import { Quantities } from "../../../viz/page/assets/language/quantities.js";
 import { words } from "../words.js";
 import { doNotRun, faultsOf, inShort } from "./faults.js";
@@ -276,10 +277,11 @@ function Gap({ figures: { flowtime, lower_bound: bound, text } }) {
  */
 function Failure({ studio, error }) {
   const reasons = error.reasons?.filter(({ vertices }) => vertices.length) ?? [];
-  if (!reasons.length) return html`<p class="wrong" lang="en">${error.message}</p>`;
+  if (!reasons.length)
+    return html`<p class="wrong" lang=${error.phrase ? language : "en"}>${phraseText(error.phrase ?? error.message)}</p>`;
   return reasons.map(
-    ({ reason, vertices }) =>
-      html`<button type="button" class="watch wrong" lang="en" onClick=${() => studio.light(vertices)}>
-        ${reason}</button>`,
+    ({ phrase, vertices }) =>
+      html`<button type="button" class="watch wrong" onClick=${() => studio.light(vertices)}>
+        ${phraseText(phrase)}</button>`,
   );
 }

@@ -539,13 +539,13 @@ export class RunStore extends Observable {
         if (!isOver(run)) return;
         if (run.error) this.#refuse(run.error);
       },
-      progress: ({ seconds, flowtime, lower_bound: bound, message }) => {
+      progress: ({ seconds, flowtime, lower_bound: bound }) => {
         const run = this.find(number);
         if (!run) return;
         /** @type {[number, number][]} */
         const reached = flowtime === undefined ? [] : [[seconds ?? 0, flowtime]];
         const points = [...run.points, ...reached];
-        this.#keep({ ...run, points, bound: bound ?? run.bound, message: message ?? run.message });
+        this.#keep({ ...run, points, bound: bound ?? run.bound });
       },
       plan: ({ figures }) => {
         const run = this.find(number);
