@@ -20,7 +20,7 @@ from rightofway.control.laps import LapsToDrive, build_graph_behind_released
 from rightofway.control.ledger import Edge, Ledger
 from rightofway.control.messages import Message
 from rightofway.control.releases import list_strayed_to
-from rightofway.control.rest import RestPlanner
+from rightofway.control.rest import RestPlanner, explain_error
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive, make_routes_to_drive
 from rightofway.errors import GaveUp, InputError
@@ -201,7 +201,7 @@ class Dispatcher:
                 routes[robot] = route.join(after, later)
         graph = self._build_graph(routes)
         if graph.find_rotation():
-            raise GaveUp("robots would move round a circle at one instant")
+            raise GaveUp(Fact("robots would rotate"))
         return self.control.splice(routes, graph)
 
     # --- the rest (splices, rule 10) -------------------------------------------------------------
@@ -375,7 +375,7 @@ class Dispatcher:
             self._tries_in = self._patience
             if not self._has_failed:
                 self._has_failed = True
-                self.report(Fact("no plan of the rest", reason=str(error)), False)
+                self.report(Fact("no plan of the rest", reason=explain_error(error)), False)
             return None
         if self._has_failed:
             self._has_failed = False

@@ -34,6 +34,7 @@ from rightofway.control.names import (
     list_jobs,
     name_place,
 )
+from rightofway.control.rest import explain_error
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import make_route_from
 from rightofway.errors import GaveUp, InputError, describe_defect, quote
@@ -100,7 +101,7 @@ class Operator:
             try:
                 more, reply = self._obey(read_command(text))
             except (InputError, GaveUp) as error:
-                refusal = Fact("refused", reason=str(error))
+                refusal = Fact("refused", reason=explain_error(error))
                 more, reply = [], {"done": False, "fact": refusal.as_dict()}
             except UNSOUND:
                 raise

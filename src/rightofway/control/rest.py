@@ -26,6 +26,7 @@ from rightofway.control.routes import RouteToDrive
 from rightofway.control.waiting_places import ReachableStops, choose_waiting_places
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.execution.replan import list_held
+from rightofway.facts import Fact
 from rightofway.model import Plan, PlannerRun, Robot, Scenario, Stop, Tick, Track, make_route
 from rightofway.model.route import make_route_through
 from rightofway.precedence import ReleaseGraph, build_graph, build_timetable
@@ -36,7 +37,7 @@ from rightofway.site import Roadmap, VertexId
 from rightofway.site.passing import list_next_stops
 from rightofway.solve import solve
 
-__all__ = ["RestPlanner"]
+__all__ = ["RestPlanner", "explain_error"]
 
 SHARE = 50
 """Rights of way are switched where that saves a fiftieth of the flowtime of the rest, or more."""
@@ -44,6 +45,14 @@ SHARE = 50
 MOST_ASIDE = 3
 """Neighbours that are tried where a robot has to leave a place and come back to work there, and
 ways to choose waiting places; in one more attempt some robots stand."""
+
+
+def explain_error(error: Exception) -> Fact | str:
+    """Return the reason of an error as the journal keeps it: a fact with names, or English text."""
+    reason = getattr(error, "reason", None)
+    if isinstance(reason, Fact) and reason.about is None:
+        return reason
+    return str(error)
 
 
 class RestPlanner:
@@ -135,13 +144,13 @@ class RestPlanner:
         moving = [robot for robot, own in enumerate(robots) if not own.is_off]
         standing = [robot for robot in stuck if not robots[robot].is_off]
         passable = self._find_passable(commitments, closed, standing)
-        reasons = ""
+        reason: Fact | str | None = None
         for attempt in range(MOST_ASIDE + 1):
             try:
                 ways = {k: self._way(robots[k], commitments[k], stops[k], attempt) for k in moving}
                 planned_routes = self._routes(commitments, ways, passable, standing, attempt)
             except (NoPlanExists, GaveUp, InputError) as error:
-                reasons = reasons or str(error)
+                reason = reason or explain_error(error)
                 continue
             routes = [own.route.cut_before(own.arrived) for own in robots]
             for robot, route in zip(moving, planned_routes, strict=True):
@@ -150,8 +159,8 @@ class RestPlanner:
             graph = build_graph_behind_released(self._scenario, routes, released, absent)
             if not graph.find_rotation():
                 return routes, graph
-            reasons = reasons or "robots would move round a circle at one instant"
-        raise GaveUp(f"no plan of the rest was found: {reasons}")
+            reason = reason or Fact("robots would rotate")
+        raise GaveUp(Fact("no routes for the rest", reason=reason))
 
     def find_better_order(
         self, robots: Sequence[RobotLedger], released: Sequence[int], stuck: Collection[int] = ()
@@ -310,10 +319,10 @@ class RestPlanner:
         in_order = [Track.of(visited[robot], arrivals[robot]) for robot in moving]
         tracks = build_timetable(whole.problem, in_order)
         if tracks is None:
-            raise GaveUp("its order cannot be kept behind what is released")
+            raise GaveUp(Fact("order not kept behind released"))
         judged = check(Plan(scenario=whole, tracks=tuple(tracks), run=PlannerRun()))
         if not judged.ok:
-            raise GaveUp(f"the whole has {judged.summary}")
+            raise GaveUp(Fact("rest with faults", faults=judged.total))
         return [
             self._route(whole, index, track, commitments[robot], ways[robot])
             for index, (robot, track) in enumerate(zip(moving, tracks, strict=True))
@@ -431,7 +440,7 @@ class RestPlanner:
         if stops_ahead[0].job and roadmap.get_vertex(stops_ahead[0].place) == place:
             ends = list_next_stops(roadmap, place)
             if not ends:
-                raise GaveUp(f"{stops_ahead[0].place} cannot be left and entered again")
+                raise GaveUp(Fact("place not entered again", place=stops_ahead[0].place))
             # From a neighbour on a one-way lane the planner finds a longer way back.
             back = [stop for stop in ends if place in list_next_stops(roadmap, stop)] or ends
             stops_ahead.insert(0, StopToMake(roadmap.name(back[aside % len(back)])))
@@ -471,7 +480,7 @@ class RestPlanner:
         lap_ends = list(route.lap_ends)
         for stop, visit in zip(stops, serves, strict=True):
             if stop.job and visit == last:
-                raise GaveUp(f"{stop.job} would be done at a node that was sent already")
+                raise GaveUp(Fact("job at a sent node", job=stop.job))
             if stop.job:
                 jobs[visit].append(stop.job)
                 work[visit].append(stop.work)
