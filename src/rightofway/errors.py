@@ -21,7 +21,6 @@ from itertools import takewhile
 from typing import TYPE_CHECKING, Any
 
 from rightofway.facts import Fact
-from rightofway.phrases import Phrase, join_items
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
@@ -463,13 +462,12 @@ def _list_shown(items: list[object] | tuple[object, ...]) -> str:
 
 
 def join_names(names: Sequence[str]) -> str:
-    """Return names as a sentence has them: ``R1, R2 and R3``, long lists cut."""
+    """Return names as an English sentence has them: ``R1, R2 and R3``, long lists cut."""
     most = 2 * FEW
-    if len(names) <= most:
-        return join_items(names) if names else ""
-    return join_items(
-        [*names[: most - 1], Phrase("{number} more", number=str(len(names) - most + 1))]
-    )
+    if len(names) > most:
+        names = [*names[: most - 1], f"{len(names) - most + 1} more"]
+    *others, last = names or [""]
+    return f"{', '.join(others)} and {last}" if others else last
 
 
 def escape_text(text: str) -> str:

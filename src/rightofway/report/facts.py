@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from typing_extensions import TypedDict
 
-from rightofway.errors import Blockage, join_names
+from rightofway.errors import Blockage
 from rightofway.facts import Fact
 from rightofway.model import Scenario
 from rightofway.model.place_names import PlaceNames, describe_middle
@@ -74,6 +74,9 @@ def find_template(fact: Fact) -> str:
     number = values["number"] if "number" in values else len(values["robots"])
     return template.get(str(number), template["other"])
 
+
+MOST_NAMES = 8
+"""Names that a sentence lists."""
 
 ROBOTS = {"robot", "robots", "robots_in_turn", "few_robots"}
 VERTICES = {"few_places", "lane", "name", "place", "spot", "spots", "vertex", "vertices"}
@@ -180,9 +183,9 @@ class FactWriter:
             "factor": lambda factor: mark_figure(f"{float(factor):g}"),
             "listed": ", ".join,
             "word": Phrase,
-            "few": lambda values: join_names(list(map(self._write_text, values))),
-            "few_places": lambda vertices: join_names(list(map(self.name_place, vertices))),
-            "few_robots": lambda robots: join_names(list(map(self.name_robot, robots))),
+            "few": lambda values: join_few(list(map(self._write_text, values))),
+            "few_places": lambda vertices: join_few(list(map(self.name_place, vertices))),
+            "few_robots": lambda robots: join_few(list(map(self.name_robot, robots))),
             "place": self.name_place,
             "spot": self._describe_place,
             "robots_in_turn": lambda robots: chain_items(list(map(self.name_robot, robots))),
@@ -268,6 +271,14 @@ class FactWriter:
         quantities = self.quantities
         has_unit = quantities.time_unit and not quantities.in_ticks
         return quantities.format_moment(tick) if has_unit else quantities.format_cell(tick)
+
+
+def join_few(names: Sequence[str]) -> str:
+    """Return names as a sentence has them; of more than eight, seven and the number of others."""
+    if len(names) > MOST_NAMES:
+        left = len(names) - MOST_NAMES + 1
+        names = [*names[: MOST_NAMES - 1], Phrase("{number} more", number=str(left))]
+    return join_items(names) if names else ""
 
 
 def write_note(note: str | Fact) -> str:

@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from rightofway.errors import InputError, Steps, format_path, join_names
+from rightofway.errors import InputError, Steps, format_path
 from rightofway.facts import Fact
 from rightofway.io.faults import read_both
 from rightofway.io.layouts.draft import MICRO, Curve, LayoutDraft, LevelDraft, find_name, name_piece
@@ -273,4 +273,4 @@ def _note_headings(stations: list[Source], draft: LayoutDraft) -> None:
     for thetas in at_node.values():
         if len(set(thetas.values())) > 1:
             mending = Fact("stations that differ in theta")
-            draft.repair(mending, join_names(list(thetas)))
+            draft.repair(mending, Fact("names", names=tuple(thetas)))
