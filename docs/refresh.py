@@ -113,7 +113,7 @@ def planner_options(planner: str) -> Iterable[str]:
 
 def _other_values(option: Option) -> str:
     return ", ".join(f"`{word}`" for word in option.choices[1:]) or (
-        option.numbers.replace("number", "numbers")
+        option.kind.name.removeprefix("a ").replace("number", "numbers")
     )
 
 

@@ -10,8 +10,8 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from rightofway.arguments import checks_arguments, get_value
 from rightofway.errors import InputError, describe_error, quote
+from rightofway.kinds.table import get_value
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
@@ -32,7 +32,6 @@ class PluginWarning(UserWarning):
     """A plugin of another package is left out because it failed."""
 
 
-@checks_arguments
 def need(library: str, purpose: str) -> None:
     """Refuse with `InputError`, before any work, if an optional library is not installed.
 

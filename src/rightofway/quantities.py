@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, quote
+from rightofway.kinds.arguments import checks_arguments
 from rightofway.phrases import Phrase, mark_figure, say_count
 from rightofway.units import DIGITS, Units, Value, round_half_up, write_decimal
 

@@ -14,6 +14,9 @@ from rightofway.check import check
 from rightofway.deadline import Deadline, limit_work
 from rightofway.errors import GaveUp, InputError, InvalidPlan
 from rightofway.facts import Fact
+from rightofway.kinds.arguments import checks_arguments
+from rightofway.kinds.numbers import format_number
+from rightofway.kinds.table import SEED, make_range
 from rightofway.model import (
     Objective,
     Outcome,
@@ -26,13 +29,6 @@ from rightofway.model import (
     Tick,
     Track,
     require_time_limit,
-)
-from rightofway.model.given import (
-    require_functions,
-    require_plan,
-    require_scenario,
-    require_seed,
-    require_truths,
 )
 from rightofway.model.outcome import classify_cost
 from rightofway.model.passing import wait_before_chains
@@ -54,7 +50,6 @@ from rightofway.repair.objectives import (
     list_weights,
     measure_worth,
 )
-from rightofway.values import format_number, make_range_reader, read_at
 
 __all__ = ["improve", "solve"]
 
@@ -62,6 +57,7 @@ JUDGING = 0.4e-6
 """The time to judge a plan, for each visit that it has at least [s]."""
 
 
+@checks_arguments
 def solve(
     scenario: Scenario,
     planner: str = DEFAULT_PLANNER,
@@ -126,17 +122,15 @@ def solve(
     GaveUp
         If none was found in time, or by the means of the planner.
     """
-    require_scenario(scenario)
     spec, limit = find(planner), require_time_limit(time_limit)
     if start is not None:
-        _refuse_start(spec, start, "start")
+        _refuse_start(spec)
     settled = _settled(spec, options, named, seed)
-    require_functions(report=report, on_plan=on_plan)
-    require_truths(keep_best=keep_best)
     task = Task(scenario=scenario, **settled, report=report or _silent, keep_best=keep_best)
     return _run(spec, task, limit, seconds_per_visit, on_plan, old=start)
 
 
+@checks_arguments
 def improve(
     plan: Plan,
     planner: str = IMPROVER,
@@ -172,7 +166,7 @@ def improve(
         If the plan has faults, for a planner that cannot start from one, or an unknown option.
     """
     spec = find(planner)
-    _refuse_start(spec, plan, "plan")
+    _refuse_start(spec)
     limit, judged = require_time_limit(time_limit), check(plan)
     if not judged.ok:
         start = "`rightofway plan SCENARIO --start PLAN`, in Python solve(scenario, start=plan)"
@@ -180,15 +174,12 @@ def improve(
         message = f"the plan has {judged.summary}; improving starts from a plan without faults"
         raise InputError.at("", f"{message} ({remedy})")
     settled = _settled(spec, options, named, seed)
-    require_functions(report=report, on_plan=on_plan)
-    require_truths(keep_best=keep_best)
     task = Task(scenario=plan.scenario, **settled, report=report or _silent, keep_best=keep_best)
     return _run(spec, replace(task, start=plan.tracks), limit, seconds_per_visit, on_plan)
 
 
-def _refuse_start(spec: PlannerSpec, plan: Plan, place: str) -> None:
-    """Refuse a start that is not a plan, and planners that cannot improve one."""
-    require_plan(plan, place)
+def _refuse_start(spec: PlannerSpec) -> None:
+    """Refuse planners that cannot start from a plan."""
     if Feature.IMPROVES not in spec.features:
         message = f"{spec.name} cannot start from a plan (choose {name_able(Feature.IMPROVES)})"
         raise InputError.at("planner", message)
@@ -209,7 +200,7 @@ def _settled(
         message = f"are given twice, with {', '.join(named)} beside (give one of both)"
         raise InputError.at("options", message)
     settled = spec.settle(named if options is None else options)
-    return {"options": settled, "seed": require_seed(seed)}
+    return {"options": settled, "seed": SEED.read_at("seed", seed)}
 
 
 def _run(
@@ -227,7 +218,7 @@ def _run(
     from rightofway.resume.warm_start import compare_with_start
     from rightofway.search import compute_least_completions
 
-    seconds_per_visit = read_at("seconds_per_visit", make_range_reader(0, 3600), seconds_per_visit)
+    seconds_per_visit = make_range(0, 3600).read_at("seconds_per_visit", seconds_per_visit)
     planner = f"planner {spec.name}"
     refuse_unknown(
         task.scenario.problem, spec.features, planner, lambda needed: f"choose {name_able(needed)}"

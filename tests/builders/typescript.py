@@ -15,8 +15,8 @@ from typing import Any
 from pydantic import TypeAdapter
 
 from rightofway.facts import Fact
+from rightofway.kinds.numbers import format_number
 from rightofway.model.robot import ROBOT_ATTRIBUTES
-from rightofway.values import format_number
 from rightofway.viz.page.schema import InspectionPayload, Payload
 from tests.builders.api_types import api_types
 

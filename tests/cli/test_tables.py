@@ -59,7 +59,7 @@ def test_a_place_has_one_number_in_report_log_table_and_collisions(cli: Cli) -> 
         (["--from", "40"], "--from: 40 is too late: everything has ended at time 22 (give less)"),
         (["--from", "4", "--to", "3"], "--to: 3 is before --from, 4 (give 4 or more)"),
         (["--to", "3 s"], "'3 s' is not a number (write it like 3, 0.5 or 1/3)"),
-        (["--from", "-1"], "-1 is negative (give 0 or more)"),
+        (["--from", "-1"], "'-1' is negative (give 0 or more)"),
         (
             ["--events", "--decision", "1"],
             "--all, --events and --decision are different: choose one",

@@ -196,7 +196,7 @@ def test_a_time_limit_that_is_no_duration_is_refused(plan: Plan, limit: float) -
 
 
 def test_no_run_at_all_is_refused(plan: Plan) -> None:
-    with pytest.raises(rightofway.InputError, match="runs: 0 is less than one run"):
+    with pytest.raises(rightofway.InputError, match="runs: 0 does not fit"):
         rightofway.simulate(plan, runs=0)
 
 

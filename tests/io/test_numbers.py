@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from rightofway.io.plain_data import read_decimal, read_whole
-from rightofway.values import COORDINATE_DIGITS, format_number, read_exact
+from rightofway.kinds.numbers import COORDINATE_DIGITS, format_number, read_exact
 
 
 @pytest.mark.parametrize(

@@ -205,8 +205,8 @@ def test_a_plan_says_from_when_on_it_repeats_itself() -> None:
         ({"robots": []}, "steady[0].robots: "),
         ({"robots": ["R2", "R1", "R2"]}, "steady[0].robots: R2 is there already (give each robot"),
         ({"robots": ["R2"]}, "steady[0].critical[0].robot: 'R1' is not of this group (name one"),
-        ({"period": 0}, "steady[0].period: 0 is not positive (give 1 tick or more)"),
-        ({"start": -1}, "steady[0].start: -1 is negative (give 0 or more)"),
+        ({"period": 0}, "steady[0].period: 0 does not fit (give a whole number of 1 or more)"),
+        ({"start": -1}, "steady[0].start: -1 does not fit (give a whole number of 0 or more)"),
         ({"start": "soon"}, "steady[0].start: 'soon' is not a whole number"),
         ({"perod": 3}, "steady[0].perod: unknown key (did you mean period?)"),
         (

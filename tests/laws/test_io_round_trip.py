@@ -23,6 +23,17 @@ from rightofway.io import (
     write_plan,
     write_scenario,
 )
+from rightofway.kinds.numbers import format_number, read_exact
+from rightofway.kinds.table import (
+    COUNT,
+    NAME,
+    NOT_NEGATIVE,
+    POSITIVE,
+    TRUTH,
+    TURNING,
+    WHOLE,
+    Kind,
+)
 from rightofway.model import (
     Decision,
     Objective,
@@ -44,7 +55,6 @@ from rightofway.model.attributes import Attribute
 from rightofway.model.kept_facts import KeptFact, RerouteReason
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
 from rightofway.site import Edge, Roadmap, VertexId, make_grid_roadmap, make_roadmap
-from rightofway.values import format_number, read_exact
 from tests.builders.any_fleet import any_fleet
 from tests.builders.laws import law, leave
 
@@ -168,20 +178,22 @@ F = TypeVar("F", bound=KeptFact)
 def _facts(of: type[F], inner: st.SearchStrategy[Status]) -> st.SearchStrategy[F]:
     """Return facts of all kinds, with these statuses in them."""
     samples = {
-        "read_label": st.text(max_size=8).filter(str.isprintable),
-        "_read_status": inner,
-        "read_whole_number": st.integers(0, 2**40),
-        "read_number": st.fractions(1, 9, max_denominator=9),
-        "read_each": st.lists(names, max_size=3).map(tuple),
-        "read": st.sampled_from([objective.value for objective in Objective]),
+        "text": st.text(max_size=8).filter(str.isprintable),
+        "{kind, counts}": inner,
+        WHOLE.name: st.integers(0, 2**40),
+        "a number": st.fractions(1, 9, max_denominator=9),
+        "a list, each text": st.lists(names, max_size=3).map(tuple),
     }
     kinds = [
         st.builds(
             of,
             st.just(kind),
-            **{name: samples[reader.__name__] for name, reader in readers.items()},
+            **{
+                name: st.sampled_from(value.words) if value.words else samples[value.name]
+                for name, value in values.items()
+            },
         )
-        for kind, readers in of.KINDS.items()
+        for kind, values in of.KINDS.items()
     ]
     return st.one_of(kinds)
 
@@ -230,13 +242,13 @@ def test_fleets_of_any_kind(scenario: Scenario) -> None:
     assert parse_scenario(dump_scenario(scenario)) == scenario
 
 
-VALUES: dict[str, st.SearchStrategy[Any]] = {
-    "positive": lengths,
-    "not negative": times,
-    "turning": times,
-    "count": st.integers(1, 3),
-    "name": names,
-    "truth": st.booleans(),
+VALUES: dict[Kind[Any], st.SearchStrategy[Any]] = {
+    POSITIVE: lengths,
+    NOT_NEGATIVE: times,
+    TURNING: times,
+    COUNT: st.integers(1, 3),
+    NAME: names,
+    TRUTH: st.booleans(),
 }
 """Values of each kind of attribute."""
 
@@ -245,9 +257,7 @@ def attributes(draw: st.DrawFn, table: Sequence[Attribute]) -> dict[str, Any]:
     """Return values of some of the attributes of a table."""
     some = draw(st.sets(st.sampled_from(table), max_size=3))
     return {
-        it.name: draw(
-            VALUES[it.kind] if isinstance(it.kind, str) else st.sampled_from(sorted(it.words))
-        )
+        it.name: draw(st.sampled_from(it.kind.words) if it.kind.words else VALUES[it.kind])
         for it in some
     }
 

@@ -108,7 +108,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "laps is no whole number": (
         lambda: robot(name="R1", home=0, stops=(), laps=1.5),
-        r"robot 'R1': laps: 1.5 is no whole number \(give 1 or more\)",
+        r"robot 'R1': laps: 1.5 does not fit \(give a whole number of 1 or more\)",
     ),
     "ends is unknown": (
         lambda: robot(name="R1", home=0, stops=(), ends="away"),
@@ -116,11 +116,11 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "name is no text": (
         lambda: robot(name=1, home=0, stops=()),
-        r"robot 1: name: 1 is no name \(give text\)",
+        r"robot 1: name: 1 is no text \(give text\)",
     ),
     "stops are numbers": (
         lambda: robot(name="R1", home=0, stops=[3]),
-        r"robot 'R1': stops: \[3\] are no stops \(give a list of Stop",
+        r"robot 'R1': stops\[0\]: 3 is no Stop \(give Stop",
     ),
     "a stop is at a name": (lambda: stop(at="N6"), "stop: at: 'N6' is no vertex number"),
     "work is a word": (lambda: stop(at=3, work="long"), "stop: work: 'long' is not a number"),
@@ -138,25 +138,25 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "the roadmap is text": (
         lambda: parse_scenario(roadmap="door.map", robots=[]),
-        "roadmap: 'door.map' is no roadmap",
+        "roadmap: 'door.map' is no Roadmap",
     ),
     "a robot is a name": (
         lambda: parse_scenario(roadmap=make_grid_roadmap(DOOR), robots=["R1"]),
-        r"robots\[0\]: 'R1' is no robot \(give a Robot\)",
+        r"robots\[0\]: 'R1' is no Robot \(give a Robot\)",
     ),
     "the fleet is one robot": (
         lambda: parse_scenario(
             roadmap=make_grid_roadmap(DOOR), robots=robot(name="R1", home=0, stops=())
         ),
-        "robots: .* is no fleet",
+        "robots: .* is no list .give a list, each a Robot",
     ),
     "speed is 0": (
-        lambda: door().add_robot("R1", home="N0", target="N6", speed=0).build_scenario(),
-        r"robots\[0\].speed: 0 is not positive",
+        lambda: door().add_robot("R1", home="N0", target="N6", speed=0),
+        "robot 'R1': speed: 0 is not positive",
     ),
     "weight is 0": (
-        lambda: door().add_robot("R1", home="N0", target="N6", weight=0).build_scenario(),
-        r"robots\[0\].weight: 0 is not positive",
+        lambda: door().add_robot("R1", home="N0", target="N6", weight=0),
+        "robot 'R1': weight: 0 is not positive",
     ),
     "weights are too far apart": (
         lambda: (
@@ -236,7 +236,10 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
         lambda: FleetBuilder(origin=(0, 0)),
         "origin: is for a grid or a map file",
     ),
-    "an origin of one number": (lambda: door(origin=3), "origin: 3 is no point"),
+    "an origin of one number": (
+        lambda: door(origin=3),
+        r"origin: 3 does not fit \(give \[x",
+    ),
     "an unknown unit": (
         lambda: door(units={"length": "feet"}),
         "units: length: 'feet' is no unit .give mm, cm or m",
@@ -252,9 +255,9 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "a file name is solved": (
         lambda: solve("door.yaml"),
-        "scenario: 'door.yaml' is no scenario .load a file with rightofway.load",
+        "scenario: 'door.yaml' is no Scenario .load a file with rightofway.load",
     ),
-    "a file name is improved": (lambda: improve("plan.json"), "plan: 'plan.json' is no plan"),
+    "a file name is improved": (lambda: improve("plan.json"), "plan: 'plan.json' is no Plan"),
     "an unknown planner": (
         lambda: solve(pair(), "two_level"),
         r"planner: 'two_level' is unknown to rightofway \(did you mean 'two-level'\?",
@@ -269,7 +272,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "a wrong value of an option": (
         lambda: solve(pair(), "lns", iterations=-1),
-        "options.iterations: '-1' is not a whole number of 0 or more",
+        "options.iterations: -1 does not fit .give a whole number of 0 or more",
     ),
     "options of another planner": (
         lambda: solve(pair(), options=LnsOptions()),
@@ -283,8 +286,14 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
         lambda: solve(pair(), "lns", options=LnsOptions(), iterations=3),
         "options: are given twice, with iterations beside",
     ),
-    "a negative seed": (lambda: solve(pair(), seed=-1), "seed: -1 is no seed"),
-    "a seed that is a word": (lambda: solve(pair(), seed="x"), "seed: 'x' is no seed"),
+    "a negative seed": (
+        lambda: solve(pair(), seed=-1),
+        "seed: -1 does not fit .give a whole",
+    ),
+    "a seed that is a word": (
+        lambda: solve(pair(), seed="x"),
+        "seed: 'x' does not fit .give a",
+    ),
 }
 
 

@@ -135,7 +135,7 @@ FAULTS: list[tuple[dict[str, Any], str]] = [
     ),
     (
         {"unserved": [1]},
-        "unserved[0]: 1 is no unserved job (give its index and the reason)",
+        "unserved[0]: 1 does not fit (give [index of the job, reason])",
     ),
 ]
 

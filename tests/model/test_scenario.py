@@ -44,21 +44,31 @@ def test_a_robot_may_differ_from_the_rules() -> None:
 
 def test_every_independent_fault_is_reported_at_once() -> None:
     roadmap = make_grid_roadmap(ROW)
-    stop = Stop(at=VertexId(9), work=Fraction(-1))
-    bad = Robot(name="", home=VertexId(0), stops=(stop,), speed=Fraction(-1, 2))
+    bad = Robot(name="", home=VertexId(0), stops=(Stop(at=VertexId(9)),))
     twin = Robot(name="B", home=VertexId(0), stops=())
     with pytest.raises(InputError) as caught:
-        Scenario(roadmap=roadmap, robots=(bad, twin), rules=Rules(headway=Fraction(-1), laps=0))
+        Scenario(roadmap=roadmap, robots=(bad, twin), rules=Rules(laps=2, ends="none"))
     assert [fault.place for fault in caught.value.faults] == [
-        "rules.headway",
-        "rules.laps",
         "robots[0].name",
-        "robots[0].speed",
-        "robots[0].stops[0].work",
         "robots[0].stops[0].at",
+        "robots[0].laps",
         "robots[1].stops",
+        "robots[1].laps",
         "robots[1].home",
     ]
+
+
+def test_every_number_of_a_robot_and_of_rules_out_of_range_is_reported_at_once() -> None:
+    with pytest.raises(InputError) as caught:
+        Robot(
+            name="A", home=VertexId(0), stops=(), speed=Fraction(-1, 2), radius=Fraction(-1), laps=0
+        )
+    assert [fault.place for fault in caught.value.faults] == ["speed", "radius", "laps"]
+    with pytest.raises(InputError) as caught:
+        Rules(headway=Fraction(-1), laps=0, late=Fraction(-1))
+    assert {fault.place for fault in caught.value.faults} == {"headway", "laps", "late"}
+    with pytest.raises(InputError, match="stop: work: -1 is negative"):
+        Stop(at=VertexId(9), work=Fraction(-1))
 
 
 @pytest.mark.parametrize("laps", [500_001, 2**31, 2**64])

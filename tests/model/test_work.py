@@ -291,7 +291,6 @@ FAULTS: list[tuple[dict[str, Any], str]] = [
         ),
     ),
     ({"rules": Rules(laps=2)}, "rules.laps: 2 laps do not go with jobs (take it out)"),
-    ({"rules": Rules(late=Fraction(-1))}, "rules.late: -1 is negative (give 0 or more)"),
     (
         {"robots": make_robots({"capacity": -1})},
         "robots[0].capacity: -1 is negative (give 0 or more)",

@@ -29,13 +29,14 @@ from pathlib import Path
 from fractions import Fraction
 from typing import Annotated
 from rightofway.model import Proof
-from rightofway.planners import Least, PlannerOptions, PlannerSpec
+from rightofway.kinds.table import make_number
+from rightofway.planners import PlannerOptions, PlannerSpec
 from rightofway.planners.priorities import fixed_priority
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ClaimOptions(PlannerOptions):
     bound: Annotated[int, "The bound that it claims; 0: none."] = 0
-    factor: Annotated[Fraction, Least(1), "The factor that it claims."] = Fraction(1)
+    factor: Annotated[Fraction, make_number(1), "The factor that it claims."] = Fraction(1)
 
 def claimant(task):
     draft = fixed_priority(replace(task, options={"routes": "shortest"}))

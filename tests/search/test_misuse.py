@@ -19,17 +19,17 @@ FLOOR = search.Distances(PROBLEM.roadmap)
 PACE = PROBLEM.itineraries[0].edge_ticks
 
 MISUSE: list[tuple[Callable[[], Any], str]] = [
-    (lambda: rightofway.measure(None), "plan: nothing is no plan"),  # type: ignore[arg-type]
-    (lambda: rightofway.check(3), "plan: 3 is no plan"),  # type: ignore[arg-type]
-    (lambda: rightofway.waits("x"), "plan: 'x' is no plan"),  # type: ignore[arg-type]
-    (lambda: rightofway.compute_lost_time([]), "is no plan"),  # type: ignore[arg-type]
-    (lambda: rightofway.simulate(None), "plan: nothing is no plan"),  # type: ignore[arg-type]
-    (lambda: rightofway.run_laps(None), "scenario: nothing is no scenario"),  # type: ignore[arg-type]
-    (lambda: rightofway.find_best_timetable(3), "scenario: 3 is no scenario"),  # type: ignore[arg-type]
-    (lambda: rightofway.plan_of_laps(3), "result: 3 is no result of laps"),  # type: ignore[arg-type]
+    (lambda: rightofway.measure(None), "plan: nothing is no Plan"),  # type: ignore[arg-type]
+    (lambda: rightofway.check(3), "plan: 3 is no Plan"),  # type: ignore[arg-type]
+    (lambda: rightofway.waits("x"), "plan: 'x' is no Plan"),  # type: ignore[arg-type]
+    (lambda: rightofway.compute_lost_time([]), "is no Plan"),  # type: ignore[arg-type]
+    (lambda: rightofway.simulate(None), "plan: nothing is no Plan"),  # type: ignore[arg-type]
+    (lambda: rightofway.run_laps(None), "scenario: nothing is no Scenario"),  # type: ignore[arg-type]
+    (lambda: rightofway.find_best_timetable(3), "scenario: 3 is no Scenario"),  # type: ignore[arg-type]
+    (lambda: rightofway.plan_of_laps(3), "result: 3 is no CyclicResult"),  # type: ignore[arg-type]
     (lambda: bind_native(DOOR), "problem: .* is no problem"),  # type: ignore[arg-type]
-    (lambda: search.FleetSearch(PROBLEM, seed=-1), "seed: -1 is no seed"),
-    (lambda: search.FleetSearch(PROBLEM, threads=-1), "threads: -1 is out of range"),
+    (lambda: search.FleetSearch(PROBLEM, seed=-1), "seed: -1 does not fit"),
+    (lambda: search.FleetSearch(PROBLEM, threads=-1), "threads: -1 does not fit"),
     (
         lambda: search.FleetSearch(PROBLEM).prioritize(
             [0.5, 1.2],  # type: ignore[list-item]

@@ -66,5 +66,5 @@ def test_what_is_no_picture_is_refused(tmp_path: Path) -> None:
 def test_a_scale_and_an_opacity_without_sense_are_refused() -> None:
     with pytest.raises(InputError, match=r"background.scale: 0 is not positive"):
         Background(picture="a.png", scale=0)
-    with pytest.raises(InputError, match=r"background.opacity: 2 is not from 0 to 1"):
+    with pytest.raises(InputError, match=r"background.opacity: 2 is above 1"):
         Background(picture="a.png", opacity=2)

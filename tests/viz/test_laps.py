@@ -113,8 +113,8 @@ def test_strangers_are_refused(group: SteadyState, message: str) -> None:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"period": Tick(0)}, "period: 0 is not positive"),
-        ({"start": Tick(-1)}, "start: -1 is negative"),
+        ({"period": Tick(0)}, "period: 0 does not fit"),
+        ({"start": Tick(-1)}, "start: -1 does not fit"),
         ({"robots": (0,)}, r"critical\[2\]: robot 1 is not of this group"),
     ],
 )

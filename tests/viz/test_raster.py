@@ -75,7 +75,7 @@ def test_the_dark_theme_is_dark(tmp_path: Path) -> None:
 
 
 def test_a_negative_tick_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"tick: -1 is negative \(give 0 or more\)"):
+    with pytest.raises(InputError, match=r"tick: -1 does not fit \(give a whole number of 0"):
         write_png(door(), tmp_path / "a.png", -1)
 
 
@@ -109,7 +109,7 @@ def test_a_film_ends_with_the_robots_at_home(tmp_path: Path) -> None:
 
 
 def test_a_film_of_one_picture_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"max_frames: 1 is less than a film \(give 2 or more\)"):
+    with pytest.raises(InputError, match=r"max_frames: 1 does not fit \(give a whole number of 2"):
         write_gif(door(), tmp_path / "a.gif", max_frames=1)
 
 

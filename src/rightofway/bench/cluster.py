@@ -8,7 +8,6 @@ from itertools import islice
 from textwrap import shorten
 from typing import Any
 
-from rightofway.arguments import checks_arguments
 from rightofway.bench.process import make_lost_row, run_on_worker
 from rightofway.bench.results import Row
 from rightofway.bench.suite import Case
@@ -25,7 +24,6 @@ IN_FLIGHT = 2
 """Tasks that the scheduler has at a time for each thread of its workers, so that none is idle."""
 
 
-@checks_arguments
 def run_on_cluster(
     cases: Iterable[Case], address: str, *, report: Callable[[str], None] = lambda _: None
 ) -> Iterator[Row]:

@@ -22,7 +22,6 @@ from pathlib import Path
 from typing import IO, Any
 
 import rightofway
-from rightofway.arguments import checks_arguments
 from rightofway.bench.results import COLUMNS, Row
 from rightofway.bench.suite import Case
 from rightofway.native import name_compiler
@@ -34,7 +33,6 @@ LONGEST = 500
 """Characters of a message that a row holds."""
 
 
-@checks_arguments
 def run_here(cases: Iterable[Case], *, jobs: int | None = None) -> Iterator[Row]:
     """Yield the row of each case, in the order in which they end.
 
@@ -161,7 +159,6 @@ def _make_row(case: Case, outcome: dict[str, Any]) -> Row:
     return row
 
 
-@checks_arguments
 @cache
 def describe_machine() -> dict[str, Any]:
     """Return commit, versions and hardware, as rows have them."""

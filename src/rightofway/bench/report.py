@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from rightofway.arguments import checks_arguments
 from rightofway.bench.results import Row
 from rightofway.bench.summary import (
     Group,
@@ -70,7 +69,6 @@ LEAST_SECONDS = 0.001
 """Shorter times are drawn as this one, since a logarithmic axis has no 0."""
 
 
-@checks_arguments
 def write_report(rows: Sequence[Row], path: Path | str, title: str) -> None:
     """Write a report.
 

@@ -11,7 +11,6 @@ from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rightofway.arguments import checks_arguments
 from rightofway.bench.fleets import Cell, draw_grid, find_largest_part, make_scenario_document
 from rightofway.errors import InputError, Steps, Where, locate_faults, name_file
 from rightofway.io import dump_scenario, load, parse_scenario
@@ -19,10 +18,10 @@ from rightofway.io.content import read_text
 from rightofway.io.faults import Faults, validate
 from rightofway.io.formats import SCENARIO_FORMAT, SUITE_FORMAT, check_format
 from rightofway.io.toml_text import parse_toml
+from rightofway.kinds.numbers import format_number
 from rightofway.model import Rules, Scenario
 from rightofway.model.robot import RULE_ATTRIBUTES
 from rightofway.planners import find
-from rightofway.values import format_number
 
 if TYPE_CHECKING:
     from rightofway.io.suite import (
@@ -122,7 +121,6 @@ class Case:
         return parse_scenario(document)
 
 
-@checks_arguments
 def read_suite(path: Path | str) -> tuple[Case, ...]:
     """Read a suite and every file that it names; return every combination of its lists.
 

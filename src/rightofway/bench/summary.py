@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from rightofway.arguments import checks_arguments
 from rightofway.bench.results import Row
 
 
@@ -94,7 +93,6 @@ def name_planners(rows: Iterable[Row]) -> dict[str, str]:
     return names
 
 
-@checks_arguments
 def group_by_planner(
     rows: Sequence[Row], names: Mapping[str, str] | None = None
 ) -> dict[str, list[Row]]:

@@ -14,12 +14,14 @@ from rightofway.check.space import judge_space
 from rightofway.check.tracks import judge_drives, judge_stops, judge_trips, judge_turns
 from rightofway.check.visits import lay_out_visits
 from rightofway.check.zones import judge_zones
+from rightofway.kinds.arguments import checks_arguments
+from rightofway.kinds.table import make_whole
 from rightofway.model import Plan
-from rightofway.model.given import require_number, require_plan
 
 __all__ = ["Fault", "FaultKind", "Report", "check"]
 
 
+@checks_arguments
 def check(plan: Plan, *, limit: int = 1000) -> Report:
     """Judge a plan.
 
@@ -56,8 +58,8 @@ def check(plan: Plan, *, limit: int = 1000) -> Report:
 
     A closure is a booking of nobody without headway; a robot's booking has its own.
     """
-    visits = lay_out_visits(require_plan(plan))
-    limit = require_number("limit", limit, 0, 2**31 - 1)
+    visits = lay_out_visits(plan)
+    limit = make_whole(0, 2**31 - 1).read_at("limit", limit)
     found = chain[Fault | FaultGroup](
         judge_drives(visits),
         judge_turns(visits),

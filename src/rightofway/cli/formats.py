@@ -59,10 +59,10 @@ def _radius(
     _context: click.Context, _parameter: click.Parameter, given: str | None
 ) -> Fraction | None:
     """Return the radius as an exact number."""
-    from rightofway.io.fields import read_positive
+    from rightofway.kinds.table import POSITIVE, allow_none
 
     try:
-        return None if given is None else read_positive(given)
+        return allow_none(POSITIVE).read(given)
     except ValueError as error:
         raise click.BadParameter(str(error)) from None
 

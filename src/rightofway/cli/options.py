@@ -74,15 +74,12 @@ class Time(NumberType):
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
     ) -> Fraction:
         """Return the number, exactly."""
-        from rightofway.values import read_exact
+        from rightofway.kinds.table import NOT_NEGATIVE
 
         try:
-            number = read_exact(value)
+            return NOT_NEGATIVE.read(value)
         except ValueError as error:
             self.fail(str(error), param, ctx)
-        if number < 0:
-            self.fail(f"{value} is negative (give 0 or more)", param, ctx)
-        return number
 
 
 class Whole(click.IntRange):
@@ -118,11 +115,13 @@ def _seconds(_context: click.Context, _parameter: click.Parameter, given: str) -
 
 
 def _seed(_context: click.Context, _parameter: click.Parameter, given: str) -> int:
-    from rightofway.model.given import LARGEST_SEED
+    from rightofway.kinds.numbers import parse_digits
+    from rightofway.kinds.table import SEED
 
-    if not (given.isascii() and given.isdecimal() and int(given[:11]) <= LARGEST_SEED):
-        raise click.BadParameter(f"{given} is no seed (give a number from 0 to {LARGEST_SEED})")
-    return int(given)
+    try:
+        return SEED.read(parse_digits(given))
+    except ValueError as error:
+        raise click.BadParameter(str(error)) from None
 
 
 time_limit_option = click.option(

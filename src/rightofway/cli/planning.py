@@ -83,7 +83,10 @@ def _list_planners(specs: Iterable[PlannerSpec], formatter: click.HelpFormatter)
     lines: list[tuple[str, str]] = []
     for spec in specs:
         lines.append((spec.name, spec.summary))
-        lines += [(f"  {option.name}={option.accepts}", option.summary) for option in spec.options]
+        lines += [
+            (f"  {option.name}={'|'.join(option.choices) or option.default}", option.summary)
+            for option in spec.options
+        ]
     with formatter.section("Planners and their options, with the defaults first"):
         formatter.write_dl(lines)
 

@@ -23,8 +23,8 @@ from rightofway.cli.options import (
 )
 from rightofway.cli.terminal import measure_width, put_json, say_written
 from rightofway.errors import InputError
+from rightofway.kinds.numbers import format_number
 from rightofway.model.place_names import PlaceNames
-from rightofway.values import format_number
 
 if TYPE_CHECKING:
     from rightofway.model import Plan

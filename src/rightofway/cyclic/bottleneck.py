@@ -12,7 +12,6 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Literal
 
-from rightofway.arguments import checks_arguments
 from rightofway.model import Plan, SteadyState, Tick, find_stays
 from rightofway.precedence import TimedEventGraph
 from rightofway.site import VertexId
@@ -66,7 +65,6 @@ class Bottleneck:
         return tuple(dict.fromkeys(piece.robot for piece in self.pieces))
 
 
-@checks_arguments
 def find_bottleneck(graph: TimedEventGraph, *, time_limit: float | None = None) -> Bottleneck:
     """Return a critical circuit of a timed event graph, in pieces.
 
@@ -85,7 +83,6 @@ def find_bottleneck(graph: TimedEventGraph, *, time_limit: float | None = None) 
     return trace_bottleneck(graph, graph.find_critical_circuit(time_limit=time_limit).arcs.tolist())
 
 
-@checks_arguments
 def trace_bottleneck(graph: TimedEventGraph, circuit: Sequence[int]) -> Bottleneck:
     """Return a circuit in pieces; its cycle time is less than that of the graph if not critical.
 
@@ -160,7 +157,6 @@ def _join_pieces(pieces: Iterable[Piece], homes: Mapping[int, VertexId]) -> Iter
             places, ticks = [], 0
 
 
-@checks_arguments
 def list_pieces_of_plan(plan: Plan, steady: SteadyState) -> tuple[Piece, ...]:
     """Return the critical circuit of a steady state in pieces; empty if it is unknown.
 

@@ -19,7 +19,6 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.arguments import checks_arguments
 from rightofway.cyclic.sensitivity import compute_growth_by_speed, find_stages_at
 from rightofway.model import Scenario
 from rightofway.precedence import Growth, TimedEventGraph, compute_period_curve
@@ -86,7 +85,6 @@ class ParameterCurve:
         return piece.fixed + piece.slope * (1 / value if self.kind == "speed" else value)
 
 
-@checks_arguments
 def compute_parameter_curves(
     scenario: Scenario,
     graph: TimedEventGraph,

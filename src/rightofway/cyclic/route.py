@@ -11,7 +11,6 @@ from itertools import accumulate, chain
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.arguments import checks_arguments
 from rightofway.deadline import limit_loop, make_check
 from rightofway.errors import InputError, InputFault
 from rightofway.model import BookingRules, Lap, Robot, Route, Scenario, Tick, make_lap
@@ -199,7 +198,6 @@ class GroupContext:
         return 1 + rules.follow(rules.end(0), longest)
 
 
-@checks_arguments
 def make_cyclic_routes(scenario: Scenario, routes: str = "clear") -> list[CyclicRoute]:
     """Choose the round trip of each robot, for all its laps.
 

@@ -19,15 +19,16 @@ from rightofway.cyclic.rules import NATIVE_RULES, RULES
 from rightofway.cyclic.simulator import CyclicSimulator, Deadlock
 from rightofway.errors import GaveUp
 from rightofway.facts import Fact
+from rightofway.kinds.arguments import checks_arguments
+from rightofway.kinds.table import make_words
 from rightofway.model import Scenario, require_time_limit
-from rightofway.model.given import require_functions, require_scenario
 from rightofway.planners import Deadline
-from rightofway.values import make_word_reader, read_at
 
 Simulation = CyclicSimulator | RollingHorizon
 """The simulation of a group under a lap rule."""
 
 
+@checks_arguments
 def run_laps(
     scenario: Scenario,
     rule: str = "first-come",
@@ -76,10 +77,8 @@ def run_laps(
     forbid rotations and robots of a group rotate, the group is simulated again, in the other half
     of the time, with a headway of one tick.
     """
-    require_scenario(scenario)
-    require_functions(report=report)
-    read_at("rule", make_word_reader(tuple(RULES)), rule)
-    read_at("routes", make_word_reader(ROUTES), routes)
+    make_words(*RULES).read_at("rule", rule)
+    make_words(*ROUTES).read_at("routes", routes)
     deadline = Deadline.after(require_time_limit(time_limit))
     scenario = take_out_closed_places(scenario)
     groups = split_groups(scenario, make_cyclic_routes(scenario, routes))

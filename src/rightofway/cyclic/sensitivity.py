@@ -17,7 +17,6 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.arguments import checks_arguments
 from rightofway.model import Itinerary, Lap, Robot, Scenario, Stage, find_serving_visits
 from rightofway.model.lap import compute_dwell_between_laps, compute_turns_of_lap
 from rightofway.model.problem import compute_turning_time
@@ -65,7 +64,6 @@ class ParameterEffect:
     ten_per_cent: Fraction
 
 
-@checks_arguments
 def compute_parameter_effects(
     scenario: Scenario, graph: TimedEventGraph, *, most: int = 5, time_limit: float | None = None
 ) -> tuple[ParameterEffect, ...]:

@@ -32,13 +32,13 @@ from rightofway.cyclic.startup import start
 from rightofway.deadline import limit_loop, limit_work
 from rightofway.errors import GaveUp, InputError
 from rightofway.facts import Fact
+from rightofway.kinds.arguments import checks_arguments
+from rightofway.kinds.table import POSITIVE, SEED, SHARE, allow_none, list_of, make_whole
 from rightofway.model import Scenario, Tick, require_time_limit
-from rightofway.model.given import require_functions, require_number, require_scenario, require_seed
 from rightofway.planners import Deadline
 from rightofway.precedence import unroll_schedule
 from rightofway.repair.routing import ROUTING
 from rightofway.search import Distances, RoundTrip
-from rightofway.values import list_of, read_at, read_number
 
 CLOSING = Fact("closing a stretch")
 """What may take the time, for messages."""
@@ -68,6 +68,7 @@ class ChoiceParams:
     most_visits: int = 20_000  # Up to this many visits, a fractional cycle time becomes whole.
 
 
+@checks_arguments
 def find_best_timetable(
     scenario: Scenario,
     *,
@@ -118,14 +119,10 @@ def find_best_timetable(
     Never below the pattern of first come first served, if this pattern is fair and found in its
     share of the time. Deterministic for a seed if the rounds end before the limit. Not optimal.
     """
-    n_robots, seed = len(require_scenario(scenario).robots), require_seed(seed)
-    require_functions(report=report)
-    weights = _check_weights(weights, n_robots)
-    least_fairness = read_at("least_fairness", read_number, least_fairness)
-    if not 0 <= least_fairness <= 1:
-        raise InputError.at("least_fairness", f"{least_fairness} is not from 0 to 1")
-    if rounds is not None:
-        rounds = require_number("rounds", rounds, 0, 2**31 - 1)
+    seed = SEED.read_at("seed", seed)
+    weights = _check_weights(weights, len(scenario.robots))
+    least_fairness = SHARE.read_at("least_fairness", least_fairness)
+    rounds = allow_none(make_whole(0, 2**31 - 1)).read_at("rounds", rounds)
     time_limit = require_time_limit(time_limit)
     scenario = take_out_closed_places(scenario)
     if time_limit is None and rounds is None:
@@ -178,12 +175,9 @@ def _check_weights(weights: Sequence[Fraction] | None, n_robots: int) -> tuple[F
     """Return the weight of each robot; 1 by default."""
     if weights is None:
         return (Fraction(1),) * n_robots
-    weights = read_at("weights", list_of(read_number), weights)
+    weights = list_of(POSITIVE).read_at("weights", weights)
     if len(weights) != n_robots:
         raise InputError.at("weights", f"{len(weights)} for {n_robots} robots (give one for each)")
-    for index, weight in enumerate(weights):
-        if weight <= 0:
-            raise InputError.at(("weights", index), f"{weight} is not above 0")
     return weights
 
 

@@ -9,21 +9,22 @@ from math import ceil
 
 import numpy as np
 
-from rightofway.arguments import checks_arguments
 from rightofway.check import check
 from rightofway.cyclic.bottleneck import begin_with_longest_run
 from rightofway.cyclic.pattern import Pattern
 from rightofway.cyclic.result import CyclicResult, GroupResult
-from rightofway.errors import GaveUp, InputError, quote
+from rightofway.errors import GaveUp
 from rightofway.facts import Fact
+from rightofway.kinds.arguments import checks_arguments
+from rightofway.kinds.table import allow_none, make_whole
 from rightofway.model import Plan, PlannerRun, Status, SteadyState, Track
-from rightofway.model.given import require_number
 from rightofway.precedence import TimedEventGraph
 
 MOST_LAPS = 10**6
 """Laps of each robot that a plan may be asked for."""
 
 
+@checks_arguments
 def plan_of_laps(result: CyclicResult, laps: int | None = None) -> Plan:
     """Turn a cyclic result into a plan that the judge has passed.
 
@@ -46,10 +47,7 @@ def plan_of_laps(result: CyclicResult, laps: int | None = None) -> Plan:
         If the history ends before a robot has made its laps, or a robot at home after its last lap
         blocks other robots.
     """
-    if not isinstance(result, CyclicResult):
-        remedy = "simulate laps with rightofway.run_laps"
-        raise InputError.at("result", f"{quote(result)} is no result of laps ({remedy})")
-    plan = unroll_laps(result, None if laps is None else require_number("laps", laps, 1, MOST_LAPS))
+    plan = unroll_laps(result, allow_none(make_whole(1, MOST_LAPS)).read_at("laps", laps))
     report = check(plan)
     if not report.ok:
         raise GaveUp(Fact("laps without a plan", fault=report.faults[0]))
@@ -82,7 +80,6 @@ def unroll_laps(result: CyclicResult, laps: int | None = None) -> Plan:
     return _plan(result, Status("whole laps"), laps_and_visits)
 
 
-@checks_arguments
 def make_excerpt(
     result: CyclicResult, periods: int = 4, *, most_visits: int = 200_000
 ) -> tuple[Plan, tuple[SteadyState, ...]]:
@@ -203,7 +200,6 @@ def _list_critical_visits(group: GroupResult, pattern: Pattern) -> tuple[tuple[i
     return list_visits_along(group, pattern, graph, circuit.arcs.tolist())
 
 
-@checks_arguments
 def list_visits_along(
     group: GroupResult, pattern: Pattern, graph: TimedEventGraph, circuit: Sequence[int]
 ) -> tuple[tuple[int, int], ...]:

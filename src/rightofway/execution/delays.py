@@ -8,11 +8,11 @@ from fractions import Fraction
 from itertools import chain
 from typing import NamedTuple
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
+from rightofway.kinds.numbers import read_exact
+from rightofway.kinds.table import TEXT, list_of
 from rightofway.model import NEVER, Plan, Scenario
 from rightofway.precedence import ActionDependencyGraph, DelayModel, Stoppage
-from rightofway.values import list_of, read_at, read_exact, read_label
 
 DEFAULT_DELAYS = "exponential:0.2"
 """The default delays."""
@@ -94,7 +94,6 @@ CAUSES = {
 _BETWEEN = re.compile(rf"\s*,\s*(?=(?:{'|'.join(CAUSES)})\s*:)")
 
 
-@checks_arguments
 def read_delays(given: str | Iterable[str], scenario: Scenario) -> tuple[Delay, ...]:
     """Read causes of delay.
 
@@ -110,7 +109,7 @@ def read_delays(given: str | Iterable[str], scenario: Scenario) -> tuple[Delay, 
     InputError
         If a cause cannot be read; names the cause and the remedy.
     """
-    several = [given] if isinstance(given, str) else read_at("delays", list_of(read_label), given)
+    several = [given] if isinstance(given, str) else list_of(TEXT).read_at("delays", given)
     causes = chain.from_iterable(map(_BETWEEN.split, several))
     return tuple(_delay(cause.strip(), scenario) for cause in causes)
 
@@ -162,7 +161,6 @@ def _complaints(delay: Delay) -> list[tuple[str, bool]]:
     ]  # fmt: skip
 
 
-@checks_arguments
 def delay_model_of(delays: Sequence[Delay], scenario: Scenario) -> DelayModel:
     """Return the delay model of causes, in the ticks of a scenario.
 

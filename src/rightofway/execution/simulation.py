@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
-from numbers import Integral
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.arguments import checks_arguments
 from rightofway.check import check
 from rightofway.errors import InputError
 from rightofway.execution.delays import DEFAULT_DELAYS, Delay, make_delayed_graph, read_delays
@@ -23,11 +21,11 @@ from rightofway.execution.statistics import (
     join_batches,
 )
 from rightofway.facts import Fact
+from rightofway.kinds.arguments import checks_arguments
+from rightofway.kinds.table import SEED, make_whole
 from rightofway.model import NEVER, ExecutionTrace, Plan, require_time_limit
-from rightofway.model.given import require_number, require_seed, require_truths
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, RunBatch
-from rightofway.values import read_at, read_function
 
 CHUNK = 1 << 20
 """Visits per call of the kernel; time limit and Ctrl-C are checked between calls."""
@@ -36,6 +34,7 @@ MOST_RUNS = 10**9
 """More would take years."""
 
 
+@checks_arguments
 def simulate(
     plan: Plan,
     delays: str | Iterable[str] = DEFAULT_DELAYS,
@@ -95,14 +94,11 @@ def simulate(
     has no deadlock. Collisions and deadlocks are counted nevertheless.
     """
     time_limit = require_time_limit(time_limit)
-    read_at("report", read_function, report)
-    require_truths(switch=switch, replan=replan, keep_runs=keep_runs)
     judged = check(plan)
     if not judged.ok:
         raise InputError.at("", f"the plan has {judged.summary} (only one without can be run)")
-    if isinstance(runs, Integral) and runs < 1:
-        raise InputError.at("runs", f"{runs} is less than one run (give 1 or more)")
-    runs, seed = require_number("runs", runs, 1, MOST_RUNS), require_seed(seed)
+    runs = make_whole(1, MOST_RUNS).read_at("runs", runs)
+    seed = SEED.read_at("seed", seed)
     deadline = Deadline.after(time_limit)
     causes = read_delays(delays, plan.scenario)
     adg = make_delayed_graph(plan, causes)
@@ -144,7 +140,6 @@ def simulate(
     )
 
 
-@checks_arguments
 def replay(
     plan: Plan,
     delays: str | Iterable[str] = DEFAULT_DELAYS,

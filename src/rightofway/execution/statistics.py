@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError, quote
+from rightofway.kinds.numbers import format_number
 from rightofway.model import NEVER, ExecutionTrace, Plan
 from rightofway.precedence import ActionDependencyGraph, RunBatch
 from rightofway.site import VertexId
-from rightofway.values import format_number
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

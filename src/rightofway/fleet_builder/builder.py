@@ -15,23 +15,29 @@ from rightofway.files import as_path
 from rightofway.fleet_builder.lanes import DrawnLanes, read_graph
 from rightofway.fleet_builder.values import (
     place_and_work,
-    read_ends,
-    read_pair,
-    read_point,
     read_radius,
     read_rules,
     read_units,
 )
+from rightofway.kinds.numbers import Number
+from rightofway.kinds.table import (
+    ANYTHING,
+    POSITION,
+    POSITIVE,
+    TEXT,
+    TRUTH,
+    allow_none,
+    list_of,
+    make_words,
+    tuple_of,
+)
 from rightofway.model import Robot, Scenario, Stop, TripEnd
 from rightofway.model.closures import Closure, find_closure_faults
-from rightofway.model.given import require_truths
 from rightofway.site import Roadmap, VertexId, make_grid_roadmap
 from rightofway.site.layout import Layout, LevelRoadmap, build_roadmap_of_level
 from rightofway.site.places import as_place, find_vertex_at
 from rightofway.site.zones import NamedZone
 from rightofway.units import Units
-from rightofway.values import Number, allow_none, list_of, make_word_reader, read_at, read_label
-from rightofway.values import read_length as exact_length
 
 
 class FleetBuilder:
@@ -115,9 +121,9 @@ class FleetBuilder:
         maps = [name for name, value in given.items() if value is not None]
         if len(maps) > 1:
             raise InputError.at("", f"{' and '.join(maps)} are given (give one map)")
-        read_at("y", make_word_reader(("down", "up")), y)
-        read_at("level", allow_none(read_label), level)
-        read_at("vehicle_type", allow_none(read_label), vehicle_type)
+        make_words("down", "up").read_at("y", y)
+        allow_none(TEXT).read_at("level", level)
+        allow_none(TEXT).read_at("vehicle_type", vehicle_type)
         if origin is not None and not (grid or map_file):
             raise InputError.at("origin", "is for a grid or a map file (take it out)")
         if spacing is not None and (grid or map_file):
@@ -129,7 +135,7 @@ class FleetBuilder:
         word = spacing if isinstance(spacing, str) else None
         self._chooses_spacing = spacing is None or word == "auto"
         is_length = not self._chooses_spacing and word != "whole"
-        self._spacing = exact_length(spacing, "spacing") if is_length else None
+        self._spacing = POSITIVE.read_at("spacing", spacing) if is_length else None
         self._drawn = DrawnLanes()
         self._closures: list[Closure] = []
         self._robots: list[Robot] = []
@@ -139,7 +145,7 @@ class FleetBuilder:
         self._rules = read_rules(rules)
         self._units = read_units(units)
         self._y_up = y == "up"
-        corner = None if origin is None else read_point("origin", *read_pair("origin", origin))
+        corner = allow_none(POSITION).read_at("origin", origin)
         frame: dict[str, Any] = {"cell_size": cell_size, "y_up": self._y_up, "origin": corner}
         if grid is not None:
             rows = grid.strip("\n").split("\n") if isinstance(grid, str) else grid
@@ -230,7 +236,7 @@ class FleetBuilder:
             vertices are at one position, or ``both_ways`` that is neither true nor false.
         """
         self._refuse_fixed_map(f"edge {quote(tail)} to {quote(head)}")
-        require_truths(both_ways=both_ways)
+        TRUTH.read_at("both_ways", both_ways)
         self._drawn.add_edge(
             tail,
             head,
@@ -269,12 +275,9 @@ class FleetBuilder:
         self._refuse_fixed_map(f"zone {quote(name)}")
         place = f"zone {quote(name)}"
         with locate_faults(place):
-            read_at("name", read_label, name)
-            named = read_at("vertices", list_of(read_label), vertices)
-            listed = read_at("edges", list_of(lambda ends: ends), edges)
-            pairs = tuple(read_ends(("edges", k), ends) for k, ends in enumerate(listed))
-            for k, ends in enumerate(pairs):
-                read_at(("edges", k), list_of(read_label), ends)
+            TEXT.read_at("name", name)
+            named = list_of(TEXT).read_at("vertices", vertices)
+            pairs = list_of(tuple_of(TEXT, "tail", "head")).read_at("edges", edges)
         self._drawn.zones.append(NamedZone(name=name, vertices=named, edges=pairs))
         return self
 
@@ -340,7 +343,7 @@ class FleetBuilder:
         trip: list[tuple[Where, Any, Number]] = [("target", target, work)]
         if stops is not None:
             with name_file(source):
-                given = read_at("stops", list_of(lambda stop: stop), stops)
+                given = list_of(ANYTHING).read_at("stops", stops)
             trip = [(("stops", k), *place_and_work(stop)) for k, stop in enumerate(given)]
         try:
             robot = Robot(
@@ -397,7 +400,7 @@ class FleetBuilder:
         """
         source = f"closure {len(self._closures)}"
         try:
-            ends = None if edge is None else read_ends("edge", edge)
+            ends = allow_none(tuple_of(ANYTHING, "tail", "head")).read_at("edge", edge)
             closure = Closure(
                 at=None if at is None else self._find_vertex("at", at),
                 edge=ends

@@ -8,11 +8,15 @@ from fractions import Fraction
 from typing import Any
 
 from rightofway.errors import InputError, find_nearest, locate_faults, quote
-from rightofway.fleet_builder.values import (
-    read_point,
-    read_surcharge,
-    read_type_limits,
-    read_types,
+from rightofway.kinds.numbers import Number
+from rightofway.kinds.table import (
+    COORDINATE,
+    NAMES,
+    NOT_NEGATIVE,
+    POSITIVE,
+    TRUTH,
+    TYPE_SPEEDS,
+    allow_none,
 )
 from rightofway.site import (
     Edge,
@@ -25,8 +29,6 @@ from rightofway.site import (
 from rightofway.site.edges import make_roadmap_of_table
 from rightofway.site.spacing import split_lanes
 from rightofway.site.zones import NamedZone
-from rightofway.values import Number, read_at, read_truth
-from rightofway.values import read_length as exact_length
 
 
 @dataclass
@@ -71,12 +73,12 @@ class DrawnLanes:
             raise InputError.at(place, "is no name (give text)")
         if name in self.positions:
             raise InputError.at(place, "is there already (give each vertex a name of its own)")
-        self.positions[name] = read_point(place, x, y)
-        if types := read_types((place, "barred"), barred):
+        self.positions[name] = (COORDINATE.read_at(place, x), COORDINATE.read_at(place, y))
+        if types := NAMES.read_at((place, "barred"), barred):
             self.barred[name] = types
-        if more := read_surcharge((place, "surcharge"), surcharge):
+        if more := NOT_NEGATIVE.read_at((place, "surcharge"), surcharge):
             self.surcharges[name] = more
-        if read_at((place, "is_passed"), read_truth, is_passed):
+        if TRUTH.read_at((place, "is_passed"), is_passed):
             self.passed.append(name)
 
     def add_edge(
@@ -98,16 +100,18 @@ class DrawnLanes:
                 near = find_nearest(name, self.positions)
                 hint = f"did you mean {near!r}?" if near else "add it first"
                 raise InputError.at(place, f"no vertex is named {quote(name)} ({hint})")
-        given = None if length is None else exact_length(length, (place, "length"))
+        given = allow_none(POSITIVE).read_at((place, "length"), length)
         if given is None:
             with locate_faults(place):
                 measure_straight_length(self._measure_square(tail, head))
-        limit = None if max_speed is None else exact_length(max_speed, (place, "max_speed"))
+        limit = allow_none(POSITIVE).read_at((place, "max_speed"), max_speed)
         more = {
             "max_speed": limit,
-            "max_speed_by_type": read_type_limits((place, "max_speed_by_type"), max_speed_by_type),
-            "barred": read_types((place, "barred"), barred),
-            "surcharge": read_surcharge((place, "surcharge"), surcharge),
+            "max_speed_by_type": TYPE_SPEEDS.read_at(
+                (place, "max_speed_by_type"), max_speed_by_type
+            ),
+            "barred": NAMES.read_at((place, "barred"), barred),
+            "surcharge": NOT_NEGATIVE.read_at((place, "surcharge"), surcharge),
         }
         self.edges.append((tail, head, given, more))
         if both_ways:

@@ -7,16 +7,17 @@ from fractions import Fraction
 from typing import Any
 
 from rightofway.errors import InputError, find_nearest, locate_faults, quote
+from rightofway.kinds.arguments import checks_arguments
+from rightofway.kinds.table import ANYTHING, list_of
 from rightofway.model import Plan, PlannerRun, Scenario, Track
-from rightofway.model.given import require_scenario
 from rightofway.site.places import as_place, find_vertex_at
-from rightofway.values import list_of, read_at
 
 __all__ = ["plan_of_paths"]
 
 PAIR = 2
 
 
+@checks_arguments
 def plan_of_paths(scenario: Scenario, paths: Mapping[str, Sequence[Any]]) -> Plan:
     """Return paths as a plan, for `check`, `improve` and the pages.
 
@@ -46,7 +47,7 @@ def plan_of_paths(scenario: Scenario, paths: Mapping[str, Sequence[Any]]) -> Pla
     >>> plan == plan_of_paths(scenario, {"R1": [("N0", 0), ("N1", 2), ("N2", 3)]})
     True
     """
-    names = [robot.name for robot in require_scenario(scenario).robots]
+    names = [robot.name for robot in scenario.robots]
     if not isinstance(paths, Mapping):
         remedy = 'give each robot its path by its name, like {"R1": ["N0", "N1"]}'
         raise InputError.at("paths", f"{quote(paths)} are no paths ({remedy})")
@@ -58,9 +59,7 @@ def plan_of_paths(scenario: Scenario, paths: Mapping[str, Sequence[Any]]) -> Pla
     missing = [name for name in names if _is_missing(paths.get(name))]
     if missing:
         raise InputError.at("paths", f"{missing[0]} has no path (give at least its home)")
-    read = {
-        name: read_at(("paths", name), list_of(lambda item: item), paths[name]) for name in names
-    }
+    read = {name: list_of(ANYTHING).read_at(("paths", name), paths[name]) for name in names}
     tracks = [_track(scenario, name, read[name]) for name in names]
     return Plan(scenario=scenario, tracks=tuple(tracks), run=PlannerRun())
 

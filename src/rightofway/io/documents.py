@@ -6,7 +6,6 @@ import re
 from pathlib import Path
 from typing import Any
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, name_file
 from rightofway.io.content import read_text
 from rightofway.io.json_text import parse_json
@@ -46,7 +45,6 @@ def parse_document(text: str, path: Path) -> Any:
         return text
 
 
-@checks_arguments
 def load_delays(path: Path | str) -> tuple[str, ...]:
     """Return the lines of a YAML or JSON file with a list of delays, or one under ``delays``.
 

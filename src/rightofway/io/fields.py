@@ -1,18 +1,12 @@
-"""The kinds of values that documents are made of, each with its JSON Schema.
-
-The check of a kind and its schema stand side by side, so that they agree.
-"""
+"""Fields of documents: the base of all documents, and their kinds of values."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
 from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import (
-    AfterValidator,
     BaseModel,
     BeforeValidator,
     ConfigDict,
@@ -22,34 +16,26 @@ from pydantic import (
     WithJsonSchema,
     create_model,
 )
-from pydantic_core import CoreSchema, core_schema
 
-from rightofway.errors import is_printable, quote
+from rightofway.kinds.table import (
+    COUNT,
+    LINE,
+    NAME,
+    NOT_NEGATIVE,
+    NUMBER,
+    POSITION,
+    POSITIVE,
+    SEED,
+    SHARE,
+    TEXT,
+    TICK_LENGTH,
+    TICKS,
+    Schema,
+    allow_words,
+    tuple_of,
+)
 from rightofway.model.attributes import list_attributes
-from rightofway.phrases import join_parts
 from rightofway.site import VertexId
-from rightofway.values import COORDINATE_DIGITS, PATTERN, read_coordinate, read_exact
-
-MAX_TICK = 2**53 - 1
-"""Times in a plan lie within this, so that every reader holds them exactly; JavaScript too."""
-
-Schema = dict[str, Any]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Kind:
-    """What pydantic needs to know of a kind of values."""
-
-    read: Callable[[Any], Any]  # raises a ValueError with the message for what does not fit
-    schema: Schema
-
-    def __get_pydantic_core_schema__(self, _source: Any, _handler: Any) -> CoreSchema:
-        """Return the check."""
-        return core_schema.no_info_plain_validator_function(self.read)
-
-    def __get_pydantic_json_schema__(self, _core: Any, _handler: Any) -> Schema:
-        """Return the JSON Schema."""
-        return dict(self.schema)
 
 
 def finish_schema(**extra: Any) -> Callable[[Schema], None]:
@@ -98,150 +84,52 @@ def choose_exactly_one(document: Document, kinds: tuple[str, ...]) -> str:
     return given_kinds[0]
 
 
-def read_positive(value: object) -> Fraction:
-    """Return a number above 0; ValueError for any other value."""
-    number = read_exact(value)
-    if number <= 0:
-        raise ValueError(f"{quote(value)} is not positive (give a number above 0)")
-    return number
-
-
-def _not_negative(value: object) -> Fraction:
-    number = read_exact(value)
-    if number < 0 or str(value).startswith("-"):
-        raise ValueError(f"{quote(value)} is negative (give 0 or more)")
-    return number
-
-
-def _share(value: object) -> Fraction:
-    number = _not_negative(value)
-    if number > 1:
-        raise ValueError(f"{quote(value)} is above 1 (give a share from 0 to 1)")
-    return number
-
-
-def _number_schema(**bounds: int) -> Schema:
-    pattern = PATTERN.replace("[+-]?", "[+]?" if bounds else "[+-]?", 1)
-    return {"anyOf": [{"type": "number", **bounds}, {"type": "string", "pattern": f"^{pattern}$"}]}
-
-
-_ANY = _number_schema()
-_NOT_NEGATIVE = _number_schema(minimum=0)
-_POSITIVE = _number_schema(exclusiveMinimum=0)
-
-Positive = Annotated[Fraction, Kind(read_positive, _POSITIVE)]
-NotNegative = Annotated[Fraction, Kind(_not_negative, _NOT_NEGATIVE)]
-Share = Annotated[Fraction, Kind(_share, _number_schema(minimum=0, maximum=1))]
-Angle = Annotated[Fraction, Kind(read_exact, _ANY)]
-TickLength = Annotated[Fraction, Kind(partial(read_exact, digits=COORDINATE_DIGITS), _ANY)]
-Count = Annotated[int, Field(ge=1)]
-Ticks = Annotated[int, Field(ge=-MAX_TICK, le=MAX_TICK)]
-
-
-def _or_word(number: Callable[[object], Fraction], schema: Schema, *words: str) -> Kind:
-    possible = f"{' and '.join(map(repr, words))} {'are' if len(words) > 1 else 'is'} possible too"
-
-    def read(value: object) -> str | Fraction:
-        if isinstance(value, str) and value in words:
-            return value
-        try:
-            return number(value)
-        except ValueError as error:
-            raise ValueError(f"{error}; {possible}") from None
-
-    return Kind(read, {"anyOf": [*({"const": word} for word in words), schema]})
-
-
-CellSize = Annotated[
-    Fraction | Literal["clustered", "adaptive"],
-    _or_word(read_positive, _POSITIVE, "clustered", "adaptive"),
-]
-Spacing = Annotated[
-    Fraction | Literal["auto", "whole"], _or_word(read_positive, _POSITIVE, "auto", "whole")
-]
-Turning = Annotated[Fraction | Literal["cell"], _or_word(_not_negative, _NOT_NEGATIVE, "cell")]
-
-
-def _list_of(count: int, numbers: str, number: Callable[[object], Fraction]) -> Kind:
-    def read(value: object) -> tuple[Fraction, ...]:
-        if not isinstance(value, list | tuple) or len(value) != count:
-            raise ValueError(f"{quote(value)} does not fit (give {numbers})")
-        return tuple(number(item) for item in value)
-
-    return Kind(read, {"type": "array", "items": _ANY, "minItems": count, "maxItems": count})
-
-
-_Pair = tuple[Fraction, Fraction]
-_Four = tuple[Fraction, Fraction, Fraction, Fraction]
-
-POSITION = _list_of(2, "[x, y]", read_coordinate)
-
-Position = Annotated[_Pair, POSITION]
-Size = Annotated[_Pair, _list_of(2, "[width, height]", read_exact)]
-RobotSize = Annotated[_Pair, _list_of(2, "[length, width]", read_exact)]
-Rectangle = Annotated[_Four, _list_of(4, "[x, y, width, height]", read_exact)]
-
-
-def _name(value: str) -> str:
-    if not is_printable(value):
-        raise ValueError(f"{quote(value)} is no name (give characters that can be printed)")
-    return value
-
-
-def _words(value: str) -> str:
-    if value and not is_printable(value):
-        raise ValueError(f"{quote(value)} cannot be shown (give printable text on one line)")
-    return value
-
-
-def _sentence(value: object) -> str:
-    return _words(join_parts(value))
-
-
-def _place(value: object, info: ValidationInfo) -> Any:
+def _read_place(value: object, info: ValidationInfo) -> Any:
     """Return the vertex at a place of the map in the context; without one, the place as written."""
     return info.context.find(value) if info.context else value
 
 
-def _lines(value: object) -> object:
+def _split_lines(value: object) -> object:
     return value.strip("\n").split("\n") if isinstance(value, str) else value
 
 
-_TEXT: Schema = {"type": "string", "minLength": 1}
 _CELL: Schema = {"type": "array", "items": {"type": "integer"}, "minItems": 2, "maxItems": 2}
 _SPOT: Schema = {
     "type": "object",
-    "properties": {"x": _ANY, "y": _ANY},
+    "properties": {"x": NUMBER.schema, "y": NUMBER.schema},
     "required": ["x", "y"],
     "additionalProperties": False,
 }
-_SENTENCE: Schema = {
-    "anyOf": [
-        {"type": "string"},
-        {"type": "array", "prefixItems": [{"type": "string"}, {"type": "object"}], "minItems": 2},
-    ]
-}
-_TEXTS: Schema = {"type": "array", "items": {"type": "string"}}
+_TEXTS: Schema = {"type": "array", "items": TEXT.schema}
 
-Name = Annotated[str, AfterValidator(_name), WithJsonSchema(_TEXT)]
-Words = Annotated[str, AfterValidator(_words)]
-Sentence = Annotated[str, Kind(_sentence, _SENTENCE)]
+Positive = Annotated[Fraction, POSITIVE]
+NotNegative = Annotated[Fraction, NOT_NEGATIVE]
+Share = Annotated[Fraction, SHARE]
+Angle = Annotated[Fraction, NUMBER]
+TickLength = Annotated[Fraction, TICK_LENGTH]
+Count = Annotated[int, COUNT]
+Ticks = Annotated[int, TICKS]
+Seed = Annotated[int, SEED]
+Name = Annotated[str, NAME]
+Words = Annotated[str, LINE]
+CellSize = Annotated[
+    Fraction | Literal["clustered", "adaptive"], allow_words(POSITIVE, "clustered", "adaptive")
+]
+Spacing = Annotated[Fraction | Literal["auto", "whole"], allow_words(POSITIVE, "auto", "whole")]
+Position = Annotated[tuple[Fraction, Fraction], POSITION]
+Size = Annotated[tuple[Fraction, Fraction], tuple_of(NUMBER, "width", "height")]
+RobotSize = Annotated[tuple[Fraction, Fraction], tuple_of(NUMBER, "length", "width")]
+Rectangle = Annotated[
+    tuple[Fraction, Fraction, Fraction, Fraction], tuple_of(NUMBER, "x", "y", "width", "height")
+]
 Place = Annotated[
-    VertexId, PlainValidator(_place), WithJsonSchema({"anyOf": [_TEXT, _CELL, _SPOT]})
+    VertexId,
+    PlainValidator(_read_place),
+    WithJsonSchema({"anyOf": [NAME.schema, _CELL, _SPOT]}),
 ]
 Lines = Annotated[
-    list[str], BeforeValidator(_lines), WithJsonSchema({"anyOf": [{"type": "string"}, _TEXTS]})
+    list[str], BeforeValidator(_split_lines), WithJsonSchema({"anyOf": [TEXT.schema, _TEXTS]})
 ]
-
-KINDS: dict[str, Any] = {
-    "positive": Positive,
-    "not negative": NotNegative,
-    "turning": Turning,
-    "count": Count,
-    "name": Name,
-    "truth": bool,
-}
-"""How files hold the kinds of values of attributes; words are a ``Literal`` of their own."""
 
 D = TypeVar("D", bound=type[Document])
 
@@ -252,7 +140,7 @@ def add_attributes(owner: type, but: str = "") -> Callable[[D], D]:
     def add(document: D) -> D:
         fields: dict[str, Any] = {
             attribute.name: (
-                KINDS.get(attribute.kind, attribute.kind),
+                Annotated[Any, attribute.kind],
                 make_optional(
                     attribute.description,
                     **({} if attribute.key == attribute.name else {"alias": attribute.key}),

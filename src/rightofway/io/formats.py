@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, find_nearest, quote
+from rightofway.kinds.table import get_value
 
 SCENARIO_FORMAT = "rightofway-scenario/1"
 PLAN_FORMAT = "rightofway-plan/1"
@@ -43,7 +43,6 @@ def _not_wanted(value: object, known: str) -> str:
     return f"not known here (give {known}, or update)"
 
 
-@checks_arguments
 def make_schema(kind: Literal["scenario", "plan", "suite"]) -> dict[str, Any]:
     """Return the JSON Schema (2020-12) of a kind of document.
 
@@ -73,8 +72,9 @@ def make_schema(kind: Literal["scenario", "plan", "suite"]) -> dict[str, Any]:
         "plan": PlanDocument,
         "suite": SuiteDocument,
     }
+    model = get_value(models, kind, "kind")
     dialect = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
-    return {**dialect, **_without_titles(models[kind].model_json_schema())}
+    return {**dialect, **_without_titles(model.model_json_schema())}
 
 
 def _without_titles(node: Any) -> Any:

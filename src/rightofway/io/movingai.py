@@ -15,7 +15,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, InputFault, Location, name_file, quote
 from rightofway.files import write_whole
 from rightofway.io.content import read_text
@@ -39,7 +38,6 @@ class ScenRow:
     goal: tuple[int, int]
 
 
-@checks_arguments
 def load_map(path: Path | str) -> tuple[str, ...]:
     """Return the rows of a `.map` file.
 
@@ -95,7 +93,6 @@ def _check_rows(lines: list[str], header: dict[str, str], above: int) -> tuple[s
     return rows
 
 
-@checks_arguments
 def load_scen(path: Path | str) -> tuple[ScenRow, ...]:
     """Return the rows of a `.scen` file.
 
@@ -140,7 +137,6 @@ def _read_scen_row(line: int, text: str) -> ScenRow:
     )
 
 
-@checks_arguments
 def write_map(roadmap: Roadmap, path: Path | str) -> None:
     """Write a grid as a `.map` file.
 
@@ -161,7 +157,6 @@ def write_map(roadmap: Roadmap, path: Path | str) -> None:
     write_whole(path, "\n".join((*header, *grid.as_lines())) + "\n")
 
 
-@checks_arguments
 def write_scen(scenario: Scenario, path: Path | str, *, map_name: str) -> tuple[str, ...]:
     """Write the homes and targets of a fleet as a `.scen` file.
 

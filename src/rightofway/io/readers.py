@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, name_file
 from rightofway.files import as_path
 from rightofway.io.collector import pause_garbage_collection
 from rightofway.io.content import read_text
 from rightofway.io.scenario.reader import Loaded, read_classic, read_scenario
+from rightofway.kinds.arguments import checks_arguments
 from rightofway.model import Plan, Scenario
 
 WORKBOOKS = (".xlsx", ".xlsm", ".xls", ".ods")
 """How the names of workbooks end; the last two are refused with what to do."""
 
 
+@checks_arguments
 def load(path: Path | str, count: int | None = None) -> Scenario:
     """Return the scenario of a file.
 
@@ -36,7 +37,6 @@ def load(path: Path | str, count: int | None = None) -> Scenario:
     return load_with_notes(path, count).scenario
 
 
-@checks_arguments
 def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
     """Return the scenario of a file with the notes of its reader; otherwise as `load`.
 
@@ -68,6 +68,7 @@ def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
         return read_scenario(document, path.parent)
 
 
+@checks_arguments
 def load_plan(
     path: Path | str, map_file: Path | str | None = None, scen: Path | str | None = None
 ) -> Plan:
@@ -104,7 +105,6 @@ def load_plan(
         return parse_plan(document, pictures=path.parent)
 
 
-@checks_arguments
 def load_either(
     path: Path | str,
     count: int | None = None,

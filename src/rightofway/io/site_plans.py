@@ -20,8 +20,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from rightofway.arguments import checks_arguments, get_value
 from rightofway.io.json_text import format_json_line
+from rightofway.kinds.table import get_value
 from rightofway.metrics.events import list_events
 from rightofway.model import Plan, Stays, Track
 
@@ -58,7 +58,6 @@ class SitePlanFormat:
     write: Callable[[Plan], str]
 
 
-@checks_arguments
 def format_site_plan(plan: Plan, name: str) -> tuple[str, tuple[str, ...]]:
     """Return a plan as the text of a file for a program on the site.
 

@@ -13,7 +13,7 @@ from functools import lru_cache
 from typing import Any
 
 from rightofway.errors import InputError, Location, Steps, is_printable, quote
-from rightofway.values import DIGITS, read_coordinate
+from rightofway.kinds.numbers import DIGITS, read_coordinate
 
 BILLION = 10**9
 

@@ -11,17 +11,17 @@ from rightofway.errors import quote
 from rightofway.io.fields import (
     Count,
     Document,
-    Kind,
     Name,
     Positive,
+    Seed,
     choose_exactly_one,
     finish_schema,
     make_optional,
 )
 from rightofway.io.scenario.shape import RulesDocument
-from rightofway.values import read_exact
+from rightofway.kinds.numbers import read_exact
+from rightofway.kinds.table import SEED, Kind, make_kind
 
-MAX_SEED = 2**32 - 1
 MAX_SIDE = 10_000
 MAX_WORK = 1_000_000
 
@@ -35,7 +35,9 @@ def _list_once(values: list[T]) -> list[T]:
     return values
 
 
-def _make_pair(least: int, most: int, numbers: str, *, in_order: bool = False) -> Kind:
+def _make_pair(
+    least: int, most: int, numbers: str, *, in_order: bool = False
+) -> Kind[tuple[int, int]]:
     """Return the kind of two whole numbers within bounds."""
 
     def read(value: object) -> tuple[int, int]:
@@ -50,20 +52,22 @@ def _make_pair(least: int, most: int, numbers: str, *, in_order: bool = False) -
         return (items[0], items[1])
 
     number = {"type": "integer", "minimum": least, "maximum": most}
-    return Kind(read, {"type": "array", "items": number, "minItems": 2, "maxItems": 2})
+    return Kind(numbers, {"type": "array", "items": number, "minItems": 2, "maxItems": 2}, read)
 
 
-def _read_share(value: object) -> float:
-    share = read_exact(value)
-    if not 0 <= share < 1:
-        raise ValueError(f"{quote(value)} is no share (give 0 or more, below 1)")
-    return float(share)
-
-
-Seed = Annotated[int, Field(ge=0, le=MAX_SEED)]
 GridSize = Annotated[tuple[int, int], _make_pair(1, MAX_SIDE, "[width, height]")]
 WorkRange = Annotated[tuple[int, int], _make_pair(0, MAX_WORK, "[least, most]", in_order=True)]
-Share = Annotated[float, Kind(_read_share, {"type": "number", "minimum": 0, "exclusiveMaximum": 1})]
+Share = Annotated[
+    float,
+    make_kind(
+        "a share of 0 or more, below 1",
+        lambda share: 0 <= share < 1,
+        "is no share",
+        base=read_exact,
+        convert=float,
+        schema={"type": "number", "minimum": 0, "exclusiveMaximum": 1},
+    ),
+]
 Distinct = Annotated[
     list[T],
     Field(min_length=1, json_schema_extra={"uniqueItems": True}),
@@ -76,7 +80,7 @@ class RandomGridDocument(Document):
 
     size: GridSize = Field(description="[width, height] [cells]")
     walls: Share = Field(default=0.0, description="the share of blocked cells, 0 or more, below 1")
-    seed: Seed = Field(default=0, description=f"what draws the walls, 0 to {MAX_SEED}")
+    seed: Seed = Field(default=0, description=f"seed of the walls, {SEED.name}")
 
 
 MAPS = ("file", "random", "scenario")

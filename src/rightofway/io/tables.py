@@ -27,6 +27,7 @@ from rightofway.errors import (
 from rightofway.io.content import read_text
 from rightofway.io.faults import Faults
 from rightofway.io.yaml_text import parse_yaml
+from rightofway.kinds.table import TRUTH
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
 
 NOTES = {"note", "notes", "hint", "comment", "remark"}
@@ -45,7 +46,7 @@ TRUTH_KEYS = {
     "both_ways",
     "pass",
     *SPOTS,
-    *(attribute.key for attribute in RULE_ATTRIBUTES if attribute.kind == "truth"),
+    *(attribute.key for attribute in RULE_ATTRIBUTES if attribute.kind is TRUTH),
 }
 """Keys whose values are true or false."""
 

@@ -6,14 +6,12 @@ from functools import lru_cache
 
 import numpy as np
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import NoPlanExists
 from rightofway.model import Scenario, Tick
 from rightofway.search import compute_least_completions
 from rightofway.search.missing_ways import find_missing_ways
 
 
-@checks_arguments
 @lru_cache(maxsize=4)
 def compute_alone_completions(scenario: Scenario) -> tuple[Tick, ...]:
     """Return each robot's least completion time without the others, and without closures.

@@ -13,7 +13,6 @@ from typing import Any, Literal
 
 import numpy as np
 
-from rightofway.arguments import checks_arguments
 from rightofway.facts import Fact, get_teller
 from rightofway.model import Robot, Scenario
 from rightofway.model.attributes import Attribute
@@ -59,7 +58,6 @@ class Change:
         return get_teller().tell_fact(self)
 
 
-@checks_arguments
 def find_changes(before: Scenario, after: Scenario) -> tuple[Change, ...]:
     """Return the differences of a scenario from another one.
 

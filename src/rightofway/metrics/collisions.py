@@ -11,10 +11,10 @@ from typing import Any, NamedTuple, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.arguments import checks_arguments, require_one_for_each
 from rightofway.deadline import check_work, limit_loop, measure_work_left
 from rightofway.errors import InputError
 from rightofway.facts import Fact
+from rightofway.kinds.table import require_one_for_each
 from rightofway.model import NEVER, Plan, Scenario, Stays, Tick, Track, find_stays
 from rightofway.model.resources import Resources
 from rightofway.model.sorting import order_by
@@ -56,7 +56,6 @@ def list_bookings(
     )
 
 
-@checks_arguments
 def free_running(plan: Plan) -> tuple[Track, ...]:
     """Return tracks of the same routes and work, without any wait.
 
@@ -94,7 +93,6 @@ class Collision:
     end: Tick | None
 
 
-@checks_arguments
 def find_collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Collision, ...]:
     """Return where bookings of any tracks overlap, by start, then by robots.
 
@@ -141,7 +139,6 @@ class Swap:
     tick: Tick
 
 
-@checks_arguments
 def find_swaps(tracks: Sequence[Track]) -> tuple[Swap, ...]:
     """Return where two robots of any tracks exchange vertices, by tick, then by robots.
 
@@ -277,7 +274,6 @@ class NearMiss:
     end: Tick | None
 
 
-@checks_arguments
 def find_near_misses(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NearMiss, ...]:
     """Return where robots of any tracks are too near for their sizes, by start, then by robots.
 
@@ -401,7 +397,6 @@ class NamedCollisions(Sequence[NamedCollision]):
         )
 
 
-@checks_arguments
 def name_collisions(scenario: Scenario, tracks: Sequence[Track]) -> NamedCollisions:
     """Return the collisions, swaps and near misses of any tracks, by time, with names of places.
 

@@ -12,7 +12,6 @@ from fractions import Fraction
 from math import gcd, lcm
 from typing import Any
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.metrics.changes import Change, find_changes
 from rightofway.metrics.measure import measure
@@ -108,7 +107,6 @@ class Comparison:
             yield [column.get(name) for column in columns]
 
 
-@checks_arguments
 def compare(plans: Sequence[Plan], titles: Sequence[str] = ()) -> Comparison:
     """Put plans beside each other; their scenarios may differ.
 

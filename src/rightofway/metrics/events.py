@@ -11,7 +11,6 @@ from bisect import bisect_right
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import NoPlanExists
 from rightofway.metrics.lost_time import compute_lost_time, join_waits
 from rightofway.model import Loss, Plan, Scenario, Stays, Tick
@@ -56,7 +55,6 @@ class Event(NamedTuple):
     to_leave: VertexId | None
 
 
-@checks_arguments
 def list_events(plan: Plan) -> tuple[Event, ...]:
     """Return the visits of all robots, by robot and in order.
 
@@ -136,7 +134,6 @@ def _list_purposes(scenario: Scenario, robot: int, stay: Stays, n_visits: int) -
     }
 
 
-@checks_arguments
 def make_event_columns(plan: Plan, chosen: Iterable[Event] | None = None) -> dict[str, list[Any]]:
     """Return visits as named columns, for a data frame or a file.
 

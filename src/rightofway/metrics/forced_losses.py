@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from itertools import chain, product
 
-from rightofway.arguments import checks_arguments
 from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp
 from rightofway.facts import Fact
@@ -47,7 +46,6 @@ Places = dict[Robots, VertexId]
 """Groups of robots, each with the vertex where the first two of them meet."""
 
 
-@checks_arguments
 def find_forced_losses(
     scenario: Scenario,
     *,
@@ -109,7 +107,6 @@ def find_forced_losses(
     return tuple(sorted(forced.values(), key=lambda loss: (-loss.ticks, loss.robots)))
 
 
-@checks_arguments
 def find_forced_makespan(
     scenario: Scenario,
     makespan: int,

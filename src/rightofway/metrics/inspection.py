@@ -13,7 +13,6 @@ from itertools import pairwise
 
 import numpy as np
 
-from rightofway.arguments import checks_arguments
 from rightofway.facts import Fact
 from rightofway.metrics.connectivity import (
     Corridor,
@@ -63,7 +62,6 @@ LISTED_CORRIDORS = 10
 """Corridors that are looked at in detail: those that most shortest routes use."""
 
 
-@checks_arguments
 def inspect(site: Site) -> Inspection:
     """Return the size of a site, and its weaknesses.
 

@@ -19,7 +19,8 @@ from itertools import groupby, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.arguments import checks_arguments, require_one_for_each
+from rightofway.kinds.arguments import checks_arguments
+from rightofway.kinds.table import require_one_for_each
 from rightofway.metrics.collisions import BookedPlaces, list_bookings
 from rightofway.metrics.measure import measure
 from rightofway.metrics.waits import NOBODY, find_freeing_visits
@@ -34,7 +35,6 @@ from rightofway.model import (
     Track,
     compute_least_dwell,
 )
-from rightofway.model.given import require_plan
 from rightofway.model.turning import Turning
 from rightofway.site import VertexId
 
@@ -46,6 +46,7 @@ Bound = tuple[int, int, int]
 possible, and that robot's visit; the last two are `NOBODY` for a wait without a cause."""
 
 
+@checks_arguments
 def compute_lost_time(plan: Plan) -> tuple[LostTime, ...]:
     """Return the losses of each robot to others: how much, where and for which robot.
 
@@ -64,7 +65,7 @@ def compute_lost_time(plan: Plan) -> tuple[LostTime, ...]:
     NoPlanExists
         If no way leads from one place of a robot's trip to the next.
     """
-    return require_plan(plan).compute_once("lost time", lambda: _measure_lost_time(plan))
+    return plan.compute_once("lost time", lambda: _measure_lost_time(plan))
 
 
 def _measure_lost_time(plan: Plan) -> tuple[LostTime, ...]:
@@ -99,7 +100,6 @@ def _measure_lost_time(plan: Plan) -> tuple[LostTime, ...]:
     return tuple(fleet)
 
 
-@checks_arguments
 def join_waits(
     scenario: Scenario, tracks: Sequence[Track], stays: Sequence[Stays]
 ) -> tuple[Loss, ...]:

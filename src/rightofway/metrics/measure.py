@@ -6,9 +6,9 @@ import math
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from rightofway.kinds.arguments import checks_arguments
 from rightofway.metrics.alone import compute_alone_completions
 from rightofway.model import Objective, Outcome, OutcomeKind, Plan, Proof, Tick
-from rightofway.model.given import require_plan
 from rightofway.model.outcome import classify_cost
 
 WITHOUT_PLAN = {OutcomeKind.NO_PLAN_EXISTS, OutcomeKind.GAVE_UP}
@@ -71,6 +71,7 @@ class Metrics:
         }
 
 
+@checks_arguments
 def measure(plan: Plan) -> Metrics:
     """Measure a plan.
 
@@ -84,7 +85,7 @@ def measure(plan: Plan) -> Metrics:
     NoPlanExists
         If no way leads from one place of a robot's trip to the next, so that there is no bound.
     """
-    return require_plan(plan).compute_once("metrics", lambda: _measure_plan(plan))
+    return plan.compute_once("metrics", lambda: _measure_plan(plan))
 
 
 def get_own_outcome(plan: Plan) -> Outcome | None:

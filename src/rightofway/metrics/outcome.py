@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from rightofway.arguments import checks_arguments
 from rightofway.metrics.measure import WITHOUT_PLAN, get_own_outcome, measure
 from rightofway.model import Outcome, Plan, Proof
 from rightofway.model.outcome import classify_cost
 
 
-@checks_arguments
 def derive_outcome(plan: Plan) -> Outcome:
     """Return the proof of a plan: by its planner, or by the sum of the robots alone.
 

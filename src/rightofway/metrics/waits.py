@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.kinds.arguments import checks_arguments
 from rightofway.model import Plan, Route, Scenario, Stays, Tick, Track, Wait
-from rightofway.model.given import require_plan
 from rightofway.native import BookedRows, book_times
 from rightofway.precedence import PrecedenceGraph, order_of
 from rightofway.precedence.graph import Pairs
@@ -21,6 +21,7 @@ NOBODY = -1
 """Stands for the visit of no robot."""
 
 
+@checks_arguments
 def waits(plan: Plan) -> tuple[Wait, ...]:
     """Return all waits of a plan that keeps the rules, by tick, then by robot.
 
@@ -29,7 +30,7 @@ def waits(plan: Plan) -> tuple[Wait, ...]:
     plan
         A plan that keeps the rules.
     """
-    scenario, tracks = require_plan(plan).scenario, plan.tracks
+    scenario, tracks = plan.scenario, plan.tracks
     return plan.compute_once("waits", lambda: waits_in(scenario, tracks, plan.stays))
 
 

@@ -6,34 +6,13 @@ changes take kinds, keys and sentences from here.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, fields
 from fractions import Fraction
 from functools import cache
-from typing import Any, Literal, get_args
+from typing import Any, Literal
 
-from rightofway.values import (
-    allow_none,
-    format_number,
-    make_word_reader,
-    read_label,
-    read_number,
-    read_truth,
-    read_turning,
-    read_whole_number,
-)
-
-Kind = Literal["positive", "not negative", "turning", "count", "name", "truth"]
-
-READERS: dict[Kind, Callable[[object], object]] = {
-    "positive": read_number,
-    "not negative": read_number,
-    "turning": read_turning,
-    "count": read_whole_number,
-    "name": read_label,
-    "truth": read_truth,
-}
-"""How a value of each kind is checked in Python; `Scenario` checks the ranges."""
+from rightofway.kinds.numbers import format_number
+from rightofway.kinds.table import TRUTH, Kind, allow_none
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,7 +24,7 @@ class Attribute:
     name, key
         Its name in Python and its key in files, which is the name unless that is another word.
     kind
-        The kind of its values; for words the ``Literal`` of them.
+        The kind of its values.
     description
         What to give: in the schema, in messages (in brackets) and as a hint in workbooks.
     default
@@ -60,7 +39,7 @@ class Attribute:
 
     name: str
     key: str
-    kind: Any
+    kind: Kind[Any]
     description: str
     default: Any
     measure: Literal["speed", "length", "time", ""]
@@ -70,16 +49,16 @@ class Attribute:
     @property
     def words(self) -> tuple[str, ...]:
         """The words that it may hold, where these are few."""
-        return ("true", "false") if self.kind == "truth" else get_args(self.kind)
+        return ("true", "false") if self.kind is TRUTH else self.kind.words
 
     @property
     def is_text(self) -> bool:
         """Whether its values are text, also where they look like numbers."""
-        return self.kind == "name" or bool(get_args(self.kind))
+        return self.kind.schema.get("type") == "string"
 
 
 def make_attribute(
-    kind: Any,
+    kind: Kind[Any],
     description: str,
     *,
     key: str | None = None,
@@ -107,19 +86,12 @@ def list_attributes(owner: Any) -> tuple[Attribute, ...]:
 
 
 @cache
-def list_readers(owner: Any) -> dict[str, Callable[[object], object]]:
-    """Return for each attribute of a dataclass how its value is checked, for `coerced`."""
-    readers = {}
-    for attribute_of_owner in list_attributes(owner):
-        read = (
-            make_word_reader(words)
-            if (words := get_args(attribute_of_owner.kind))
-            else READERS[attribute_of_owner.kind]
-        )
-        readers[attribute_of_owner.name] = (
-            allow_none(read) if attribute_of_owner.default is None else read
-        )
-    return readers
+def list_kinds(owner: Any) -> dict[str, Kind[Any]]:
+    """Return the kinds of the attributes of a dataclass by name, for `coerce_fields`."""
+    return {
+        attribute.name: allow_none(attribute.kind) if attribute.default is None else attribute.kind
+        for attribute in list_attributes(owner)
+    }
 
 
 def list_plain_attributes(value: Any) -> dict[str, Any]:

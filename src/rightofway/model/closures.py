@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 from rightofway.deadline import check_work
 from rightofway.errors import InputFault
 from rightofway.facts import Fact
+from rightofway.kinds.table import NOT_NEGATIVE, NUMBER, VERTEX, allow_none, coerce_fields, tuple_of
 from rightofway.model.units import NEVER, Clock, Tick
 from rightofway.site import Point, Roadmap, VertexId, measure_squared_distance
-from rightofway.values import allow_none, coerce_fields, read_number, read_vertex
 
 Ends = tuple[VertexId, VertexId]
 """The two ends of an edge or a lane, whichever way it is driven."""
@@ -70,31 +70,21 @@ class Closure:
         coerce_fields(
             self,
             "closure",
-            at=allow_none(read_vertex),
-            edge=allow_none(_ends),
-            from_=read_number,
-            until=allow_none(read_number),
-            radius=allow_none(read_number),
+            at=allow_none(VERTEX),
+            edge=allow_none(tuple_of(VERTEX, "tail", "head")),
+            from_=NOT_NEGATIVE,
+            until=allow_none(NUMBER),
+            radius=allow_none(NOT_NEGATIVE),
         )
-
-
-def _ends(value: object) -> Ends:
-    if isinstance(value, list | tuple) and len(value) == 2:  # noqa: PLR2004 (two ends)
-        return VertexId(read_vertex(value[0])), VertexId(read_vertex(value[1]))
-    raise ValueError(f"{value!r} is no edge (give the vertices at both ends)")
 
 
 def find_closure_faults(closure: Closure, roadmap: Roadmap) -> Iterator[InputFault]:
     """Yield what is wrong with a closure."""
     if (closure.at is None) == (closure.edge is None):
         yield InputFault("", "closes not exactly one of a vertex and an edge (give at, or edge)")
-    if closure.from_ < 0:
-        yield InputFault("from", f"{closure.from_} is negative (give 0 or more)")
     if closure.until is not None and closure.until <= closure.from_:
         message = f"{closure.until} is not after from, {closure.from_}"
         yield InputFault("until", f"{message} (give a later time, or leave it out: for ever)")
-    if closure.radius is not None and closure.radius < 0:
-        yield InputFault("radius", f"{closure.radius} is negative (give 0 or more)")
     places = [("at", closure.at)] if closure.edge is None else [("edge", v) for v in closure.edge]
     unknown = [
         (key, place)

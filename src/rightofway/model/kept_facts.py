@@ -6,25 +6,15 @@ the sentences of a file from elsewhere can be written.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any, ClassVar, Self
 
 from rightofway.errors import InputError, find_nearest, is_printable, locate_faults, quote
 from rightofway.facts import Fact
+from rightofway.kinds.numbers import format_number
+from rightofway.kinds.table import NUMBER, TEXT, WHOLE, Kind, list_of, make_words
 from rightofway.model.outcome import Objective
-from rightofway.values import (
-    format_number,
-    list_of,
-    make_word_reader,
-    read_at,
-    read_label,
-    read_number,
-    read_whole_number,
-)
-
-Reader = Callable[[object], Any]
-"""Returns a value of a fact as it is kept; raises ValueError for a value of another type."""
 
 DEEPEST = 20
 """Levels of statuses of first plans in a status."""
@@ -33,11 +23,12 @@ DEEPEST = 20
 def _read_status(value: object) -> Status:
     if isinstance(value, Status | str):
         return Status.of(value)
-    raise ValueError(f"{quote(value)} is no status (give {{kind, counts}})")
+    raise ValueError(f"{quote(value)} is no status (give {_STATUS.name})")
 
 
-_read_names = list_of(read_label)
-_read_objective = make_word_reader([objective.value for objective in Objective])
+_STATUS = Kind("{kind, counts}", {}, _read_status)
+_NAMES = list_of(TEXT)
+_OBJECTIVE = make_words(*(objective.value for objective in Objective))
 
 
 class KeptFact(Fact):
@@ -58,7 +49,7 @@ class KeptFact(Fact):
 
     __slots__ = ()
 
-    KINDS: ClassVar[Mapping[str, Mapping[str, Reader]]] = {}
+    KINDS: ClassVar[Mapping[str, Mapping[str, Kind[Any]]]] = {}
     """The values of each kind."""
 
     KEY: ClassVar[str] = "values"
@@ -75,7 +66,7 @@ class KeptFact(Fact):
         if unknown := [name for name in values if name not in readers]:
             message = f"is no value of {quote(kind)} (take it out)"
             raise InputError.at((self.KEY, unknown[0]), message)
-        read = {name: read_at((self.KEY, name), readers[name], values[name]) for name in readers}
+        read = {name: readers[name].read_at((self.KEY, name), values[name]) for name in readers}
         super().__init__(kind, **read)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -152,16 +143,16 @@ class Status(KeptFact):
 
     KINDS: ClassVar = {
         "waits only": {},
-        "re-routed": {"robots": _read_names},
+        "re-routed": {"robots": _NAMES},
         "re-routed together": {},
-        "by planner": {"planner": read_label, "status": _read_status},
-        "best of orders": {"number": read_whole_number, "status": _read_status},
+        "by planner": {"planner": TEXT, "status": _STATUS},
+        "best of orders": {"number": WHOLE, "status": _STATUS},
         "reversals": {
-            "objective": _read_objective,
-            "before": read_whole_number,
-            "after": read_whole_number,
+            "objective": _OBJECTIVE,
+            "before": WHOLE,
+            "after": WHOLE,
         },
-        "then": {"first": _read_status, "second": _read_status},
+        "then": {"first": _STATUS, "second": _STATUS},
         "in turn": {},
         "in turn at one pace": {},
         "together": {},
@@ -171,34 +162,34 @@ class Status(KeptFact):
         "joint states": {},
         "given": {},
         "adapted": {},
-        "improved": {"neighbourhoods": read_whole_number, "status": _read_status},
-        "not improved": {"neighbourhoods": read_whole_number, "status": _read_status},
-        "as fast as alone": {"status": _read_status},
+        "improved": {"neighbourhoods": WHOLE, "status": _STATUS},
+        "not improved": {"neighbourhoods": WHOLE, "status": _STATUS},
+        "as fast as alone": {"status": _STATUS},
         "no longer headways": {},
-        "found": {"claim": _read_status, "nodes": read_whole_number},
-        "proven": {"claim": _read_status, "nodes": read_whole_number, "status": _read_status},
+        "found": {"claim": _STATUS, "nodes": WHOLE},
+        "proven": {"claim": _STATUS, "nodes": WHOLE, "status": _STATUS},
         "searched": {
-            "claim": _read_status,
-            "nodes": read_whole_number,
-            "objective": _read_objective,
-            "status": _read_status,
+            "claim": _STATUS,
+            "nodes": WHOLE,
+            "objective": _OBJECTIVE,
+            "status": _STATUS,
         },
-        "nothing better": {"nodes": read_whole_number, "status": _read_status},
+        "nothing better": {"nodes": WHOLE, "status": _STATUS},
         "optimal": {},
-        "within factor": {"factor": read_number},
+        "within factor": {"factor": NUMBER},
         "best found": {},
-        "found by search": {"nodes": read_whole_number},
-        "optimum found by search": {"nodes": read_whole_number},
-        "proven by search": {"nodes": read_whole_number, "status": _read_status},
-        "interrupted": {"status": _read_status},
+        "found by search": {"nodes": WHOLE},
+        "optimum found by search": {"nodes": WHOLE},
+        "proven by search": {"nodes": WHOLE, "status": _STATUS},
+        "interrupted": {"status": _STATUS},
         "stopped": {},
         "so far": {},
-        "reversed": {"waits": read_label, "goes_first": read_label},
-        "reversed and replanned": {"waits": read_label, "goes_first": read_label},
+        "reversed": {"waits": TEXT, "goes_first": TEXT},
+        "reversed and replanned": {"waits": TEXT, "goes_first": TEXT},
         "whole laps": {},
-        "excerpt of laps": {"rule": read_label},
+        "excerpt of laps": {"rule": TEXT},
         "no plan exists": {},
-        "other": {"text": read_label},
+        "other": {"text": TEXT},
     }
 
     @property
@@ -213,17 +204,17 @@ class RerouteReason(KeptFact):
     __slots__ = ()
 
     KINDS: ClassVar = {
-        "deadlock of two": {"one": read_label, "other": read_label, "place": read_label},
+        "deadlock of two": {"one": TEXT, "other": TEXT, "place": TEXT},
         "deadlock in circle": {
-            "one": read_label,
-            "other": read_label,
-            "place": read_label,
-            "robots": _read_names,
+            "one": TEXT,
+            "other": TEXT,
+            "place": TEXT,
+            "robots": _NAMES,
         },
-        "rotation": {"robots": _read_names},
+        "rotation": {"robots": _NAMES},
         "makes way": {},
-        "makes way for": {"robot": read_label},
+        "makes way for": {"robot": TEXT},
         "short time": {},
         "no way in turn": {},
-        "other": {"text": read_label},
+        "other": {"text": TEXT},
     }

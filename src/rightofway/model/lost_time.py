@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
-from rightofway.arguments import checks_arguments
+from rightofway.kinds.arguments import checks_arguments
 from rightofway.model.units import Tick
 from rightofway.site import VertexId
 

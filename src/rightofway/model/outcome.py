@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
 
-from rightofway.arguments import checks_arguments, require_one_for_each
 from rightofway.errors import GaveUp, NoPlanExists
+from rightofway.kinds.arguments import checks_arguments
+from rightofway.kinds.table import require_one_for_each
 from rightofway.model.route import Track
 from rightofway.model.scenario import Scenario
 from rightofway.model.stays import compute_completions, compute_cost, compute_costs

@@ -5,10 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
-from typing import Any, Literal, TypeVar, cast
+from typing import Any, Literal, TypeVar
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, find_nearest, quote
+from rightofway.kinds.arguments import checks_arguments
+from rightofway.kinds.table import (
+    ANYTHING,
+    WHOLE,
+    Kind,
+    allow_none,
+    coerce_fields,
+    list_of,
+    make_class,
+    make_words,
+    tuple_of,
+)
 from rightofway.model.figures import get_figures
 from rightofway.model.kept_facts import RerouteReason, Status
 from rightofway.model.lost_time import LostTime
@@ -29,23 +40,8 @@ from rightofway.model.steady_state import SteadyState, refuse_unknown_robots
 from rightofway.model.units import Tick
 from rightofway.model.work import UnservedReason
 from rightofway.site import VertexId
-from rightofway.values import (
-    allow_none,
-    coerce_fields,
-    list_of,
-    make_class_reader,
-    make_word_reader,
-    read_at,
-    read_integer,
-)
 
 T = TypeVar("T")
-
-
-def _read_unserved(value: object) -> tuple[int, UnservedReason]:
-    if isinstance(value, list | tuple) and len(value) == 2:  # noqa: PLR2004 (a job and a reason)
-        return read_integer(value[0]), cast("UnservedReason", value[1])
-    raise ValueError(f"{quote(value)} is no unserved job (give its index and the reason)")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -298,20 +294,15 @@ class Plan:
     _figures: dict[str, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        item = make_class_reader(PlannedItem, "no item", "give PlannedItem(visit=index, …)")
-        read: dict[str, Callable[[object], object]] = {
-            "scenario": make_class_reader(Scenario, "no scenario", "load one with rightofway.load"),
-            "tracks": list_of(
-                make_class_reader(Track, "no track", "make it with Track.of(vertices, enter)")
-            ),
-            "run": make_class_reader(PlannerRun, "no run of a planner", "give PlannerRun()"),
-            "steady": list_of(
-                make_class_reader(SteadyState, "no steady state", "give SteadyState")
-            ),
-            "tours": allow_none(list_of(list_of(item))),
-            "unserved": list_of(_read_unserved),
+        kinds: dict[str, Kind[Any]] = {
+            "scenario": make_class(Scenario),
+            "tracks": list_of(make_class(Track)),
+            "run": make_class(PlannerRun),
+            "steady": list_of(make_class(SteadyState)),
+            "tours": allow_none(list_of(list_of(make_class(PlannedItem)))),
+            "unserved": list_of(tuple_of((WHOLE, ANYTHING), "index of the job", "reason")),
         }
-        coerce_fields(self, "", **read)
+        coerce_fields(self, "", **kinds)
         robots, tracks = len(self.scenario.robots), len(self.tracks)
         if robots != tracks:
             raise InputError.at(
@@ -458,7 +449,7 @@ class Plan:
             If the library is not installed, or another one is named.
         """
         wanted = FRAME_LIBRARIES if library is None else (library,)
-        read_at("library", allow_none(make_word_reader(FRAME_LIBRARIES)), library)
+        allow_none(make_words(*FRAME_LIBRARIES)).read_at("library", library)
         for name in wanted:
             try:
                 module = import_module(name)

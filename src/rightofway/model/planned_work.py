@@ -10,13 +10,13 @@ from typing import get_args
 import numpy as np
 
 from rightofway.errors import InputError, InputFault, Steps, quote
+from rightofway.kinds.table import WHOLE, allow_none, coerce_fields
 from rightofway.model.route import Track
 from rightofway.model.scenario import Scenario, assign_tours
 from rightofway.model.stays import Stays, find_stays
 from rightofway.model.units import NEVER, Tick
 from rightofway.model.work import Job, Tour, TourItem, UnservedReason, Work
 from rightofway.site import VertexId
-from rightofway.values import allow_none, coerce_fields, read_integer
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,11 +48,11 @@ class PlannedItem:
         coerce_fields(
             self,
             "",
-            visit=read_integer,
-            begin=read_integer,
-            end=read_integer,
-            job=allow_none(read_integer),
-            stop=allow_none(read_integer),
+            visit=WHOLE,
+            begin=WHOLE,
+            end=WHOLE,
+            job=allow_none(WHOLE),
+            stop=allow_none(WHOLE),
         )
 
 

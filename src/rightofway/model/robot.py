@@ -7,20 +7,25 @@ from fractions import Fraction
 from typing import Literal, get_args
 
 from rightofway.errors import quote
-from rightofway.model.attributes import list_attributes, list_readers, make_attribute
-from rightofway.model.work import RobotState, WorkObjective
-from rightofway.site import VertexId
-from rightofway.values import (
+from rightofway.kinds.table import (
+    COUNT,
+    NAME,
+    NOT_NEGATIVE,
+    POSITIVE,
+    TEXT,
+    TRUTH,
+    TURNING,
+    VERTEX,
+    WHOLE,
     allow_none,
     coerce_fields,
     list_of,
-    make_class_reader,
-    make_word_reader,
-    read_integer,
-    read_label,
-    read_number,
-    read_vertex,
+    make_class,
+    make_words,
 )
+from rightofway.model.attributes import list_attributes, list_kinds, make_attribute
+from rightofway.model.work import RobotState, WorkObjective
+from rightofway.site import VertexId
 
 Turn = Literal["cell"] | Fraction
 """Turning time at a stop: one cell's crossing time of the robot, or a time [time unit]."""
@@ -36,7 +41,7 @@ Walls = Literal["free", "strict"]
 """Whether robots wider than a cell keep out of the walls of a grid."""
 
 
-TURNING = "turning time at a stop [time unit], or cell: one cell's crossing time"
+TURN = "turning time at a stop [time unit], or cell: one cell's crossing time"
 RETURN = "home, or none: robots stay at their last stop"
 
 
@@ -54,14 +59,14 @@ class Stop:
     Raises
     ------
     InputError
-        For a vertex that is not a number, or a work time that is none.
+        For a vertex that is not a number, and for a work time of another kind or below 0.
     """
 
     at: VertexId
     work: Fraction = Fraction(0)
 
     def __post_init__(self) -> None:
-        coerce_fields(self, "stop", at=read_vertex, work=read_number)
+        coerce_fields(self, "stop", at=VERTEX, work=NOT_NEGATIVE)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -106,7 +111,7 @@ class Robot:
     Raises
     ------
     InputError
-        With every value of a wrong kind; the ranges are checked by `Scenario`.
+        With every value of another kind or out of range.
     """
 
     name: str
@@ -115,7 +120,7 @@ class Robot:
     speed: Fraction = field(
         default=Fraction(1),
         metadata=make_attribute(
-            "positive",
+            POSITIVE,
             "length units per time unit, above 0; 1 by default",
             measure="speed",
             always=True,
@@ -124,7 +129,7 @@ class Robot:
     radius: Fraction = field(
         default=Fraction(0),
         metadata=make_attribute(
-            "not negative",
+            NOT_NEGATIVE,
             "radius of the circle that it needs [length unit]",
             measure="length",
         ),
@@ -132,7 +137,7 @@ class Robot:
     type: str | None = field(
         default=None,
         metadata=make_attribute(
-            "name",
+            NAME,
             "the name of its type, for edges and vertices that are barred for types",
             unset="none",
         ),
@@ -140,15 +145,15 @@ class Robot:
     turn: Turn | None = field(
         default=None,
         metadata=make_attribute(
-            "turning",
             TURNING,
+            TURN,
             measure="time",
         ),
     )
     ends: TripEnd | None = field(
         default=None,
         metadata=make_attribute(
-            TripEnd,
+            make_words(*get_args(TripEnd)),
             RETURN,
             key="return",
         ),
@@ -156,21 +161,21 @@ class Robot:
     laps: int | None = field(
         default=None,
         metadata=make_attribute(
-            "count",
+            COUNT,
             "how often it makes its round trip, 1 or more",
         ),
     )
     turn_rate: Fraction | None = field(
         default=None,
         metadata=make_attribute(
-            "positive",
+            POSITIVE,
             "how fast it turns on the spot [degrees per time unit]; by default in no time",
         ),
     )
     weight: Fraction = field(
         default=Fraction(1),
         metadata=make_attribute(
-            "positive",
+            POSITIVE,
             "how much its completion time counts beside the others', above 0",
         ),
     )
@@ -180,29 +185,22 @@ class Robot:
     charging: tuple[VertexId, ...] | None = None
 
     def __post_init__(self) -> None:
-        state = make_class_reader(RobotState, "no state", "give RobotState(at=vertex)")
         coerce_fields(
             self,
             f"robot {quote(self.name)}",
-            name=read_label,
-            home=read_vertex,
-            stops=_stops,
-            start=allow_none(state),
-            capacity=allow_none(read_integer),
-            battery=allow_none(read_label),
-            charging=allow_none(list_of(read_vertex)),
-            **list_readers(Robot),
+            name=TEXT,
+            home=VERTEX,
+            stops=list_of(make_class(Stop), admits=list | tuple),
+            start=allow_none(make_class(RobotState)),
+            capacity=allow_none(WHOLE),
+            battery=allow_none(TEXT),
+            charging=allow_none(list_of(VERTEX)),
+            **list_kinds(Robot),
         )
 
     def __repr__(self) -> str:
         stops = ", ".join(str(stop.at) for stop in self.stops)
         return f"Robot({self.name!r}, home {self.home}, stops {stops}, speed {self.speed})"
-
-
-def _stops(value: object) -> tuple[Stop, ...]:
-    if isinstance(value, list | tuple) and all(isinstance(stop, Stop) for stop in value):
-        return tuple(value)
-    raise ValueError(f"{quote(value)} are no stops (give a list of Stop(at=vertex, work=time))")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -243,13 +241,13 @@ class Rules:
     Raises
     ------
     InputError
-        With every value of a wrong kind; the ranges are checked by `Scenario`.
+        With every value of another kind or out of range.
     """
 
     occupancy: Occupancy | None = field(
         default=None,
         metadata=make_attribute(
-            Occupancy,
+            make_words(*get_args(Occupancy)),
             "one, or both: a robot books the next place before it starts to drive there",
             always=True,
         ),
@@ -257,34 +255,35 @@ class Rules:
     headway: Fraction = field(
         default=Fraction(0),
         metadata=make_attribute(
-            "not negative",
+            NOT_NEGATIVE,
             "least time between two robots at a vertex [time unit]",
             measure="time",
             always=True,
         ),
     )
     turn: Turn | None = field(
-        default=None, metadata=make_attribute("turning", TURNING, measure="time", unset="as usual")
+        default=None, metadata=make_attribute(TURNING, TURN, measure="time", unset="as usual")
     )
     ends: TripEnd = field(
-        default="home", metadata=make_attribute(TripEnd, RETURN, key="return", always=True)
+        default="home",
+        metadata=make_attribute(make_words(*get_args(TripEnd)), RETURN, key="return", always=True),
     )
     laps: int = field(
         default=1,
         metadata=make_attribute(
-            "count", "how often each robot makes its round trip, 1 or more", always=True
+            COUNT, "how often each robot makes its round trip, 1 or more", always=True
         ),
     )
     rotations: bool = field(
         default=True,
         metadata=make_attribute(
-            "truth", "true or false: may a ring of robots move on at one instant?", always=True
+            TRUTH, "true or false: may a ring of robots move on at one instant?", always=True
         ),
     )
     clearance: Fraction = field(
         default=Fraction(0),
         metadata=make_attribute(
-            "not negative",
+            NOT_NEGATIVE,
             "least distance between two robots of which one has a radius [length unit]",
             measure="length",
         ),
@@ -292,13 +291,14 @@ class Rules:
     walls: Walls = field(
         default="free",
         metadata=make_attribute(
-            Walls, "free, or strict: robots wider than a cell keep out of walls of a grid"
+            make_words(*get_args(Walls)),
+            "free, or strict: robots wider than a cell keep out of walls of a grid",
         ),
     )
     turn_rate: Fraction | None = field(
         default=None,
         metadata=make_attribute(
-            "positive",
+            POSITIVE,
             "how fast robots turn on the spot [degrees per time unit]; by default in no time",
             unset="none",
         ),
@@ -310,9 +310,9 @@ class Rules:
         coerce_fields(
             self,
             "rules",
-            objective=allow_none(make_word_reader(get_args(WorkObjective))),
-            late=allow_none(read_number),
-            **list_readers(Rules),
+            objective=allow_none(make_words(*get_args(WorkObjective))),
+            late=allow_none(NOT_NEGATIVE),
+            **list_kinds(Rules),
         )
 
 

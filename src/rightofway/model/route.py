@@ -8,7 +8,7 @@ share a visit. The last visit of a track never ends, so it is long enough for an
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError, quote
+from rightofway.kinds.table import Kind, coerce_fields, make_kind
 from rightofway.model.problem import Itinerary, Stage, compute_least_dwell
 from rightofway.model.units import NEVER, Tick
 from rightofway.site import Roadmap, VertexId
-from rightofway.values import coerce_fields, read_at
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -39,7 +39,7 @@ class Track:
     enter: NDArray[np.int64]
 
     def __post_init__(self) -> None:
-        coerce_fields(self, "", vertices=_whole_numbers, enter=_whole_numbers)
+        coerce_fields(self, "", vertices=_WHOLE_NUMBERS, enter=_WHOLE_NUMBERS)
         if len(self.vertices) != len(self.enter) or not len(self.vertices):
             counts = f"{len(self.vertices)} vertices and {len(self.enter)} times"
             raise InputError.at("", f"{counts} (give as many of both, at least one)")
@@ -67,20 +67,21 @@ class Track:
     def of(cls, vertices: Sequence[int], enter: Sequence[int]) -> Track:
         """Make a track from any sequences."""
         return cls(
-            vertices=read_at("vertices", _array_of(np.int32), vertices),
-            enter=read_at("enter", _array_of(np.int64), enter),
+            vertices=_make_array_kind(np.int32).read_at("vertices", vertices),
+            enter=_make_array_kind(np.int64).read_at("enter", enter),
         )
 
 
-def _whole_numbers(value: object) -> object:
-    """Return an array of whole numbers."""
-    if isinstance(value, np.ndarray) and value.ndim == 1 and value.dtype.kind == "i":
-        return value
-    raise ValueError(f"{quote(value)} is no array of whole numbers (make it with Track.of)")
+_WHOLE_NUMBERS = make_kind(
+    "an array of whole numbers",
+    lambda value: isinstance(value, np.ndarray) and value.ndim == 1 and value.dtype.kind == "i",
+    "is no array of whole numbers",
+    remedy="make it with Track.of",
+)
 
 
-def _array_of(kind: type[np.signedinteger[Any]]) -> Callable[[object], NDArray[Any]]:
-    """Return a reader of a list of whole numbers that ``kind`` can hold, as an array."""
+def _make_array_kind(kind: type[np.signedinteger[Any]]) -> Kind[NDArray[Any]]:
+    """Return the kind of lists of whole numbers that ``kind`` can hold, as an array."""
     least, most = np.iinfo(kind).min, np.iinfo(kind).max
 
     def read(values: object) -> NDArray[Any]:
@@ -94,7 +95,7 @@ def _array_of(kind: type[np.signedinteger[Any]]) -> Callable[[object], NDArray[A
             raise ValueError(f"{quote(values)} is out of range (give {least} to {most})")
         return array.astype(kind)
 
-    return read
+    return Kind("a list of whole numbers", {}, read)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from copy import copy
 from dataclasses import dataclass, field, replace
-from fractions import Fraction
 
-from rightofway.errors import InputError, InputFault, Where, quote
+from rightofway.errors import InputError, InputFault, Where
+from rightofway.kinds.table import VERTEX, allow_none, coerce_fields, list_of, make_class
 from rightofway.model.bind_work import bind_tours, bind_work
 from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.model.figures import get_figures
@@ -15,13 +15,12 @@ from rightofway.model.problem import HEAVIEST, Problem, bind_problem, scale_weig
 from rightofway.model.resources import find_too_short_edges
 from rightofway.model.robot import Robot, Rules, Turn
 from rightofway.model.units import Clock
-from rightofway.model.work import Battery, Job, Tour, read_batteries
+from rightofway.model.work import BATTERIES, Battery, Job, Tour
 from rightofway.model.work_faults import find_work_faults
 from rightofway.quantities import Quantities
 from rightofway.site import Roadmap, VertexId
 from rightofway.site.walls import clear_of_walls, reaches_walls
 from rightofway.units import Units, write_decimal
-from rightofway.values import allow_none, coerce_fields, list_of, make_class_reader, read_vertex
 
 MAX_STAGES = 1_000_000
 """Stops and ways home of a whole fleet, laps unrolled, at most."""
@@ -76,19 +75,32 @@ class Scenario:
     problem: Problem = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        faults = list(_kind_faults(self))
-        if not faults:
-            object.__setattr__(self, "robots", tuple(self.robots))
-            object.__setattr__(self, "closures", tuple(self.closures))
-            object.__setattr__(self, "rules", _resolved(self))
-            if self.rules.walls == "strict" and self.roadmap.grid is not None:
-                radii = [robot.radius for robot in self.robots]
-                object.__setattr__(self, "roadmap", clear_of_walls(self.roadmap, radii))
-            faults = [*_rule_faults(self), *_fleet_faults(self), *_space_faults(self)]
-            faults += find_work_faults(self)
-            for index, closure in enumerate(self.closures):
-                of_closure = find_closure_faults(closure, self.roadmap)
-                faults += [fault.nest(("closures", index)) for fault in of_closure]
+        coerce_fields(
+            self,
+            "",
+            roadmap=make_class(Roadmap),
+            robots=list_of(make_class(Robot), admits=list | tuple),
+            rules=make_class(Rules),
+            clock=allow_none(make_class(Clock)),
+            units=make_class(Units),
+            closures=list_of(make_class(Closure), admits=list | tuple),
+            jobs=allow_none(list_of(make_class(Job))),
+            batteries=BATTERIES,
+            charging=list_of(VERTEX),
+        )
+        object.__setattr__(self, "rules", _resolved(self))
+        if self.rules.walls == "strict" and self.roadmap.grid is not None:
+            radii = [robot.radius for robot in self.robots]
+            object.__setattr__(self, "roadmap", clear_of_walls(self.roadmap, radii))
+        faults = [
+            *_find_turn_faults(self.rules.turn, ("rules", "turn"), self.roadmap),
+            *_fleet_faults(self),
+            *_space_faults(self),
+            *find_work_faults(self),
+        ]
+        for index, closure in enumerate(self.closures):
+            of_closure = find_closure_faults(closure, self.roadmap)
+            faults += [fault.nest(("closures", index)) for fault in of_closure]
         if faults:
             raise InputError(faults)
         object.__setattr__(self, "problem", _bind(self))
@@ -150,78 +162,9 @@ def _resolved(scenario: Scenario) -> Rules:
     return replace(scenario.rules, occupancy="both" if ahead else "one")
 
 
-def _kind_faults(scenario: Scenario) -> Iterator[InputFault]:
-    """Yield what is not even of the right kind."""
-    roadmap, robots, rules = scenario.roadmap, scenario.robots, scenario.rules
-    if not isinstance(roadmap, Roadmap):
-        remedy = "give a Roadmap, or build the fleet with FleetBuilder"
-        yield InputFault("roadmap", f"{quote(roadmap)} is no roadmap ({remedy})")
-    if not isinstance(robots, list | tuple):
-        yield InputFault("robots", f"{quote(robots)} is no fleet (give a list of Robot)")
-        return
-    for index, robot in enumerate(robots):
-        if not isinstance(robot, Robot):
-            yield InputFault(("robots", index), f"{quote(robot)} is no robot (give a Robot)")
-    if not isinstance(rules, Rules):
-        yield InputFault("rules", f"{quote(rules)} are no rules (give Rules)")
-    if not isinstance(scenario.closures, list | tuple):
-        message = f"{quote(scenario.closures)} are no closures (give a list of Closure)"
-        yield InputFault("closures", message)
-    else:
-        for index, closure in enumerate(scenario.closures):
-            if not isinstance(closure, Closure):
-                message = f"{quote(closure)} is no closure (give a Closure)"
-                yield InputFault(("closures", index), message)
-    yield from _measure_faults(scenario)
-    yield from _work_kind_faults(scenario)
-
-
-def _work_kind_faults(scenario: Scenario) -> Iterator[InputFault]:
-    """Replace jobs, batteries and charging places by tuples; yield what is of another kind."""
-    job = make_class_reader(Job, "no job", "give Job(name=text, stops=list)")
-    readers: dict[str, Callable[[object], object]] = {
-        "jobs": allow_none(list_of(job)),
-        "batteries": read_batteries,
-        "charging": list_of(read_vertex),
-    }
-    try:
-        coerce_fields(scenario, "", **readers)
-    except InputError as error:
-        yield from error.faults
-
-
-def _measure_faults(scenario: Scenario) -> Iterator[InputFault]:
-    """Yield a clock and units that are not of the right kind."""
-    if not isinstance(scenario.clock, Clock | None):
-        yield InputFault("clock", f"{quote(scenario.clock)} is no clock (leave it out)")
-    if not isinstance(scenario.units, Units):
-        yield InputFault("units", f"{quote(scenario.units)} are no units (give Units)")
-
-
-def _rule_faults(scenario: Scenario) -> Iterator[InputFault]:
-    rules = scenario.rules
-    if rules.headway < 0:
-        yield InputFault(("rules", "headway"), f"{rules.headway} is negative (give 0 or more)")
-    if rules.laps < 1:
-        yield InputFault(("rules", "laps"), f"{rules.laps} is less than one lap (give 1 or more)")
-    if rules.late is not None and rules.late < 0:
-        yield InputFault(("rules", "late"), f"{rules.late} is negative (give 0 or more)")
-    yield from _turn_faults(rules.turn, ("rules", "turn"), scenario.roadmap)
-    yield from _rate_faults(rules.turn_rate, ("rules", "turn_rate"))
-
-
-def _rate_faults(rate: Fraction | None, place: Where) -> Iterator[InputFault]:
-    if rate is not None and rate <= 0:
-        remedy = "give degrees per time unit, like 90; leave it out if turning takes no time"
-        yield InputFault(place, f"{rate} is not positive ({remedy})")
-
-
-def _turn_faults(turn: Turn | None, place: Where, roadmap: Roadmap) -> Iterator[InputFault]:
-    if turn == "cell":
-        if roadmap.grid is None:
-            yield InputFault(place, "'cell' needs a grid (give a time, like 0 or 1/2)")
-    elif turn is not None and turn < 0:
-        yield InputFault(place, f"{turn} is negative (give 0 or more, or 'cell')")
+def _find_turn_faults(turn: Turn | None, place: Where, roadmap: Roadmap) -> Iterator[InputFault]:
+    if turn == "cell" and roadmap.grid is None:
+        yield InputFault(place, "'cell' needs a grid (give a time, like 0 or 1/2)")
 
 
 def _space_faults(scenario: Scenario) -> Iterator[InputFault]:
@@ -230,8 +173,6 @@ def _space_faults(scenario: Scenario) -> Iterator[InputFault]:
     if rules.walls == "strict" and scenario.roadmap.grid is None:
         message = "'strict' needs a grid or a floor in cells of one size (take it out)"
         yield InputFault(("rules", "walls"), message)
-    if rules.clearance < 0:
-        yield InputFault(("rules", "clearance"), f"{rules.clearance} is negative (give 0 or more)")
     if scenario.roadmap.zones and rules.occupancy == "one":
         message = "'one' does not go with zones (give both, so that robots book ahead)"
         yield InputFault(("rules", "occupancy"), message)
@@ -288,19 +229,18 @@ def _twice(key: str, values: list[str], owners: list[str], remedy: str) -> Itera
 
 
 def _weight_faults(robots: Sequence[Robot]) -> Iterator[InputFault]:
-    if all(robot.weight > 0 for robot in robots):
-        weights = scale_weights(robots)
-        heaviest = max(weights, default=1)
-        if heaviest > HEAVIEST:
-            message = f"{robots[weights.index(heaviest)].weight} makes weights too far apart or too"
-            message += f" fine: in whole numbers it is {heaviest}, above {HEAVIEST} (round weights)"
-            yield InputFault(("robots", weights.index(heaviest), "weight"), message)
+    weights = scale_weights(robots)
+    heaviest = max(weights, default=1)
+    if heaviest > HEAVIEST:
+        message = f"{robots[weights.index(heaviest)].weight} makes weights too far apart or too"
+        message += f" fine: in whole numbers it is {heaviest}, above {HEAVIEST} (round weights)"
+        yield InputFault(("robots", weights.index(heaviest), "weight"), message)
 
 
 def _robot_faults(robot: Robot, scenario: Scenario) -> Iterator[InputFault]:
-    yield from _number_faults(robot)
-    yield from _turn_faults(robot.turn, "turn", scenario.roadmap)
-    yield from _rate_faults(robot.turn_rate, "turn_rate")
+    if not robot.name:
+        yield InputFault("name", "is empty (give the robot a name)")
+    yield from _find_turn_faults(robot.turn, "turn", scenario.roadmap)
     yield from _place_faults(robot, scenario.roadmap)
     if not robot.stops and scenario.jobs is None:
         yield InputFault("stops", "there is none (give at least one place to work at)")
@@ -308,24 +248,6 @@ def _robot_faults(robot: Robot, scenario: Scenario) -> Iterator[InputFault]:
     if (robot.ends or scenario.rules.ends) == "none" and laps > 1:
         message = f"{laps} laps need a way back (set return: home, or laps: 1)"
         yield InputFault("laps", message)
-
-
-def _number_faults(robot: Robot) -> Iterator[InputFault]:
-    if not robot.name:
-        yield InputFault("name", "is empty (give the robot a name)")
-    if robot.speed <= 0:
-        yield InputFault(
-            "speed", f"{robot.speed} is not positive (give a speed above 0, like 1 or 1/2)"
-        )
-    if robot.radius < 0:
-        yield InputFault("radius", f"{robot.radius} is negative (give 0 or more)")
-    if robot.weight <= 0:
-        yield InputFault("weight", f"{robot.weight} is not positive (give a number above 0)")
-    if robot.laps is not None and robot.laps < 1:
-        yield InputFault("laps", f"{robot.laps} is less than one lap (give 1 or more)")
-    for index, stop in enumerate(robot.stops):
-        if stop.work < 0:
-            yield InputFault(("stops", index, "work"), f"{stop.work} is negative (give 0 or more)")
 
 
 def _place_faults(robot: Robot, roadmap: Roadmap) -> Iterator[InputFault]:

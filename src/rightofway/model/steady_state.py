@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from rightofway.errors import InputError, quote
+from rightofway.errors import InputError
+from rightofway.kinds.table import COUNT, WHOLE, coerce_fields, list_of, make_whole, tuple_of
 from rightofway.model.units import Tick
-from rightofway.values import coerce_fields, list_of, read_whole_number
+
+_VISIT = tuple_of(WHOLE, "robot", "index of its visit")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,26 +41,18 @@ class SteadyState:
     critical: tuple[tuple[int, int], ...] = ()
 
     def __post_init__(self) -> None:
-        whole = {"start": read_whole_number, "period": read_whole_number}
         coerce_fields(
-            self, "", robots=list_of(read_whole_number), critical=list_of(_visit), **whole
+            self,
+            "",
+            robots=list_of(WHOLE),
+            critical=list_of(_VISIT),
+            start=make_whole(0),
+            period=COUNT,
         )
-        if self.period < 1:
-            raise InputError.at("period", f"{self.period} is not positive (give 1 tick or more)")
-        if self.start < 0:
-            raise InputError.at("start", f"{self.start} is negative (give 0 or more)")
         for index, (robot, _) in enumerate(self.critical):
             if robot not in self.robots:
                 message = f"robot {robot} is not of this group (name one of its robots)"
                 raise InputError.at(("critical", index), message)
-
-
-def _visit(value: object) -> tuple[int, int]:
-    """Return a visit: a robot and an index in its track."""
-    if not isinstance(value, list | tuple) or len(value) != 2:  # noqa: PLR2004 (robot and visit)
-        raise ValueError(f"{quote(value)} is no visit (give a robot and the index of its visit)")
-    robot, visit = map(read_whole_number, value)
-    return robot, visit
 
 
 def refuse_unknown_robots(

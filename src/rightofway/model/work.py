@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
 
 from rightofway.errors import quote
-from rightofway.model.units import Tick
-from rightofway.site import VertexId
-from rightofway.values import (
+from rightofway.kinds.table import (
+    NUMBER,
+    TEXT,
+    VERTEX,
+    WHOLE,
     allow_none,
     coerce_fields,
     list_of,
-    make_class_reader,
-    read_at,
-    read_integer,
-    read_label,
-    read_number,
-    read_vertex,
+    make_class,
+    mapping_of,
 )
+from rightofway.model.units import Tick
+from rightofway.site import VertexId
 
 WorkObjective = Literal["service", "flowtime", "makespan", "both"]
 """What a plan minimizes after the weight of unserved jobs: the service times of jobs, or the
@@ -37,6 +36,9 @@ CAPACITY = 1
 
 LARGEST_BATTERY = 10**15
 """The largest common denominator of the shares of a battery, so that sums fit 64 bits."""
+
+
+_BEGUN = mapping_of(WHOLE)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -72,11 +74,11 @@ class JobStop:
         coerce_fields(
             self,
             "stop",
-            at=read_vertex,
-            work=read_number,
-            load=read_integer,
-            earliest=read_number,
-            latest=allow_none(read_number),
+            at=VERTEX,
+            work=NUMBER,
+            load=WHOLE,
+            earliest=NUMBER,
+            latest=allow_none(NUMBER),
         )
 
 
@@ -116,17 +118,16 @@ class Job:
     after: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        stop = make_class_reader(JobStop, "no stop", "give JobStop(at=vertex, work=time)")
         coerce_fields(
             self,
             f"job {quote(self.name)}",
-            name=read_label,
-            stops=list_of(stop),
-            weight=read_number,
-            due=allow_none(read_number),
-            types=list_of(read_label),
-            robot=allow_none(read_label),
-            after=list_of(read_label),
+            name=TEXT,
+            stops=list_of(make_class(JobStop)),
+            weight=NUMBER,
+            due=allow_none(NUMBER),
+            types=list_of(TEXT),
+            robot=allow_none(TEXT),
+            after=list_of(TEXT),
         )
 
     @property
@@ -166,7 +167,7 @@ class Battery:
 
     def __post_init__(self) -> None:
         names = ("drive", "on", "work", "charge", "reserve")
-        coerce_fields(self, "battery", **dict.fromkeys(names, read_number))
+        coerce_fields(self, "battery", **dict.fromkeys(names, NUMBER))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -202,11 +203,11 @@ class RobotState:
         coerce_fields(
             self,
             "start",
-            at=read_vertex,
-            ready=read_number,
-            heading=allow_none(read_number),
-            soc=read_number,
-            begun=_read_begun,
+            at=VERTEX,
+            ready=NUMBER,
+            heading=allow_none(NUMBER),
+            soc=NUMBER,
+            begun=_BEGUN,
         )
 
 
@@ -408,30 +409,4 @@ class Work:
     late: Fraction
 
 
-def read_batteries(value: object) -> tuple[tuple[str, Battery], ...]:
-    """Return batteries by their names: a mapping, or pairs."""
-    read = make_class_reader(Battery, "no battery", "give Battery(drive=share)")
-    pairs = tuple(value.items()) if isinstance(value, Mapping) else value
-    return tuple(
-        (name, read_at(name, read, battery))
-        for name, battery in _read_pairs(pairs, "batteries", "a mapping of names to Battery")
-    )
-
-
-def _read_begun(value: object) -> tuple[tuple[str, int], ...]:
-    pairs = tuple(value.items()) if isinstance(value, Mapping) else value
-    remedy = "a mapping of names of jobs to numbers of stops"
-    return tuple(
-        (name, read_at(name, read_integer, count))
-        for name, count in _read_pairs(pairs, "begun jobs", remedy)
-    )
-
-
-def _read_pairs(value: object, kind: str, remedy: str) -> tuple[tuple[str, object], ...]:
-    """Return pairs of which the first is a name."""
-    if isinstance(value, list | tuple) and all(
-        isinstance(pair, list | tuple) and len(pair) == 2 and isinstance(pair[0], str)  # noqa: PLR2004
-        for pair in value
-    ):
-        return tuple((name, other) for name, other in value)
-    raise ValueError(f"{quote(value)} are no {kind} (give {remedy})")
+BATTERIES = mapping_of(make_class(Battery))

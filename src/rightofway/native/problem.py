@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, quote
 from rightofway.model import BookingRules, Problem, Tick, Track
 from rightofway.model.turning import Turning
@@ -98,7 +97,6 @@ def bind_roads(roadmap: Roadmap) -> _core.Roads:
     )
 
 
-@checks_arguments
 def bind_turning(turnings: Sequence[Turning | None]) -> _core.Turning | None:
     """Return how long robots turn; robots of one turn rate are a class.
 

@@ -21,7 +21,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.arguments import checks_arguments
 from rightofway.model.resources import Resources, list_members, scale_positions
 from rightofway.site import Roadmap
 
@@ -32,7 +31,6 @@ LIMB = 32
 """Bits of a limb of a whole number."""
 
 
-@checks_arguments
 def bind_lists(resources: Resources) -> _core.ExcludedRows | None:
     """Return the rows that each row excludes; None for points.
 
@@ -121,7 +119,6 @@ def list_excluded(resources: Resources, row: int) -> list[int]:
     return excluded
 
 
-@checks_arguments
 def find_vertices_near(resources: Resources, robot: int, vertex: int) -> list[int]:
     """Return the vertices that robots of some size cannot book while a robot is at a vertex.
 
@@ -140,7 +137,6 @@ def find_vertices_near(resources: Resources, robot: int, vertex: int) -> list[in
     return [number for number in numbers if number < resources.n_vertices]
 
 
-@checks_arguments
 def find_clashes(resources: Resources, places: Sequence[int]) -> Iterator[tuple[int, int]]:
     """Yield pairs of robots (i, j), i < j, that cannot stay at their places at one time.
 

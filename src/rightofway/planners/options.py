@@ -1,26 +1,31 @@
 """The options of planners: a frozen dataclass for each, from which all else is derived.
 
-An option is a field. Its type says what it may be, its default comes first, and the sentence beside
-the type says what it does. Tables of the documentation, the help of the command line and the checks
-of values are made from that.
+An option is a field. Its annotation has its type, its kind unless that is usual for the type, and a
+sentence on its effect. Tables of the documentation, the help of the command line and the checks of
+values are derived from it.
 """
 
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, fields
 from fractions import Fraction
+from functools import cache
 from typing import Annotated, Any, Literal, Self, get_args, get_origin, get_type_hints
 
 from rightofway.errors import InputError, find_nearest
-from rightofway.values import read_exact
+from rightofway.kinds.numbers import parse_digits
+from rightofway.kinds.table import COUNT, NOT_NEGATIVE, Kind, make_number, make_whole, make_words
 
 Value = str | int | Fraction
 """The value of an option."""
 
+USUAL_KINDS: dict[Any, Kind[Any]] = {int: make_whole(0), Fraction: NOT_NEGATIVE}
+"""The kinds of numbers whose options name none."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Option:
-    """An option of a planner: one of several words, a whole number, or any exact number.
+    """An option of a planner.
 
     Attributes
     ----------
@@ -29,38 +34,23 @@ class Option:
     default
         The value where none is given.
     summary
-        What it does, in a sentence.
-    choices
-        The words, the default first; empty for a number.
-    least, most
-        The least number, and the largest one, None where there is none.
-    is_whole
-        Whether a number has to be whole; else it may be any exact number, like ``1.05`` or ``1/3``.
+        A sentence on its effect.
+    kind
+        The kind of its values.
     """
 
     name: str
     default: Value
     summary: str
-    choices: tuple[str, ...] = ()
-    least: int | Fraction = 0
-    most: int | Fraction | None = None
-    is_whole: bool = True
+    kind: Kind[Any]
 
     @property
-    def accepts(self) -> str:
-        """The words, or an example of a number, as help texts show them."""
-        return "|".join(self.choices) or str(self.default)
-
-    @property
-    def numbers(self) -> str:
-        """Which numbers it may be, as messages and tables show them."""
-        kind = "whole number" if self.is_whole else "number"
-        if self.most is None:
-            return f"{kind} of {self.least} or more"
-        return f"{kind} from {self.least} to {self.most}"
+    def choices(self) -> tuple[str, ...]:
+        """The words that it may be, the default first; empty for a number."""
+        return tuple(sorted(self.kind.words, key=lambda word: word != self.default))
 
     def read(self, given: object) -> Value:
-        """Return the value for what was given, a number also for its text.
+        """Return the value for a value or its text.
 
         An exact number is kept as it is written, a float as the shortest decimal that stands for
         it: ``1.05`` is 21/20.
@@ -68,43 +58,10 @@ class Option:
         Raises
         ------
         InputError
-            If it is none of the words, no such number, too small or too large.
+            If it is of another kind.
         """
-        text = str(given)
-        if self.choices:
-            if text in self.choices:
-                return text
-            remedy = f"is not a choice (give one of: {', '.join(self.choices)})"
-        else:
-            number = self._number(given)
-            if number is not None and self.least <= number <= (self.most or number):
-                return number
-            remedy = f"is not a {self.numbers} (for example {self.default})"
-        raise InputError.at(("options", self.name), f"{text!r} {remedy}")
-
-    def _number(self, given: object) -> int | Fraction | None:
-        """Return the number that was given; None if it is none, or not whole where it has to be."""
-        text = str(given)
-        if self.is_whole:
-            return int(text) if text.isascii() and text.isdecimal() else None
-        try:
-            return read_exact(given)
-        except ValueError:
-            return None
-
-
-@dataclass(frozen=True, slots=True)
-class Least:
-    """The least value of a number."""
-
-    value: int | Fraction
-
-
-@dataclass(frozen=True, slots=True)
-class Most:
-    """The largest value of a number."""
-
-    value: int | Fraction
+        value: Value = self.kind.read_at(("options", self.name), parse_digits(given))
+        return value
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -122,8 +79,8 @@ class PlannerOptions:
 
     >>> @dataclass(frozen=True, slots=True, kw_only=True)
     ... class MyOptions(PlannerOptions):
-    ...     rounds: Annotated[int, Least(1), "How many rounds."] = 5
-    ...     share: Annotated[Fraction, Most(1), "The part of the robots."] = Fraction(1, 2)
+    ...     rounds: Annotated[int, make_whole(1), "How many rounds."] = 5
+    ...     share: Annotated[Fraction, make_number(0, 1), "Part of the robots."] = Fraction(1, 2)
     ...     order: Annotated[Literal["file", "random"], "Which robot is planned first."] = "file"
     >>> MyOptions(rounds="7", share=0.1)
     MyOptions(rounds=7, share=Fraction(1, 10), order='file')
@@ -143,29 +100,26 @@ class PlannerOptions:
 
     @classmethod
     def described(cls) -> tuple[Option, ...]:
-        """Return every option with its default, what it may be, and what it does."""
-        hints, described = get_type_hints(cls, include_extras=True), []
-        for field in fields(cls):
-            default: Any = field.default
-            kind, *notes = get_args(hints[field.name])
-            summary = next(note for note in notes if isinstance(note, str))
-            words = get_args(kind) if get_origin(kind) is Literal else ()
-            described.append(
-                Option(
-                    name=field.name,
-                    default=default,
-                    summary=summary,
-                    choices=tuple(sorted(words, key=lambda word: word != default)),
-                    least=next((note.value for note in notes if isinstance(note, Least)), 0),
-                    most=next((note.value for note in notes if isinstance(note, Most)), None),
-                    is_whole=kind is not Fraction,
-                )
-            )
-        return tuple(described)
+        """Return every option with its default, its kind and its effect."""
+        return _list_options(cls)  # type: ignore[arg-type]  # a class is hashable
 
     def as_dict(self) -> dict[str, Value]:
         """Return every option by name."""
         return asdict(self)
+
+
+@cache
+def _list_options(owner: type[PlannerOptions]) -> tuple[Option, ...]:
+    hints, options = get_type_hints(owner, include_extras=True), []
+    for field in fields(owner):
+        annotation, *notes = get_args(hints[field.name])
+        words = get_args(annotation) if get_origin(annotation) is Literal else ()
+        usual = make_words(*words) if words else USUAL_KINDS[annotation]
+        kind = next((note for note in notes if isinstance(note, Kind)), usual)
+        summary = next(note for note in notes if isinstance(note, str))
+        default: Any = field.default
+        options.append(Option(name=field.name, default=default, summary=summary, kind=kind))
+    return tuple(options)
 
 
 def describe_unknown(name: str, owner: str, known: list[str]) -> str:
@@ -250,7 +204,7 @@ class RandomPriorityOptions(PlannerOptions):
     """Options of ``random-priority``."""
 
     objective: ObjectiveOption = "flowtime"
-    restarts: Annotated[int, Least(1), "Number of random orders to try."] = 20
+    restarts: Annotated[int, COUNT, "Number of random orders to try."] = 20
     routes: Routes = "clear"
 
 
@@ -259,8 +213,8 @@ class PrioritySearchOptions(PlannerOptions):
     """Options of ``priority-search``."""
 
     objective: ObjectiveOption = "flowtime"
-    rounds: Annotated[int, Least(1), "Number of orders to try in each climb."] = 10
-    restarts: Annotated[int, Least(1), "Number of climbs, each from another order."] = 2
+    rounds: Annotated[int, COUNT, "Number of orders to try in each climb."] = 10
+    restarts: Annotated[int, COUNT, "Number of climbs, each from another order."] = 2
     routes: Routes = "clear"
 
 
@@ -289,7 +243,7 @@ class CbsOptions(PlannerOptions):
     objective: ObjectiveOption = "flowtime"
     suboptimality: Annotated[
         Fraction,
-        Least(1),
+        make_number(1),
         "Stop at a plan whose cost is proven to be at most this factor above the least cost.",
     ] = Fraction(1)
     nodes: Annotated[int, "Number of nodes to expand; 0: until time is up."] = 0

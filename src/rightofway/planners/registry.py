@@ -9,7 +9,6 @@ from functools import cache
 from importlib import import_module
 from typing import Any, cast
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, describe_error
 from rightofway.extras import load_plugins
 from rightofway.planners import options
@@ -176,7 +175,6 @@ IMPROVER = "lns"
 """The planner that makes a plan better where none is named."""
 
 
-@checks_arguments
 def find_all() -> dict[str, PlannerSpec]:
     """Return every planner by name: ours, then those of other packages.
 
@@ -202,7 +200,6 @@ def name_able(feature: Feature) -> str:
     return " or ".join(able) or "a planner of another package"
 
 
-@checks_arguments
 def find(name: str) -> PlannerSpec:
     """Return the planner of that name.
 

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.arguments import checks_arguments, require_one_for_each
+from rightofway.kinds.table import require_one_for_each
 from rightofway.model import (
     BookingRules,
     Problem,
@@ -320,7 +320,6 @@ class PrecedenceGraph:
         ]
 
 
-@checks_arguments
 def build_graph(
     problem: Problem,
     routes: Sequence[Route],
@@ -356,7 +355,6 @@ def build_graph(
     )
 
 
-@checks_arguments
 def build_graph_of_plan(problem: Problem, tracks: Sequence[Track]) -> PrecedenceGraph:
     """Return the precedence graph of a plan: its routes, and its order of visits at every vertex.
 

@@ -20,7 +20,6 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp
 from rightofway.facts import Fact
 from rightofway.precedence.timed_event_graph import TimedEventGraph, trace_circuit
@@ -72,7 +71,6 @@ class PeriodPiece:
         return self.fixed + self.slope * x
 
 
-@checks_arguments
 def compute_period_curve(
     graph: TimedEventGraph,
     growth: Growth,

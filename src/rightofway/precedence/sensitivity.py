@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp
 from rightofway.facts import Fact
 from rightofway.precedence.period_curve import Growth, PeriodPiece, find_line_at
@@ -49,7 +48,6 @@ class Sensitivity:
     at_best: Fraction
 
 
-@checks_arguments
 def compute_sensitivity(
     graph: TimedEventGraph,
     share: NDArray[np.int64] | Growth,

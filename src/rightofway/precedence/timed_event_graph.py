@@ -23,7 +23,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp
 from rightofway.facts import Fact
 from rightofway.model import BookingRules, Lap, Tick, make_visits_of_laps
@@ -60,7 +59,6 @@ class CyclicSchedule:
     enter: tuple[NDArray[np.int64], ...]
 
 
-@checks_arguments
 def unroll_schedule(timetable: CyclicSchedule, times: int) -> CyclicSchedule:
     """Return the same timetable with several of its periods as one.
 

@@ -7,11 +7,11 @@ from typing import Any
 
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.io.plan.writer import describe_outcome, make_forced_losses
+from rightofway.kinds.numbers import format_number
 from rightofway.metrics import compute_lost_time, derive_outcome, measure, waits
 from rightofway.model import Plan, Scenario
 from rightofway.model.outcome import classify_error
 from rightofway.report.sentences import list_forced_losses
-from rightofway.values import format_number
 
 
 def describe_measures(scenario: Scenario) -> dict[str, Any]:

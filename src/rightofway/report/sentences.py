@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from math import ceil, floor
 
+from rightofway.kinds.numbers import format_number
 from rightofway.metrics import derive_outcome, measure
 from rightofway.model import (
     Closure,
@@ -25,7 +26,6 @@ from rightofway.model import (
 from rightofway.model.place_names import PlaceNames
 from rightofway.phrases import Phrase, chain_items, join_items, mark_figure, say_count
 from rightofway.quantities import Quantities
-from rightofway.values import format_number
 
 OBJECTIVES: Mapping[Objective, Phrase] = {
     Objective.FLOWTIME: Phrase("flowtime"),

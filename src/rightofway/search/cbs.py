@@ -9,7 +9,6 @@ from typing import NamedTuple
 import numpy as np
 
 from rightofway import _core
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.model import NEVER, Problem, Scenario, Tick, Track
 from rightofway.model.stays import find_stays
@@ -186,7 +185,6 @@ class ConflictBasedSearch:
         return self._core.n_searches
 
 
-@checks_arguments
 def find_fewest_actions(
     scenario: Scenario,
     tracks: Sequence[Track],

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
+from rightofway.kinds.table import require_index
 from rightofway.model import Itinerary, Problem
-from rightofway.model.given import require_index
 from rightofway.native import bind_native, find_vertices_near
 from rightofway.search.distances import Distances, Path
 from rightofway.site import VertexId

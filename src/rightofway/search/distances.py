@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.errors import InputError
+from rightofway.kinds.table import require_index
 from rightofway.model import Tick
-from rightofway.model.given import require_index
 from rightofway.site import Roadmap, VertexId
 
 Path = tuple[VertexId, ...]

@@ -10,14 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, quote
+from rightofway.kinds.table import SEED, allow_none, make_whole, require_index
 from rightofway.model import Objective, Problem, Scenario, Tick, Track
-from rightofway.model.given import require_index, require_number, require_scenario, require_seed
 from rightofway.native import bind_native, make_tracks
 
 
-@checks_arguments
 def compute_least_completions(
     scenario: Scenario, *, time_limit: float | None = None
 ) -> NDArray[np.int64] | None:
@@ -35,7 +33,7 @@ def compute_least_completions(
     ndarray of int64, shape (R,), or None
         Ticks, -1 where no way leads to a place; None if the time limit came first.
     """
-    search = _core.FleetSearch(bind_native(require_scenario(scenario).problem), seed=0, n_threads=1)
+    search = _core.FleetSearch(bind_native(scenario.problem), seed=0, n_threads=1)
     return search.alone(time_limit)
 
 
@@ -75,12 +73,10 @@ class FleetSearch:
         alone: NDArray[np.int64] | None = None,
         objective: Objective = Objective.FLOWTIME,
     ) -> None:
-        n_threads = (
-            _count_cores() if threads is None else require_number("threads", threads, 0, 1024)
-        )
+        n_threads = allow_none(make_whole(0, 1024)).read_at("threads", threads)
         self._core = _core.FleetSearch(
             bind_native(problem),
-            require_seed(seed),
+            SEED.read_at("seed", seed),
             n_threads or _count_cores(),
             alone,
             _NATIVE[objective],

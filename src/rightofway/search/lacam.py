@@ -15,17 +15,15 @@ from collections.abc import Collection
 import numpy as np
 
 from rightofway import _core
-from rightofway.arguments import checks_arguments
 from rightofway.errors import Blockage, NoPlanExists
 from rightofway.facts import Fact
+from rightofway.kinds.table import SEED, require_index
 from rightofway.model import Problem, Track
-from rightofway.model.given import require_index, require_seed
 from rightofway.native import bind_native, make_tracks
 
 FOUND, PROVEN_NONE = 0, 1
 
 
-@checks_arguments
 def plan_by_lacam(
     problem: Problem,
     *,
@@ -77,7 +75,7 @@ def plan_by_lacam(
         native,
         np.array(anywhere, np.uint8),
         spreads,
-        require_seed(seed),
+        SEED.read_at("seed", seed),
         most_effort,
         time_limit,
     )

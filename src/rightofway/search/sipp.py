@@ -14,11 +14,10 @@ from typing import NamedTuple
 import numpy as np
 
 from rightofway import _core
-from rightofway.arguments import checks_arguments
 from rightofway.errors import GaveUp, InputError
 from rightofway.facts import Fact
+from rightofway.kinds.table import require_index
 from rightofway.model import NEVER, Problem, Tick, Track, compute_drives_along
-from rightofway.model.given import require_index
 from rightofway.native import bind_native, list_excluded
 from rightofway.search.distances import Distances
 
@@ -119,7 +118,6 @@ class Bookings:
         }
 
 
-@checks_arguments
 def find_earliest_track(
     robot: int,
     bookings: Bookings,

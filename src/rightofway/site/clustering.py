@@ -17,7 +17,6 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, InputFault
 
 MAX_CELLS = 1_000_000
@@ -90,7 +89,6 @@ def _find_floor_faults(floor: Floor) -> Iterator[InputFault]:
             yield InputFault(place, "lies outside the floor (move it, or take it out)")
 
 
-@checks_arguments
 def compute_node_length(speeds: Iterable[Fraction]) -> Fraction:
     """Return the cell size of node clustering: the least ``1 / v`` of the fleet.
 
@@ -110,7 +108,6 @@ def compute_node_length(speeds: Iterable[Fraction]) -> Fraction:
     return min(1 / speed for speed in fleet)
 
 
-@checks_arguments
 def compute_steps_per_unit(speed: Fraction, length: Fraction) -> Fraction:
     """Return how many cells of that length a robot drives in a unit of time: ``speed / length``.
 
@@ -129,7 +126,6 @@ def compute_steps_per_unit(speed: Fraction, length: Fraction) -> Fraction:
     return speed / length
 
 
-@checks_arguments
 def cluster(floor: Floor, cell_size: Fraction, *, max_cells: int = MAX_CELLS) -> tuple[str, ...]:
     """Return the rows of a floor's `free_cells`: ``.`` for free, ``@`` for blocked.
 

@@ -15,21 +15,13 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.arguments import checks_arguments
 from rightofway.deadline import READING, limit_loop
 from rightofway.errors import InputError, quote
+from rightofway.kinds.table import NAMES, NUMBER, TYPE_SPEEDS, TypeSpeeds, allow_none, coerce_fields
 from rightofway.site.geometry import Frame, VertexId, find_fractions
 from rightofway.site.passing import unfold
 from rightofway.site.roadmap import EdgeClass, Lane, Roadmap
 from rightofway.site.zones import NamedZone, number_zones
-from rightofway.values import (
-    TypeSpeeds,
-    allow_none,
-    coerce_fields,
-    read_names,
-    read_number,
-    read_type_speeds,
-)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -65,11 +57,11 @@ class Edge:
         coerce_fields(
             self,
             source,
-            length=read_number,
-            max_speed=allow_none(read_number),
-            max_speed_by_type=read_type_speeds,
-            barred=read_names,
-            surcharge=read_number,
+            length=NUMBER,
+            max_speed=allow_none(NUMBER),
+            max_speed_by_type=TYPE_SPEEDS,
+            barred=NAMES,
+            surcharge=NUMBER,
         )
 
     def make_piece(self, tail: str, head: str, length: Fraction, surcharge: Fraction) -> Edge:
@@ -171,7 +163,7 @@ def tabulate_edges(positions: Mapping[str, object], edges: Sequence[Edge]) -> Ed
                 EdgeClass(
                     length=edge.length,
                     max_speed=edge.max_speed,
-                    max_speed_by_type=read_type_speeds(edge.max_speed_by_type),
+                    max_speed_by_type=TYPE_SPEEDS.read(edge.max_speed_by_type),
                     barred=edge.barred,
                     surcharge=edge.surcharge,
                 )
@@ -182,7 +174,6 @@ def tabulate_edges(positions: Mapping[str, object], edges: Sequence[Edge]) -> Ed
     return EdgeTable(names=names, tails=tails, heads=heads, kinds=kind_column, classes=classes)
 
 
-@checks_arguments
 def make_roadmap(
     positions: Mapping[str, tuple[float | Fraction, float | Fraction]],
     edges: Sequence[Edge],

@@ -9,9 +9,8 @@ from fractions import Fraction
 from math import lcm
 from typing import NewType
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
-from rightofway.values import COORDINATE_DIGITS, DIGITS
+from rightofway.kinds.numbers import COORDINATE_DIGITS, DIGITS
 
 VertexId = NewType("VertexId", int)
 """The number of a vertex."""
@@ -136,7 +135,6 @@ def measure_squared_distance(tail: Point, head: Point) -> Fraction:
     return (tail[0] - head[0]) ** 2 + (tail[1] - head[1]) ** 2
 
 
-@checks_arguments
 def choose_rounding_step(squares: Iterable[Fraction]) -> Fraction:
     """Return the step to which the lengths of a map are rounded up.
 

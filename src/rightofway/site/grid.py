@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, quote
+from rightofway.kinds.numbers import Number
+from rightofway.kinds.table import POSITIVE
 from rightofway.site.geometry import Frame, Point
-from rightofway.values import Number, read_length
 
 if TYPE_CHECKING:
     pass
@@ -26,7 +26,6 @@ EAST_SOUTH_WEST_NORTH = ((0, 1), (1, 0), (0, -1), (-1, 0))
 """Steps in (row, column), in the order that decides between equally short paths."""
 
 
-@checks_arguments
 def make_grid_roadmap(
     lines: Sequence[str],
     *,
@@ -57,7 +56,7 @@ def make_grid_roadmap(
         For an empty or ragged grid, one without a free cell, or a cell size that is not positive.
     """
     _check_lines(lines)
-    size = read_length(cell_size, "cell_size")
+    size = POSITIVE.read_at("cell_size", cell_size)
     free = np.array([[character in FREE for character in line] for line in lines])
     if not free.any():
         raise InputError.at("", f"no free cell in {free.size} ({_describe_meant(lines)})")

@@ -12,10 +12,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rightofway.arguments import checks_arguments
 from rightofway.deadline import READING, check_work
 from rightofway.errors import InputError, find_nearest, join_names, quote
 from rightofway.facts import Fact, note_pieces
+from rightofway.kinds.arguments import checks_arguments
 from rightofway.site.drawing import Drawing, Picture
 from rightofway.site.edges import EdgeTable, make_roadmap_of_table
 from rightofway.site.geometry import Point

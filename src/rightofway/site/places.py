@@ -10,12 +10,12 @@ from typing import TypeGuard
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.arguments import is_whole
 from rightofway.errors import InputError, InputFault, is_printable, quote
+from rightofway.kinds.numbers import read_coordinate, read_exact
+from rightofway.kinds.table import is_whole
 from rightofway.site.geometry import Point, VertexId, measure_squared_distance
 from rightofway.site.roadmap import Grid, Roadmap, UnknownVertex
 from rightofway.units import Units, write_decimal
-from rightofway.values import read_coordinate, read_exact
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,14 +10,14 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, InputFault, find_nearest, quote
+from rightofway.kinds.arguments import checks_arguments
+from rightofway.kinds.table import TypeSpeeds
 from rightofway.site.clustering import Obstacle
 from rightofway.site.drawing import Drawing
 from rightofway.site.geometry import Frame, Point, VertexId, read_shortest
 from rightofway.site.passing import Passing, fold
 from rightofway.site.zones import Zone
-from rightofway.values import TypeSpeeds
 
 WHOLE = (int, np.int32, np.int64)
 """Types of numbers of vertices and edges."""

@@ -8,7 +8,6 @@ from itertools import groupby
 
 import numpy as np
 
-from rightofway.arguments import checks_arguments
 from rightofway.model import Robot, Scenario
 from rightofway.model.place_names import PlaceNames
 from rightofway.viz.palette import LIGHT, choose_colours
@@ -31,7 +30,6 @@ SMALLEST_RADIUS = 3
 """Of a home or a stop [pixels]."""
 
 
-@checks_arguments
 def make_scenario_html(scenario: Scenario) -> str:
     """Return HTML that shows a scenario: map, homes (discs), stops (rings) and robots.
 

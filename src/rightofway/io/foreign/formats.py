@@ -7,12 +7,12 @@ from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
-from rightofway.arguments import checks_arguments, get_value
 from rightofway.errors import InputError
 from rightofway.io.content import read_text
 from rightofway.io.foreign import lacam, lns2, planviz, schedule
 from rightofway.io.foreign.trajectories import ForeignPlan, plan_of_trajectories
 from rightofway.io.locations import add_lines
+from rightofway.kinds.table import get_value
 from rightofway.model import Plan
 
 
@@ -73,7 +73,6 @@ def format_of_text(text: str) -> ForeignFormat | None:
     return next((foreign for foreign in FOREIGN_FORMATS.values() if foreign.recognizes(text)), None)
 
 
-@checks_arguments
 def is_foreign(path: Path | str) -> bool:
     """Return whether a file is a plan in a format of another program, perhaps one with faults.
 
@@ -114,7 +113,6 @@ def read_foreign(
         return plan_of_trajectories(foreign.read(text), path, map_file, scen)
 
 
-@checks_arguments
 def format_foreign(plan: Plan, name: str) -> str:
     """Return a plan as the text of a file for another program.
 

@@ -10,7 +10,6 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Literal
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, Location, name_file
 from rightofway.extras import load_plugins
 from rightofway.facts import Fact
@@ -110,7 +109,6 @@ def list_layout_formats() -> dict[str, LayoutFormat]:
     return {**own, **load_plugins(GROUP, LayoutFormat), **own}
 
 
-@checks_arguments
 def read_layout(path: Path | str) -> Layout | Occupancy | CellMap:
     """Return the layout of a file, in whatever format it is.
 
@@ -140,7 +138,6 @@ def read_layout(path: Path | str) -> Layout | Occupancy | CellMap:
             raise InputError.at("", "it is nested too deeply (is it the right file?)") from None
 
 
-@checks_arguments
 def is_layout(path: Path | str) -> bool:
     """Return whether a file is a layout, perhaps one with faults.
 

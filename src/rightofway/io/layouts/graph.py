@@ -8,10 +8,12 @@ from rightofway.errors import InputError, quote
 from rightofway.io.layouts.attributes import PAIRS, Reading, add_lanes, add_vertex
 from rightofway.io.layouts.draft import LayoutDraft
 from rightofway.io.source import Source
+from rightofway.kinds.arguments import checks_arguments
 from rightofway.site.geometry import Point
 from rightofway.site.layout import Layout
 
 
+@checks_arguments
 def make_layout_of_graph(graph: Any) -> Layout:
     """Return the layout of a graph, in metres and metres per second, with y upwards.
 

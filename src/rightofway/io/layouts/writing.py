@@ -11,10 +11,10 @@ from fractions import Fraction
 from math import dist
 from typing import Any
 
-from rightofway.arguments import checks_arguments, get_value
 from rightofway.errors import InputError
 from rightofway.facts import Fact
 from rightofway.io.json_text import format_json_line
+from rightofway.kinds.table import get_value
 from rightofway.site.geometry import Point, measure_squared_distance
 from rightofway.site.lane_table import LayoutEdge
 from rightofway.site.layout import Layout, LayoutVertex, Level, name_lanes
@@ -48,7 +48,6 @@ class LayoutWriter:
     says: frozenset[str]
 
 
-@checks_arguments
 def format_layout(layout: Layout, name: str) -> tuple[str, tuple[Fact, ...]]:
     """Return a layout as the text of a file for another program.
 

@@ -9,7 +9,6 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, Where, find_nearest, locate_faults, name_file, quote
 from rightofway.io.faults import Faults, validate
 from rightofway.io.formats import PLAN_FORMAT, check_format
@@ -50,7 +49,6 @@ D = TypeVar("D", bound="BaseModel")
 T = TypeVar("T")
 
 
-@checks_arguments
 def parse_plan(document: Any, source: str = "", pictures: Path | None = None) -> Plan:
     """Return the plan of a document.
 

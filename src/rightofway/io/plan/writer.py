@@ -7,12 +7,13 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError, NoPlanExists
 from rightofway.files import write_whole
 from rightofway.io.formats import PLAN_FORMAT
 from rightofway.io.json_text import format_json
 from rightofway.io.scenario.writer import dump_scenario
+from rightofway.kinds.arguments import checks_arguments
+from rightofway.kinds.numbers import format_number
 from rightofway.model import (
     Decision,
     ForcedLoss,
@@ -23,11 +24,8 @@ from rightofway.model import (
     Scenario,
     SteadyState,
 )
-from rightofway.model.given import require_plan, require_truths
-from rightofway.values import format_number
 
 
-@checks_arguments
 def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:
     """Return a plan as a document.
 
@@ -43,8 +41,7 @@ def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:
     InputError
         If a track leads through a vertex that the roadmap does not have.
     """
-    require_truths(seconds=seconds)
-    scenario = require_plan(plan).scenario
+    scenario = plan.scenario
     n_vertices = scenario.roadmap.n_vertices
     for index, track in enumerate(plan.tracks):
         if not 0 <= track.vertices.min() <= track.vertices.max() < n_vertices:
@@ -71,6 +68,7 @@ def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:
     return document
 
 
+@checks_arguments
 def write_plan(plan: Plan, path: Path | str, *, seconds: bool = False) -> None:
     """Write a plan as JSON.
 
@@ -89,7 +87,6 @@ def write_plan(plan: Plan, path: Path | str, *, seconds: bool = False) -> None:
     write_whole(path, format_plan(plan, seconds=seconds))
 
 
-@checks_arguments
 def format_plan(plan: Plan, *, seconds: bool = False) -> str:
     """Return the text of a plan file: the same plan gives the same bytes; see `dump_plan`.
 

@@ -8,7 +8,6 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.facts import Fact
 from rightofway.io.faults import validate
@@ -18,12 +17,12 @@ from rightofway.io.layouts import read_layout
 from rightofway.io.scenario.layouts import make_map_of_layout
 from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap, note_on_hidden_stations
 from rightofway.io.scenario.writer import format_yaml
+from rightofway.kinds.numbers import format_number
 from rightofway.metrics.connectivity import find_strong_parts, list_ways
 from rightofway.site import make_grid_roadmap
 from rightofway.site.layout import Layout, Level
 from rightofway.site.occupancy import Occupancy
 from rightofway.units import Units
-from rightofway.values import format_number
 
 ROBOTS = 6
 """Robots of the example, at most."""
@@ -56,7 +55,6 @@ class Example(NamedTuple):
     notes: tuple[Fact, ...]
 
 
-@checks_arguments
 def make_example(path: Path | str, target: Path | str, radius: Fraction = Fraction(0)) -> Example:
     """Return a scenario that has a layout as its map.
 

@@ -13,7 +13,6 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from rightofway.arguments import checks_arguments
 from rightofway.assign import deal_homes
 from rightofway.errors import InputError, Steps, Where, find_nearest, name_file, quote
 from rightofway.facts import Fact
@@ -61,7 +60,6 @@ class Loaded:
     notes: tuple[Fact, ...] = ()
 
 
-@checks_arguments
 def parse_scenario(
     document: dict[str, Any], base: Path | None = None, source: str = ""
 ) -> Scenario:

@@ -11,7 +11,6 @@ from pydantic_core import CoreSchema
 from rightofway.deadline import READING, check_work
 from rightofway.errors import quote
 from rightofway.io.fields import (
-    POSITION,
     Angle,
     CellSize,
     Count,
@@ -33,6 +32,7 @@ from rightofway.io.fields import (
     finish_schema,
     make_optional,
 )
+from rightofway.kinds.table import POSITION
 from rightofway.model import Robot, Rules
 from rightofway.model.resources import circumscribe
 from rightofway.site.places import list_kinds_of_places

@@ -8,21 +8,19 @@ from typing import Any
 
 import numpy as np
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.files import as_path, write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.json_text import format_json
+from rightofway.kinds.arguments import checks_arguments
+from rightofway.kinds.numbers import format_number
 from rightofway.model import Robot, Scenario
 from rightofway.model.attributes import list_plain_attributes
-from rightofway.model.given import require_scenario
 from rightofway.site import EdgeClass, Roadmap
 from rightofway.site.drawing import Picture
 from rightofway.units import Units
-from rightofway.values import format_number
 
 
-@checks_arguments
 def dump_scenario(scenario: Scenario) -> dict[str, Any]:
     """Return a scenario as a document, its map inlined, its numbers exact.
 
@@ -36,7 +34,7 @@ def dump_scenario(scenario: Scenario) -> dict[str, Any]:
     Reading the document gives an equal scenario, where robots and vertices have printable names,
     numbers have at most 18 digits, and a roadmap without a grid has labels.
     """
-    roadmap = require_scenario(scenario).roadmap
+    roadmap = scenario.roadmap
     return {
         "format": SCENARIO_FORMAT,
         "map": _map(roadmap) | _spacing(scenario),
@@ -47,6 +45,7 @@ def dump_scenario(scenario: Scenario) -> dict[str, Any]:
     }
 
 
+@checks_arguments
 def write_scenario(scenario: Scenario, path: Path | str) -> None:
     """Write a scenario as YAML, JSON or a workbook, by the suffix of the path.
 
@@ -78,7 +77,6 @@ def write_scenario(scenario: Scenario, path: Path | str) -> None:
         raise InputError.at("", message, str(path))
 
 
-@checks_arguments
 def format_scenario(scenario: Scenario) -> str:
     """Return a scenario as YAML, as `write_scenario` writes it.
 

@@ -7,11 +7,11 @@ from typing import Any
 
 from fastapi import APIRouter
 
+from rightofway.kinds.numbers import format_number
 from rightofway.planners import DEFAULT_PLANNER, IMPROVER, find_all
 from rightofway.studio.routes.models import (
     InStudio,
 )
-from rightofway.values import format_number
 
 router = APIRouter()
 
@@ -33,9 +33,9 @@ def list_planners() -> dict[str, Any]:
                         "default": _convert_to_plain(option.default),
                         "summary": option.summary,
                         "choices": list(option.choices),
-                        "least": _convert_to_plain(option.least),
-                        "most": None if option.most is None else _convert_to_plain(option.most),
-                        "whole": option.is_whole,
+                        "least": option.kind.bounds[0] or 0,
+                        "most": option.kind.bounds[1],
+                        "whole": option.kind.schema.get("type") == "integer",
                     }
                     for option in spec.options
                 ],

@@ -11,10 +11,10 @@ from typing import Any
 
 from rightofway.errors import InputError, locate_faults
 from rightofway.io.faults import validate
-from rightofway.io.fields import read_positive
 from rightofway.io.scenario.loaded_map import FleetTraits
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.shape import MapDocument, UnitsDocument
+from rightofway.kinds.table import POSITIVE
 from rightofway.metrics.connectivity import find_strong_parts, list_ways
 from rightofway.site import Roadmap
 from rightofway.studio.messages import Blobs, Emit
@@ -42,7 +42,7 @@ def deal_robots(
     there are some; then homes are no stations.
     """
     with locate_faults("speeds"):
-        rates = [_read_speed(speed) for speed in speeds]
+        rates = [POSITIVE.read_at("", speed) for speed in speeds]
     roadmap = _read_roadmap(document, folder, rates)
     part = find_strong_parts(list_ways(roadmap))[0]
     if robots > len(part):
@@ -73,13 +73,6 @@ def deal_robots(
             }
         )
     return ({"robots": fleet},)
-
-
-def _read_speed(given: Any) -> Fraction:
-    try:
-        return read_positive(given)
-    except ValueError as error:
-        raise InputError.at("", str(error)) from None
 
 
 def _read_roadmap(document: dict[str, Any], folder: str, speeds: list[Fraction]) -> Roadmap:

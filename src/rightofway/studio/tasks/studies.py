@@ -13,6 +13,7 @@ from rightofway.errors import GaveUp, InputError
 from rightofway.facts import read_fact
 from rightofway.io import format_plan, parse_plan
 from rightofway.io.json_text import parse_json
+from rightofway.kinds.numbers import read_exact
 from rightofway.model import Scenario
 from rightofway.phrases import to_parts
 from rightofway.report.facts import pack_note, write_note
@@ -21,7 +22,6 @@ from rightofway.report.plan_data import describe_measures
 from rightofway.studio.messages import Blobs, Emit
 from rightofway.studio.tasks.documents import compute_digest, compute_figures, load_document
 from rightofway.studio.tasks.planning import PlanningProgress
-from rightofway.values import read_exact
 from rightofway.viz.page.document import as_compact_json
 from rightofway.viz.page.payload import make_payload
 

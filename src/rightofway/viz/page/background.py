@@ -11,10 +11,18 @@ from math import cos, sin
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
-from rightofway.errors import InputError, quote
+from rightofway.errors import InputError
+from rightofway.kinds.table import (
+    COORDINATE,
+    PATH,
+    POSITION,
+    POSITIVE,
+    SHARE,
+    allow_none,
+    make_class,
+)
 from rightofway.site import Roadmap
 from rightofway.site.drawing import Picture
-from rightofway.values import allow_none, list_of, make_class_reader, read_at, read_coordinate
 from rightofway.viz.page.schema import BackgroundData, PlaceData
 from rightofway.viz.placement import lay_out_roadmap
 
@@ -59,34 +67,23 @@ class Background:
     opacity: float = OPACITY
 
     def __post_init__(self) -> None:
-        if not isinstance(self.picture, str | os.PathLike):
-            fault = f"{quote(self.picture)} is no file (give text or a Path)"
-            raise InputError.at(("background", "picture"), fault)
-        read_at(("background", "scale"), allow_none(read_coordinate), self.scale)
-        for place, number in (("yaw", self.yaw), ("opacity", self.opacity)):
-            read_at(("background", place), read_coordinate, number)
-        for place, point in (("origin", self.origin), ("corner", self.corner)):
-            read = read_at(("background", place), allow_none(list_of(read_coordinate)), point)
-            if read is not None and len(read) != 2:  # noqa: PLR2004 (x and y)
-                fault = f"{quote(point)} is no point (give (x, y))"
-                raise InputError.at(("background", place), fault)
-        if self.scale is not None and not self.scale > 0:
-            fault = f"{self.scale} is not positive (give a length)"
-            raise InputError.at(("background", "scale"), fault)
-        if not 0 <= self.opacity <= 1:
-            fault = f"{self.opacity} is not from 0 to 1 (give a share)"
-            raise InputError.at(("background", "opacity"), fault)
+        kinds = {
+            "picture": PATH,
+            "scale": allow_none(POSITIVE),
+            "yaw": COORDINATE,
+            "opacity": SHARE,
+            "origin": allow_none(POSITION),
+            "corner": allow_none(POSITION),
+        }
+        for name, kind in kinds.items():
+            kind.read_at(("background", name), getattr(self, name))
         if self.origin is not None and self.corner is not None:
             raise InputError.at("background", "has both origin and corner (give one of them)")
 
     @classmethod
     def of(cls, picture: Picture) -> Background:
         """Return the picture of a map where its scenario or layout says that it lies."""
-        read_at(
-            "picture",
-            make_class_reader(Picture, "no picture of a map", "give Background(picture=file)"),
-            picture,
-        )
+        make_class(Picture).read_at("picture", picture)
         origin, corner = picture.origin, picture.corner
         return cls(
             picture=picture.file,

@@ -14,12 +14,11 @@ import re
 from collections.abc import Mapping, Sequence
 from functools import cache
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import NoPlanExists
 from rightofway.files import write_whole
+from rightofway.kinds.arguments import checks_arguments
+from rightofway.kinds.table import TEXT
 from rightofway.model import ExecutionTrace, Plan, SteadyState
-from rightofway.model.given import require_plan
-from rightofway.values import read_at, read_label
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.payload import make_payload
 from rightofway.viz.page.scripts import make_classic_script, order_scripts, read_asset
@@ -32,7 +31,6 @@ MARKUP = str.maketrans({character: f"\\u{ord(character):04x}" for character in "
 """Escapes that mean the same in JSON, and nothing in HTML."""
 
 
-@checks_arguments
 def make_page(
     plan: Plan,
     *,
@@ -75,8 +73,8 @@ def make_page(
         If ``steady`` or ``actual`` are not of this plan, the background cannot be read, or the
         plans cannot be compared: too many, or times in a unit and in none.
     """
-    count = len(require_plan(plan).scenario.robots)
-    title = read_at("title", read_label, title)
+    count = len(plan.scenario.robots)
+    title = TEXT.read_at("title", title)
     robots = f"{count} robot{'s' * (count != 1)}"
     about = f"{title}: {robots}" if title else f"{robots}, planned by {plan.run.name}"
     payload = make_payload(
@@ -116,6 +114,7 @@ def make_document(
     return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], read_asset("template.html"))
 
 
+@checks_arguments
 def write_page(
     plan: Plan,
     path: str | os.PathLike[str],
@@ -153,7 +152,6 @@ def write_page(
     write_whole(path, page)
 
 
-@checks_arguments
 def make_frame(
     plan: Plan,
     *,

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 
-from rightofway.arguments import checks_arguments
 from rightofway.facts import Fact
 from rightofway.files import write_whole
 from rightofway.metrics import Inspection, Site
@@ -29,7 +28,6 @@ Inspected = tuple[str, Site, Inspection]
 """The name of a level, empty where there is only one, the site, and what was found."""
 
 
-@checks_arguments
 def make_inspection_page(
     levels: Sequence[Inspected],
     *,
@@ -80,7 +78,6 @@ def make_inspection_page(
     return make_document(about, payload, "inspect_main")
 
 
-@checks_arguments
 def write_inspection(
     levels: Sequence[Inspected],
     path: str | os.PathLike[str],
@@ -110,7 +107,6 @@ def write_inspection(
     write_whole(path, page)
 
 
-@checks_arguments
 def make_site_data(site: Site, background: Background | None = None) -> SiteData:
     """Return a site as plain data for JSON: the map, and robots at their homes.
 

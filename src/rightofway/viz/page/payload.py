@@ -15,10 +15,9 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.arguments import checks_arguments
 from rightofway.check import Report
 from rightofway.cyclic import list_pieces_of_plan
-from rightofway.errors import InputError, NoPlanExists, quote
+from rightofway.errors import InputError, NoPlanExists
 from rightofway.metrics import Metrics, compare, compute_lost_time, join_waits, measure
 from rightofway.model import (
     Decision,
@@ -34,7 +33,6 @@ from rightofway.model import (
     Track,
 )
 from rightofway.model.closures import Closure
-from rightofway.model.given import require_plan
 from rightofway.model.place_names import PlaceNames
 from rightofway.model.steady_state import refuse_unknown_robots
 from rightofway.phrases import Phrase, PhraseBook, to_parts
@@ -59,7 +57,6 @@ from rightofway.report.sentences import (
     summarize_forced_loss,
 )
 from rightofway.site import Roadmap
-from rightofway.values import allow_none, list_of, make_class_reader, read_at, read_label
 from rightofway.viz.motion import Trip, end_of, make_trips
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.map_data import compute_differences, map_data
@@ -95,7 +92,6 @@ LOSSES = ("waits", "follows", "makes room")
 """Kinds of lost time; the page is given their places in this list."""
 
 
-@checks_arguments
 def make_payload(
     plan: Plan,
     *,
@@ -118,7 +114,6 @@ def make_payload(
     InputError
         If ``steady`` or ``actual`` are not of this plan, or the plans cannot be compared.
     """
-    _refuse_other_kinds(steady, actual, no_plan, background, others)
     trips, steady = make_trips(plan), steady or plan.steady
     scenario, run, metrics = plan.scenario, plan.run, measure(plan)
     tick, lost = scenario.problem.clock.tick, compute_lost_time(plan)
@@ -210,28 +205,6 @@ def measure_room(scenario: Scenario) -> Fraction:
     """Return the distance that the two largest robots need [length unit]; 0 for points."""
     radii = sorted((robot.radius for robot in scenario.robots), reverse=True)[:2]
     return sum(radii) + scenario.rules.clearance if any(radii) else Fraction(0)
-
-
-def _refuse_other_kinds(
-    steady: object, actual: object, no_plan: object, background: object, others: object
-) -> None:
-    """Refuse a result of another kind than the plan beside which it is shown."""
-    groups = make_class_reader(SteadyState, "no steady state", "give SteadyState")
-    trace = make_class_reader(ExecutionTrace, "no execution", "give a trace of rightofway.simulate")
-    reasons = make_class_reader(
-        NoPlanExists, "no such error", "give the NoPlanExists that was raised"
-    )
-    picture = make_class_reader(Background, "no background", "give a rightofway.Background")
-    read_at("steady", list_of(groups), steady)
-    read_at("actual", allow_none(trace), actual)
-    read_at("no_plan", allow_none(reasons), no_plan)
-    read_at("background", allow_none(picture), background)
-    for index, other in enumerate(read_at("others", list_of(lambda pair: pair), others)):
-        if not isinstance(other, list | tuple) or len(other) != 2:  # noqa: PLR2004 (plan, title)
-            message = f"{quote(other)} is no plan with a title (give (plan, title))"
-            raise InputError.at(("others", index), message)
-        require_plan(other[0], ("others", index, 0))
-        read_at(("others", index, 1), read_label, other[1])
 
 
 def _make_blockages(scenario: Scenario, no_plan: NoPlanExists, book: PhraseBook) -> FaultsData:

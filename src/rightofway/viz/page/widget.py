@@ -11,7 +11,6 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import Any
 
-from rightofway.arguments import checks_arguments
 from rightofway.model import Plan
 from rightofway.viz.page.document import FRAME_HEIGHT, make_payload_text, make_style_sheet
 from rightofway.viz.page.scripts import make_classic_script, order_scripts
@@ -20,7 +19,6 @@ WIDGET_STYLE = f".page{{contain:layout;height:{FRAME_HEIGHT}px;min-height:0;over
 """A page in a notebook has a height of its own."""
 
 
-@checks_arguments
 def bundle_of(plan: Plan) -> dict[str, Any]:
     """Return a plan as a live part of a notebook, by media type; for ``_repr_mimebundle_``.
 

@@ -9,10 +9,9 @@ from functools import cache
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
+from rightofway.kinds.table import make_class
 from rightofway.model import Plan
-from rightofway.model.given import require_plan
 from rightofway.site import Roadmap
-from rightofway.values import make_class_reader, read_at
 from rightofway.viz.motion import end_of, make_trips
 from rightofway.viz.page.schema import PlaceData
 from rightofway.viz.palette import Theme, choose_colours, mix
@@ -49,8 +48,8 @@ class Scene(Ground):
     """A plan prepared for drawing; from its tick `end` on nothing happens any more."""
 
     def __init__(self, plan: Plan, theme: Theme) -> None:
-        read_at("theme", make_class_reader(Theme, "no theme", "give a rightofway.Theme"), theme)
-        super().__init__(require_plan(plan).scenario.roadmap, theme)
+        make_class(Theme).read_at("theme", theme)
+        super().__init__(plan.scenario.roadmap, theme)
         self.plan = plan
         self.trips = make_trips(plan)
         self.colours = choose_colours(len(self.trips))

@@ -11,11 +11,11 @@ from fractions import Fraction
 
 from PIL import Image
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.files import write_whole
+from rightofway.kinds.arguments import checks_arguments
+from rightofway.kinds.table import allow_none, make_range, make_whole
 from rightofway.model import Plan
-from rightofway.values import allow_none, make_range_reader, read_at, read_whole_number
 from rightofway.viz.palette import LIGHT, Theme
 from rightofway.viz.raster.canvas import Pen, Scene
 from rightofway.viz.raster.faults import FaultList
@@ -33,7 +33,6 @@ FRAMES_PER_TICK = 8
 """The most frames: more cannot be distinguished."""
 
 
-@checks_arguments
 def make_png(
     plan: Plan,
     tick: int | None = None,
@@ -61,9 +60,7 @@ def make_png(
     InputError
         For a tick below 0, or a scale that makes the picture empty or too large to draw.
     """
-    tick = read_at("tick", allow_none(read_whole_number), tick)
-    if tick is not None and tick < 0:
-        raise InputError.at("tick", f"{tick} is negative (give 0 or more)")
+    tick = allow_none(make_whole(0)).read_at("tick", tick)
     _refuse_scale(scale)
     scene, fineness = Scene(plan, theme), PICTURE_FINENESS
     if scale is None:
@@ -82,6 +79,7 @@ def make_png(
     return content.getvalue()
 
 
+@checks_arguments
 def write_png(
     plan: Plan,
     path: str | os.PathLike[str],
@@ -126,6 +124,7 @@ class Film:
     seconds: float
 
 
+@checks_arguments
 def write_gif(
     plan: Plan,
     path: str | os.PathLike[str],
@@ -158,9 +157,7 @@ def write_gif(
         For fewer than two frames, a scale that makes pictures empty or too large to draw, or a file
         that cannot be written.
     """
-    max_frames = read_at("max_frames", read_whole_number, max_frames)
-    if max_frames <= 1:
-        raise InputError.at("max_frames", f"{max_frames} is less than a film (give 2 or more)")
+    max_frames = make_whole(2).read_at("max_frames", max_frames)
     _refuse_scale(scale)
     scene = Scene(plan, theme)
     frames = min(FRAMES_PER_TICK * scene.end + 1, max_frames)
@@ -204,7 +201,7 @@ def _draw_pictures(scene: Scene, scale: float, ticks: Sequence[float]) -> Iterat
 
 def _refuse_scale(scale: float | None) -> None:
     if scale is not None:
-        read_at("scale", make_range_reader(0, MOST_PIXELS), scale)
+        make_range(0, MOST_PIXELS).read_at("scale", scale)
 
 
 def _choose_scale(scene: Scene, width: int, largest: float) -> float:

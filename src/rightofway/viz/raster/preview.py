@@ -6,7 +6,6 @@ import io
 
 from PIL import Image
 
-from rightofway.arguments import checks_arguments
 from rightofway.errors import InputError
 from rightofway.metrics import Site
 from rightofway.viz.palette import LIGHT, Theme, choose_colours
@@ -31,7 +30,6 @@ MOST_TRIPS = 12
 """Robots whose trips are drawn as lines, too."""
 
 
-@checks_arguments
 def make_preview(site: Site, *, theme: Theme = LIGHT) -> bytes:
     """Return a small picture of a site as PNG: cells or lanes, homes, stops and stations.
 
