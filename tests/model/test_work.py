@@ -202,9 +202,9 @@ def make_begun(**begun: int) -> dict[str, Any]:
 ONE_STOP = Job(name="J1", stops=(JobStop(at=V(1)),))
 
 FAULTS: list[tuple[dict[str, Any], str]] = [
-    ({"jobs": 5}, "jobs: 5 is no list (give a list)"),
-    ({"jobs": [5]}, "jobs[0]: 5 is no job (give Job(name=text, stops=list))"),
-    ({"batteries": 7}, "batteries: 7 are no batteries (give a mapping of names to Battery)"),
+    ({"jobs": 5}, "jobs: 5 is no list (give a list, each a Job)"),
+    ({"jobs": [5]}, "jobs[0]: 5 is no Job (give Job(name=text, stops=list))"),
+    ({"batteries": 7}, "batteries: 7 is no mapping (give a mapping of names, each to a Battery)"),
     ({"charging": [99]}, "charging[0]: vertex 99 is not on the roadmap (give 0 to 11)"),
     ({"jobs": (replace(ONE_STOP, name=""),)}, "jobs[0].name: is empty (give the job a name)"),
     (

@@ -170,7 +170,9 @@ def test_the_command_line_takes_an_exact_option_and_shows_the_factor(
         "kind": "bounded", "objective": "flowtime", "bound": 4, "factor": "5/4",
     }  # fmt: skip
     assert code([*PLAN_COMMAND, "--option", "factor=0.9"]) == 2
-    assert "options.factor: '0.9' is not a number of 1 or more" in capsys.readouterr().err
+    assert (
+        "options.factor: '0.9' does not fit (give a number of 1 or more)" in capsys.readouterr().err
+    )
 
 
 def test_a_spare_tick_against_rotations_is_no_proof() -> None:

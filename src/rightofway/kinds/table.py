@@ -245,9 +245,13 @@ def make_words(*words: str) -> Kind[str]:
 
 
 REMEDIES = {
+    "Battery": "give Battery(drive=share)",
     "CyclicResult": "simulate laps with rightofway.run_laps",
     "ExecutionTrace": "give a trace of rightofway.simulate",
+    "Job": "give Job(name=text, stops=list)",
+    "JobStop": "give JobStop(at=vertex, work=time)",
     "Plan": "load a file with rightofway.load_plan",
+    "RobotState": "give RobotState(at=vertex)",
     "Roadmap": "give a Roadmap, or build the fleet with FleetBuilder",
     "Scenario": "load a file with rightofway.load, or build a fleet with FleetBuilder",
     "Stop": "give Stop(at=vertex, work=time)",
