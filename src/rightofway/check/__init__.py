@@ -60,7 +60,7 @@ def check(plan: Plan, *, limit: int = 1000) -> Report:
     """
     visits = lay_out_visits(plan)
     limit = make_whole(0, 2**31 - 1).read_at("limit", limit)
-    found = chain[Fault | FaultGroup](
+    faults = chain[Fault | FaultGroup](
         judge_drives(visits),
         judge_turns(visits),
         judge_stops(visits),
@@ -73,4 +73,4 @@ def check(plan: Plan, *, limit: int = 1000) -> Report:
         judge_barred(visits),
         judge_closures(visits),
     )
-    return make_report(found, limit)
+    return make_report(faults, limit)

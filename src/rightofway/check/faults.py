@@ -158,16 +158,16 @@ class FaultGroup(NamedTuple):
     make: Callable[[int], Fault]
 
 
-def make_report(found: Iterable[Fault | FaultGroup], limit: int) -> Report:
+def make_report(faults: Iterable[Fault | FaultGroup], limit: int) -> Report:
     """Count all faults, and list the earliest, as many as ``limit``."""
-    counts, kept = Counter[FaultKind](), list[Fault]()
-    for group in found:
+    counts, listed = Counter[FaultKind](), list[Fault]()
+    for group in faults:
         if isinstance(group, Fault):
             counts[group.kind] += 1
-            kept.append(group)
+            listed.append(group)
         elif len(group.ticks):
             counts[group.kind] += len(group.ticks)
             earliest = np.lexsort((*reversed(group.robots), group.ticks))[:limit]
-            kept.extend(map(group.make, earliest.tolist()))
-    kept.sort(key=lambda fault: (fault.tick, fault.robots, fault.kind, fault.vertices))
-    return Report(faults=tuple(kept[:limit]), counts=dict(sorted(counts.items())))
+            listed.extend(map(group.make, earliest.tolist()))
+    listed.sort(key=lambda fault: (fault.tick, fault.robots, fault.kind, fault.vertices))
+    return Report(faults=tuple(listed[:limit]), counts=dict(sorted(counts.items())))

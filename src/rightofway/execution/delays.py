@@ -192,6 +192,14 @@ def delay_model_of(delays: Sequence[Delay], scenario: Scenario) -> DelayModel:
     )
 
 
+def delay_plan(
+    plan: Plan, delays: str | Iterable[str]
+) -> tuple[tuple[Delay, ...], ActionDependencyGraph]:
+    """Return the causes of delay, and the plan as it is executed with them."""
+    causes = read_delays(delays, plan.scenario)
+    return causes, make_delayed_graph(plan, causes)
+
+
 def make_delayed_graph(plan: Plan, delays: Sequence[Delay]) -> ActionDependencyGraph:
     """Return a plan as it is executed with delays that `read_delays` returned."""
     model = delay_model_of(delays, plan.scenario)

@@ -241,7 +241,7 @@ def _going_on(
 ) -> list[Track] | None:
     """Return the plan with the old routes and rights of way; None if a closure blocks it."""
     adg, times = forecast.adg, forecast.compute_times()
-    kept = []
+    old_tracks = []
     for robot, commitment in enumerate(commitments):
         first, end = int(adg.first_visit[robot]) + commitment.visit, int(adg.first_visit[robot + 1])
         if robot in forecast.broken:
@@ -250,8 +250,8 @@ def _going_on(
         drives = pairwise(visited)
         if not closed.vertices.isdisjoint(visited[1:]) or not closed.edges.isdisjoint(drives):
             return None
-        kept.append(Track.of(visited, times[first:end].tolist()))
-    return build_timetable(rest.problem, kept)
+        old_tracks.append(Track.of(visited, times[first:end].tolist()))
+    return build_timetable(rest.problem, old_tracks)
 
 
 def _another_way(

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rightofway.check import check
 from rightofway.errors import InputError
-from rightofway.execution.delays import DEFAULT_DELAYS, Delay, make_delayed_graph, read_delays
+from rightofway.execution.delays import DEFAULT_DELAYS, Delay, delay_plan, make_delayed_graph
 from rightofway.execution.monitor import ExecutionMonitor, ExecutionPolicy
 from rightofway.execution.statistics import (
     Collisions,
@@ -100,8 +100,7 @@ def simulate(
     runs = make_whole(1, MOST_RUNS).read_at("runs", runs)
     seed = SEED.read_at("seed", seed)
     deadline = Deadline.after(time_limit)
-    causes = read_delays(delays, plan.scenario)
-    adg = make_delayed_graph(plan, causes)
+    causes, adg = delay_plan(plan, delays)
     policy = ExecutionPolicy(switch=switch, replan=replan)
     parts: list[_Runs] = []
     traces: dict[int, ExecutionTrace] = {}
@@ -163,7 +162,7 @@ def replay(
     InputError
         If the delays cannot be read.
     """
-    adg = make_delayed_graph(plan, read_delays(delays, plan.scenario))
+    _, adg = delay_plan(plan, delays)
     policy = ExecutionPolicy(switch=switch, replan=replan)
     return ExecutionMonitor(adg, policy, seed, run, Deadline()).trace()
 
