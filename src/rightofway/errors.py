@@ -346,17 +346,22 @@ class Blockage:
     reason
         The fact that blocks robots; or an English sentence, from planners of other packages.
     robots
-        Names of the robots that it concerns.
+        The robots that it concerns, by index.
     vertices
-        Names of the vertices that it concerns.
+        The vertices that it concerns, by index.
     remedy
         The change that helps; empty where none is known.
     """
 
     reason: Fact | str
-    robots: tuple[str, ...]
-    vertices: tuple[str, ...]
+    robots: tuple[int, ...] = ()
+    vertices: tuple[int, ...] = ()
     remedy: Fact | str = ""
+
+    def bind(self, scenario: Any) -> Blockage:
+        """Return the blockage of a scenario."""
+        reason = self.reason
+        return replace(self, reason=reason.bind(scenario)) if isinstance(reason, Fact) else self
 
     def __str__(self) -> str:
         return f"{self.reason} ({self.remedy})" if self.remedy else str(self.reason)
@@ -369,13 +374,16 @@ class NoPlanExists(RightOfWayError):
     ----------
     reasons
         A fact, an English sentence, or every blockage that was found.
+    scenario
+        The scenario of their robots and vertices; None where they have none.
     """
 
-    def __init__(self, reasons: Fact | str | Iterable[Blockage]) -> None:
+    def __init__(self, reasons: Fact | str | Iterable[Blockage], scenario: Any = None) -> None:
         if isinstance(reasons, Fact | str):
-            reasons = [Blockage(reasons, (), ())]
-        self.blockages = tuple(reasons)
-        super().__init__(self.blockages)
+            reasons = [Blockage(reasons)]
+        self.blockages = tuple(blockage.bind(scenario) for blockage in reasons)
+        self.scenario = scenario
+        super().__init__(self.blockages, scenario)
 
     def __str__(self) -> str:
         listed = [str(blockage) for blockage in self.blockages[:MAX_REASONS]]
@@ -385,14 +393,21 @@ class NoPlanExists(RightOfWayError):
     @property
     def robots(self) -> tuple[str, ...]:
         """Names of all robots concerned, each once."""
-        return tuple(dict.fromkeys(name for blockage in self.blockages for name in blockage.robots))
+        robots = (robot for blockage in self.blockages for robot in blockage.robots)
+        return self._name_robots(robots)
 
     @property
     def vertices(self) -> tuple[str, ...]:
         """Names of all vertices concerned, each once."""
-        return tuple(
-            dict.fromkeys(name for blockage in self.blockages for name in blockage.vertices)
+        return self._name_vertices(
+            place for blocked in self.blockages for place in blocked.vertices
         )
+
+    def _name_robots(self, robots: Iterable[int]) -> tuple[str, ...]:
+        return tuple(self.scenario.robots[robot].name for robot in dict.fromkeys(robots))
+
+    def _name_vertices(self, vertices: Iterable[int]) -> tuple[str, ...]:
+        return tuple(self.scenario.roadmap.name(vertex) for vertex in dict.fromkeys(vertices))
 
     def as_dict(self) -> dict[str, Any]:
         """Return the blockages as plain data for JSON."""
@@ -401,8 +416,8 @@ class NoPlanExists(RightOfWayError):
                 {
                     "kind": blockage.reason.kind if isinstance(blockage.reason, Fact) else "other",
                     "reason": str(blockage),
-                    "robots": list(blockage.robots),
-                    "vertices": list(blockage.vertices),
+                    "robots": list(self._name_robots(blockage.robots)),
+                    "vertices": list(self._name_vertices(blockage.vertices)),
                 }
                 for blockage in self.blockages
             ],

@@ -38,6 +38,10 @@ class Fact:
         self.about = about
         self.values: Mapping[str, Any] = values
 
+    def bind(self, about: Any) -> Fact:
+        """Return the fact about a scenario."""
+        return Fact(self.kind, about, **self.values)
+
     def as_dict(self) -> dict[str, Any]:
         """Return kind and values as JSON has them; facts among the values likewise."""
         values = {name: _pack(value) for name, value in self.values.items()}

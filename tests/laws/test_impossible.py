@@ -2,13 +2,14 @@
 
 from dataclasses import replace
 
+import pytest
 from hypothesis import strategies as st
 
 import rightofway
 from rightofway.deadline import Deadline
-from rightofway.errors import Blockage, GaveUp, NoPlanExists
+from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Rules, Scenario
-from rightofway.repair.impossible import find_blocking_set
+from rightofway.repair.impossible import refuse_blocked
 from tests.builders.any_plan import QUICK
 from tests.builders.fleets import grid_fleet
 from tests.builders.laws import law, leave
@@ -53,9 +54,9 @@ def test_a_blocking_set_is_blocked_and_minimal(scenario: Scenario) -> None:
     everybody = tuple(robot.name for robot in scenario.robots)
     if has_plan(scenario, everybody):
         leave("a plan exists")
-    blockage = find_blocking_set(scenario, range(len(everybody)), seed=0, deadline=Deadline())
-    check_minimal(scenario, blockage)
-    assert NoPlanExists([blockage]).robots == blockage.robots
+    with pytest.raises(NoPlanExists) as proof:
+        refuse_blocked(scenario, seed=0, deadline=Deadline())
+    check_minimal(scenario, proof.value)
 
 
 @law(fleets(), st.sampled_from(("auto", "cbs", "lacam")))
@@ -63,16 +64,17 @@ def test_every_planner_names_a_minimal_set(scenario: Scenario, planner: str) -> 
     try:
         rightofway.solve(scenario, planner, time_limit=None, options=QUICK.get(planner))
     except NoPlanExists as proof:
-        for blockage in proof.blockages:
-            check_minimal(scenario, blockage)
+        check_minimal(scenario, proof)
         return
     except GaveUp:
         leave("the planner gave up")
     assert has_plan(scenario, tuple(robot.name for robot in scenario.robots))
 
 
-def check_minimal(scenario: Scenario, blockage: Blockage) -> None:
-    assert not has_plan(scenario, blockage.robots)
-    for name in blockage.robots:
-        fewer = tuple(other for other in blockage.robots if other != name)
-        assert not fewer or has_plan(scenario, fewer)
+def check_minimal(scenario: Scenario, proof: NoPlanExists) -> None:
+    for blockage in proof.blockages:
+        names = tuple(scenario.robots[robot].name for robot in blockage.robots)
+        assert not has_plan(scenario, names)
+        for name in names:
+            fewer = tuple(other for other in names if other != name)
+            assert not fewer or has_plan(scenario, fewer)

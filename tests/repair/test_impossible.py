@@ -54,7 +54,7 @@ def test_shared_ends_are_reported_beside_missing_ways() -> None:
     for name, home, target in (("R1", "N0", "N2"), ("R2", "N1", "N2"), ("R3", "N4", "N2")):
         fleet.add_robot(name, home=home, target=target)
     way, end = no_plan(fleet.build_scenario()).blockages
-    assert way.robots == ("R3",)
+    assert way.robots == (2,)
     assert end.reason == Fact("shared end", robots=(0, 1, 2), place=2)
     assert str(end.reason) == "R1, R2 and R3 would all have to stay at N2 for ever"
     assert str(end.remedy) == "let others end elsewhere"

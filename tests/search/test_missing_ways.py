@@ -19,7 +19,7 @@ def test_places_in_other_parts_of_the_map_are_one_fact() -> None:
     (blockage,) = find_blockages(fleet)
     assert blockage.reason == Fact("map in parts", robot=0, tail=0, head=(2, 7))
     assert blockage.remedy == Fact("join the parts")
-    assert (blockage.robots, blockage.vertices) == (("R1",), ("N0", "N3", "N9"))
+    assert (blockage.robots, blockage.vertices) == ((0,), (0, 2, 7))
 
 
 def test_an_edge_that_opens_the_way_is_part_of_the_fact() -> None:

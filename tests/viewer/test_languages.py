@@ -77,7 +77,7 @@ def test_no_state_of_the_page_says_an_english_word_to_a_german(
 
 
 def test_reasons_of_the_library_are_marked_as_english(show: Opener) -> None:
-    blocked = Blockage("no way leads from N0 to N2", robots=("R1",), vertices=(), remedy="open one")
+    blocked = Blockage("no way leads from N0 to N2", robots=(0,), vertices=(), remedy="open one")
     viewer = show(door(), no_plan=NoPlanExists([blocked]), title="door", locale="de-DE")
     assert english_on(viewer) == []
     assert "no way leads" in viewer.text("#fault-list [lang=en]")

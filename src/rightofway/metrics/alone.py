@@ -40,5 +40,5 @@ def compute_alone_completions(scenario: Scenario) -> tuple[Tick, ...]:
     assert ticks is not None, "no time limit was given"
     stranded = np.flatnonzero(ticks < 0).tolist()
     if stranded:
-        raise NoPlanExists(find_missing_ways(scenario, stranded))
+        raise NoPlanExists(find_missing_ways(scenario, stranded), scenario)
     return tuple(map(Tick, ticks.tolist()))

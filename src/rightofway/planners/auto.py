@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from rightofway.errors import GaveUp, InputError, NoPlanExists
+from rightofway.errors import GaveUp, InputError
 from rightofway.model import Objective, Proof, Status, Tick
 from rightofway.planners.features import refuse_with_swaps_left
 from rightofway.planners.lns import improve_best, lns
@@ -21,7 +21,7 @@ from rightofway.planners.two_level import paper, two_level
 from rightofway.repair.bounds import SHARE as SHARE_OF_NODES
 from rightofway.repair.bounds import compute_price_bound, finish_optimum
 from rightofway.repair.fleet_search import make_fleet_search
-from rightofway.repair.impossible import find_blocking_set
+from rightofway.repair.impossible import refuse_blocked
 from rightofway.repair.makespan import MakespanSearch, measure_alone
 from rightofway.repair.objectives import find_objective, list_weights, measure_worth
 from rightofway.repair.task import Draft, Task
@@ -205,11 +205,7 @@ class _Prover:
             proof = Proof(bound=search.bound or Tick(0), objective=objective)
             return Draft(tracks=search.tracks, status=status, proof=proof)
         if search.is_proven:
-            everybody = range(len(task.scenario.robots))
-            blockage = find_blocking_set(
-                task.scenario, everybody, seed=task.seed, deadline=task.deadline
-            )
-            raise NoPlanExists([blockage])
+            refuse_blocked(task.scenario, seed=task.seed, deadline=task.deadline)
         return None
 
     def _run(self, nodes: int, share: float, upper: int | None) -> ConflictBasedSearch | None:

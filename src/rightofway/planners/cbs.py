@@ -35,14 +35,14 @@ from math import ceil
 from typing import Any
 
 from rightofway.deadline import Deadline
-from rightofway.errors import GaveUp, NoPlanExists
+from rightofway.errors import GaveUp
 from rightofway.facts import Fact
 from rightofway.model import Proof, Status, Tick, compute_cost
 from rightofway.model.outcome import Objective, choose_objective
 from rightofway.planners.lns import improve_best
 from rightofway.repair.bounds import finish_optimum
 from rightofway.repair.fleet_search import make_fleet_search
-from rightofway.repair.impossible import find_blocking_set
+from rightofway.repair.impossible import refuse_blocked
 from rightofway.repair.makespan import MakespanSearch, measure_alone
 from rightofway.repair.objectives import compute_value, find_objective, list_weights
 from rightofway.repair.task import Draft, Task
@@ -147,10 +147,7 @@ class _Tree:
             if self._is_over(upper):
                 status = Status("proven", claim=claim, nodes=nodes, status=first.status)
         elif search.is_proven:
-            robots = range(len(scenario.robots))
-            raise NoPlanExists(
-                [find_blocking_set(scenario, robots, seed=task.seed, deadline=task.deadline)]
-            )
+            refuse_blocked(scenario, seed=task.seed, deadline=task.deadline)
         else:
             error = GaveUp(Fact("time over for an optimal plan", nodes=nodes))
             if choose_objective(scenario) is Objective.FLOWTIME:  # the message has a bound of that

@@ -26,7 +26,7 @@ from rightofway.facts import Fact
 from rightofway.model import Status
 from rightofway.precedence import build_timetable
 from rightofway.repair.impossible import (
-    find_blocking_set,
+    refuse_blocked,
     refuse_blocked_parts,
     refuse_stranded,
     refuse_the_impossible,
@@ -90,9 +90,7 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
 def _refuse_blocked(task: Task) -> NoReturn:
     """Raise for a fleet that is proven to have no plan: which robots block each other."""
     task.report(Fact("looking for blockages"))
-    everybody = range(len(task.scenario.robots))
-    blockages = find_blocking_set(task.scenario, everybody, seed=task.seed, deadline=task.deadline)
-    raise NoPlanExists([blockages]) from None
+    refuse_blocked(task.scenario, seed=task.seed, deadline=task.deadline)
 
 
 def plan_by_instants(

@@ -18,6 +18,7 @@ from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
+from typing import NoReturn
 
 from rightofway.deadline import Deadline
 from rightofway.errors import MAX_REASONS, Blockage, GaveUp, NoPlanExists
@@ -77,7 +78,7 @@ def refuse_stranded(scenario: Scenario, stranded: Iterable[int]) -> None:
         *_clashes(scenario),
     ]
     if blockages:
-        raise NoPlanExists(blockages)
+        raise NoPlanExists(blockages, scenario)
 
 
 def _shared_ends(scenario: Scenario) -> Iterator[Blockage]:
@@ -87,10 +88,9 @@ def _shared_ends(scenario: Scenario) -> Iterator[Blockage]:
         holders[itinerary.last].append(robot)
     for vertex, robots in holders.items():
         if len(robots) > 1:
-            names = _list_names(scenario, robots)
-            reason = Fact("shared end", scenario, robots=tuple(robots), place=vertex)
+            reason = Fact("shared end", robots=tuple(robots), place=vertex)
             remedy = Fact("end elsewhere", number=len(robots))
-            yield Blockage(reason, names, (scenario.roadmap.name(vertex),), remedy)
+            yield Blockage(reason, tuple(robots), (vertex,), remedy)
 
 
 def _clashes(scenario: Scenario) -> Iterator[Blockage]:
@@ -109,19 +109,17 @@ def _clashes(scenario: Scenario) -> Iterator[Blockage]:
             values = {"one": robot, "here": place, "other": other, "there": other_place}
             zone = next((z for z in roadmap.zones if {place, other_place} <= {*z.vertices}), None)
             if zone is not None:
-                reason = Fact(f"{when} in one zone", scenario, **values, zone=zone.name)
+                reason = Fact(f"{when} in one zone", **values, zone=zone.name)
             else:
                 needed = scenario.robots[robot].radius + scenario.robots[other].radius
                 reason = Fact(
                     f"{when} too near",
-                    scenario,
                     **values,
                     distance=measure_distance(roadmap, place, other_place),
                     needed=needed + (scenario.rules.clearance if needed else 0),
                 )
-            names = _list_names(scenario, (robot, other))
-            vertices = roadmap.name(place), roadmap.name(other_place)
-            yield Blockage(reason, names, vertices, Fact(f"{when} elsewhere", number=2))
+            remedy = Fact(f"{when} elsewhere", number=2)
+            yield Blockage(reason, (robot, other), (place, other_place), remedy)
 
 
 def refuse_closed_ways(
@@ -146,7 +144,7 @@ def refuse_closed_ways(
             if len(blockages) == MAX_REASONS:
                 break
     if blockages:
-        raise NoPlanExists(blockages)
+        raise NoPlanExists(blockages, scenario)
 
 
 def _has_track_alone(
@@ -161,7 +159,7 @@ def _closed_in(
     scenario: Scenario, robot: int, distances: Distances, deadline: Deadline
 ) -> Blockage:
     """Return why a robot has no track alone: a small set of closures that block it."""
-    left, name = list(scenario.closures), scenario.robots[robot].name
+    left = list(scenario.closures)
     clock = scenario.problem.clock
     for closure in scenario.closures if len(left) <= MOST_TRIALS else ():
         fewer = [other for other in left if other is not closure]
@@ -173,9 +171,8 @@ def _closed_in(
     itinerary = scenario.problem.itineraries[robot]
     places = dict.fromkeys([itinerary.home, *(stage.vertex for stage in itinerary.stages)])
     closures = tuple(_describe_closure(scenario, closure) for closure in left[:MAX_REASONS])
-    reason = Fact("closed in", scenario, robot=robot, closures=closures)
-    remedy = Fact("open closures", number=len(left))
-    return Blockage(reason, (name,), tuple(map(scenario.roadmap.name, places)), remedy)
+    reason = Fact("closed in", robot=robot, closures=closures)
+    return Blockage(reason, (robot,), tuple(places), Fact("open closures", number=len(left)))
 
 
 def _describe_closure(scenario: Scenario, closure: Closure) -> Fact:
@@ -208,26 +205,32 @@ def refuse_blocked_parts(scenario: Scenario, *, seed: int, deadline: Deadline) -
     for robots in sorted(groups.values(), key=len) if len(groups) > 1 else ():
         effort = EFFORT // len(groups)
         if _is_blocked(scenario, robots, seed=seed, effort=effort, deadline=deadline):
-            raise NoPlanExists([find_blocking_set(scenario, robots, seed=seed, deadline=deadline)])
+            refuse_blocked(scenario, robots, seed=seed, deadline=deadline)
 
 
-def find_blocking_set(
-    scenario: Scenario, robots: Iterable[int], *, seed: int, deadline: Deadline
-) -> Blockage:
-    """Return a small set of robots that have no plan, given that some robots have none.
+def refuse_blocked(
+    scenario: Scenario, robots: Iterable[int] | None = None, *, seed: int, deadline: Deadline
+) -> NoReturn:
+    """Raise for robots that are proven to have no plan, by default all: with a small set of them.
+
+    Raises
+    ------
+    NoPlanExists
+        With robots that block each other.
 
     Notes
     -----
     Deterministic, as long as there is time. That the set has no plan is proven. It is minimal where
     no trial without one of its robots ended undecided.
     """
-    everybody = list(robots)
+    everybody = list(range(len(scenario.robots)) if robots is None else robots)
     effort = EFFORT // min(len(everybody), MOST_TRIALS)
 
     def is_blocked(fewer: Sequence[int]) -> bool:
         return _is_blocked(scenario, fewer, seed=seed, effort=effort, deadline=deadline)
 
-    return _described(scenario, find_smallest_set(everybody, is_blocked))
+    blocked = find_smallest_set(everybody, is_blocked)
+    raise NoPlanExists([_describe_blocked(scenario, blocked)], scenario)
 
 
 def find_smallest_set(
@@ -264,28 +267,18 @@ def make_fleet_of(scenario: Scenario, robots: Iterable[int]) -> Scenario:
     return replace(scenario, robots=fleet, rules=rules, clock=scenario.problem.clock)
 
 
-def explain_no_room(scenario: Scenario, robots: Sequence[int]) -> Blockage:
-    """Return why robots that are proven to have no plan together have none."""
+def refuse_without_room(scenario: Scenario, robots: Sequence[int]) -> NoReturn:
+    """Raise `NoPlanExists` for robots that are proven to have no plan together."""
     has_others = len(robots) < len(scenario.robots)
     blocked = Fact("these robots", robots=tuple(robots))
     if len(robots) > LARGEST_SET:
         blocked = Fact("some robots" if has_others else "all robots", number=len(robots))
     is_open = scenario.problem.closures is None
-    reason = _add_others(
-        scenario,
-        Fact("no room" if is_open else "no room among closures", scenario, robots=blocked),
-        has_others=has_others,
-    )
-    return Blockage(reason, _list_names(scenario, robots), (), Fact("give room or places"))
-
-
-def _add_others(scenario: Scenario, fact: Fact, *, has_others: bool) -> Fact:
-    """Return a fact on some robots as one that holds for all actions of the others."""
-    return Fact("whatever others do", scenario, fact=fact) if has_others else fact
-
-
-def _list_names(scenario: Scenario, robots: Iterable[int]) -> tuple[str, ...]:
-    return tuple(scenario.robots[robot].name for robot in robots)
+    reason = Fact("no room" if is_open else "no room among closures", robots=blocked)
+    if has_others:
+        reason = Fact("whatever others do", fact=reason)
+    blockage = Blockage(reason, tuple(robots), remedy=Fact("give room or places"))
+    raise NoPlanExists([blockage], scenario)
 
 
 def put_fleet_at_home(scenario: Scenario) -> Plan:
@@ -325,21 +318,17 @@ def _is_blocked(
     return False
 
 
-def _described(scenario: Scenario, robots: Sequence[int]) -> Blockage:
-    roadmap, names = scenario.roadmap, _list_names(scenario, robots)
-    blocked = _add_others(
-        scenario,
-        Fact("block each other", scenario, robots=tuple(robots)),
-        has_others=len(robots) < len(scenario.robots),
-    )
+def _describe_blocked(scenario: Scenario, robots: Sequence[int]) -> Blockage:
+    """Return which robots block each other, and where they have to pass or to go to."""
+    reason = Fact("block each other", robots=tuple(robots))
+    if len(robots) < len(scenario.robots):
+        reason = Fact("whatever others do", fact=reason)
     if narrow := tuple(_narrow_places(scenario, robots)):
-        reason = Fact("narrow places", scenario, fact=blocked, places=narrow, number=len(robots))
-        return Blockage(reason, names, tuple(map(roadmap.name, narrow)), Fact("give room there"))
+        reason = Fact("narrow places", fact=reason, places=narrow, number=len(robots))
+        return Blockage(reason, tuple(robots), narrow, Fact("give room there"))
     itineraries = [scenario.problem.itineraries[robot] for robot in robots]
-    ends = dict.fromkeys(
-        roadmap.name(end) for itinerary in itineraries for end in (itinerary.home, itinerary.last)
-    )
-    return Blockage(blocked, names, tuple(ends), Fact("give room or places"))
+    ends = dict.fromkeys(end for own in itineraries for end in (own.home, own.last))
+    return Blockage(reason, tuple(robots), tuple(ends), Fact("give room or places"))
 
 
 def _narrow_places(scenario: Scenario, robots: Sequence[int]) -> list[VertexId]:

@@ -27,14 +27,14 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from heapq import heappop, heappush
 from itertools import count
-from typing import NamedTuple
+from typing import NamedTuple, NoReturn
 
 from rightofway.deadline import Deadline
-from rightofway.errors import GaveUp, NoPlanExists
+from rightofway.errors import GaveUp
 from rightofway.facts import Fact
 from rightofway.model import Scenario, Status, Tick, Track, compute_least_dwell
 from rightofway.native import list_excluded
-from rightofway.repair.impossible import explain_no_room, find_smallest_set, make_fleet_of
+from rightofway.repair.impossible import find_smallest_set, make_fleet_of, refuse_without_room
 from rightofway.repair.task import Draft, Task
 from rightofway.search import Distances, FleetSearch
 from rightofway.site import VertexId
@@ -104,8 +104,13 @@ def find_tracks_by_moves(
 def _moves(task: Task, floor: SingleMoves, most_states: int) -> list[Move]:
     """Return moves that bring all robots through their trips, at no times."""
     moves = _search(floor, most_states, task.deadline)
-    if moves is not None:
-        return moves
+    if moves is None:
+        _refuse_without_order(task, floor)
+    return moves
+
+
+def _refuse_without_order(task: Task, floor: SingleMoves) -> NoReturn:
+    """Raise for a fleet that has no order of moves: with a small set of robots, where proven."""
     if not floor.is_proof:
         raise GaveUp(Fact("no order of single moves"))
 
@@ -115,7 +120,7 @@ def _moves(task: Task, floor: SingleMoves, most_states: int) -> list[Move]:
 
     everybody = range(len(task.scenario.robots))
     blocked = everybody if floor.ends_anywhere else find_smallest_set(everybody, is_blocked)
-    raise NoPlanExists([explain_no_room(task.scenario, blocked)])
+    refuse_without_room(task.scenario, blocked)
 
 
 def _search(floor: SingleMoves, most_states: int, deadline: Deadline) -> list[Move] | None:

@@ -80,5 +80,5 @@ def plan_by_lacam(
         time_limit,
     )
     if end == PROVEN_NONE:
-        raise NoPlanExists([Blockage(Fact("no order of moves"), (), (), Fact("give more room"))])
+        raise NoPlanExists([Blockage(Fact("no order of moves"), remedy=Fact("give more room"))])
     return make_tracks(first_visit, vertices, enter) if end == FOUND else None

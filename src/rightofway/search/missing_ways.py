@@ -34,17 +34,15 @@ def _find_legs_without_a_way(
 def find_missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[Blockage]:
     """Yield where robots have no way, and whether parts of the map or one-way edges are why."""
     parts, distances = RoadmapParts(scenario.roadmap), None
-    name_of = scenario.roadmap.name
     for robot in stranded:
-        name, itinerary = scenario.robots[robot].name, scenario.problem.itineraries[robot]
+        itinerary = scenario.problem.itineraries[robot]
         home_part = parts.find_part(itinerary.home)
         stages = dict.fromkeys(stage.vertex for stage in itinerary.stages)
         elsewhere = [vertex for vertex in stages if vertex not in home_part]
         if elsewhere:
-            ends = {"tail": itinerary.home, "head": tuple(elsewhere)}
-            reason = Fact("map in parts", scenario, robot=robot, **ends)
-            vertices = tuple(map(name_of, (itinerary.home, *elsewhere)))
-            yield Blockage(reason, (name,), vertices, Fact("join the parts"))
+            home, apart = itinerary.home, tuple(elsewhere)
+            reason = Fact("map in parts", robot=robot, tail=home, head=apart)
+            yield Blockage(reason, (robot,), (home, *apart), Fact("join the parts"))
             continue
         distances = distances or Distances(scenario.roadmap)
         for tail, head in _find_legs_without_a_way(itinerary, distances):
@@ -56,8 +54,8 @@ def find_missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[B
                 remedy = Fact("drive both ways")
             else:
                 why, remedy = Fact("one-way edges"), Fact("drive more both ways")
-            reason = Fact("no way of robot", scenario, robot=robot, tail=tail, head=head, why=why)
-            yield Blockage(reason, (name,), (name_of(tail), name_of(head)), remedy)
+            reason = Fact("no way of robot", robot=robot, tail=tail, head=head, why=why)
+            yield Blockage(reason, (robot,), (tail, head), remedy)
 
 
 def _describe_barred(

@@ -209,7 +209,6 @@ def measure_room(scenario: Scenario) -> Fraction:
 
 def _make_blockages(scenario: Scenario, no_plan: NoPlanExists, book: PhraseBook) -> FaultsData:
     """Return why there is no plan, as faults with the robots and vertices that they concern."""
-    robot_of = {robot.name: index for index, robot in enumerate(scenario.robots)}
     name, writer = book.add(Phrase("no plan")), FactWriter(scenario)
     return {
         "count": len(no_plan.blockages),
@@ -221,8 +220,8 @@ def _make_blockages(scenario: Scenario, no_plan: NoPlanExists, book: PhraseBook)
                 "reason": book.add(writer.write(blockage.reason)),
                 "remedy": book.add(writer.write(blockage.remedy)),
                 "tick": 0,
-                "robots": [robot_of[name] for name in blockage.robots],
-                "vertices": [int(scenario.roadmap.get_vertex(name)) for name in blockage.vertices],
+                "robots": list(blockage.robots),
+                "vertices": list(map(int, blockage.vertices)),
             }
             for blockage in no_plan.blockages[:LISTED_FAULTS]
         ],
