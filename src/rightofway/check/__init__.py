@@ -7,12 +7,14 @@ from __future__ import annotations
 
 from itertools import chain
 
+from rightofway.check.batteries import judge_batteries
 from rightofway.check.closures import judge_barred, judge_closures
 from rightofway.check.conflicts import judge_bookings, judge_rotations, judge_swaps
 from rightofway.check.faults import Fault, FaultGroup, FaultKind, Report, make_report
 from rightofway.check.space import judge_space
 from rightofway.check.tracks import judge_drives, judge_stops, judge_trips, judge_turns
 from rightofway.check.visits import lay_out_visits
+from rightofway.check.work import judge_work
 from rightofway.check.zones import judge_zones
 from rightofway.kinds.arguments import checks_arguments
 from rightofway.kinds.table import make_whole
@@ -56,6 +58,12 @@ def check(plan: Plan, *, limit: int = 1000) -> Report:
     Robots only drive through a passed vertex. All that such a drive touches, both ends included, is
     booked from the begin of the drive to its end.
 
+    With jobs, a plan names the visit, the begin and the end of all work and charges, and robots may
+    drive anywhere between them. Each job is done whole, in order, by one robot, or is unserved.
+
+    The state of charge of a battery is followed exactly. It falls at the end of each drive, during
+    work, and until the robot rests; in a charge it only rises.
+
     A closure is a booking of nobody without headway; a robot's booking has its own.
     """
     visits = lay_out_visits(plan)
@@ -65,6 +73,8 @@ def check(plan: Plan, *, limit: int = 1000) -> Report:
         judge_turns(visits),
         judge_stops(visits),
         judge_trips(visits),
+        judge_work(visits),
+        judge_batteries(visits),
         judge_bookings(visits),
         judge_swaps(visits),
         judge_rotations(visits),

@@ -34,6 +34,27 @@ FaultKind = Literal[
     "closed",
     "barred",
     "stop at pass",
+    "wrong start",
+    "before ready",
+    "outside visit",
+    "wrong duration",
+    "items overlap",
+    "wrong stop",
+    "wrong load",
+    "too early",
+    "too late",
+    "stop not done",
+    "stop done again",
+    "job divided",
+    "stop order",
+    "wrong robot",
+    "also unserved",
+    "begun unserved",
+    "after unserved",
+    "wrong order",
+    "wrong charger",
+    "low battery",
+    "stranded",
 ]
 """The ways a plan can be wrong.
 
@@ -57,6 +78,27 @@ FaultKind = Literal[
 ``closed``           a robot books a vertex or an edge while that is closed
 ``barred``           a robot drives along an edge that is barred for its type, or into a wall
 ``stop at pass``     a robot stays longer at a passed vertex than it needs to drive through
+``wrong start``      with jobs: the first visit is not where the robot begins, or not from tick 0
+``before ready``     a robot drives, turns, works or charges before it is ready
+``outside visit``    work or a charge is not inside its visit, before its turning and drive
+``wrong duration``   work at a stop takes longer or shorter than it should
+``items overlap``    an item of a tour begins before the end of the item before it
+``wrong stop``       the work of a stop is done at another vertex
+``wrong load``       after a stop the load is negative, or above the capacity
+``too early``        the work of a stop begins before its ``earliest``
+``too late``         the work of a stop ends after its ``latest``
+``stop not done``    a stop of a job is in no tour, and the job is not named as unserved
+``stop done again``  a stop is done twice, or was done before the plan
+``job divided``      several robots do stops of one job
+``stop order``       a stop is done after a later one of its job
+``wrong robot``      a job is done by a robot that may not do it
+``also unserved``    a job is named as unserved, and done
+``begun unserved``   a job that a robot has begun is unserved
+``after unserved``   a job is done that follows an unserved one
+``wrong order``      a job begins before the end of a job that it follows
+``wrong charger``    a robot charges at a vertex where it may not
+``low battery``      the state of charge is below the least one
+``stranded``         a robot rests with too little left for the way to a charging place
 ===================  ===============================================================================
 """
 

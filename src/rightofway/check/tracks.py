@@ -109,6 +109,8 @@ def judge_stops(visits: Visits) -> Iterator[FaultGroup]:
 
 def judge_trips(visits: Visits) -> Iterator[Fault]:
     """Find wrong homes, wrong ends, missed stops and work cut short."""
+    if visits.scenario.jobs is not None:
+        return  # tours are judged instead
     spare = np.maximum(visits.leave - visits.enter - visits.drive - visits.turn, 0).tolist()
     begin = 0
     for robot, track in enumerate(visits.plan.tracks):

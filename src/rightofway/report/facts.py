@@ -210,6 +210,7 @@ class FactWriter:
             "fine_percent": lambda share: mark_figure(f"{share:.1%}"),
             "robot": self.name_robot,
             "robots": lambda robots: join_items(list(map(self.name_robot, robots))),
+            "soc": lambda share: f"{format_decimal(100 * share, 6)} %",
             "rounded": lambda number: mark_figure(f"{number:.3g}"),
             "until": self._write_until,
             "vertex": self.name_vertex,

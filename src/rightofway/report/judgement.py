@@ -68,11 +68,11 @@ def _fill(writer: FactWriter, fault: Fault, part: str) -> Phrase:
     if kind == "jump" and len(set(fault.vertices)) == 1:
         kind = "jump, twice"
     ends = fault.vertices + fault.vertices[:1]
-    values = {
-        "robot": fault.robots[0],
-        "one": fault.robots[0],
-        "other": fault.robots[-1],
-        "robots": fault.robots,
+    values: dict[str, Any] = {"robots": fault.robots}
+    if fault.robots:
+        first, *_, last = (*fault.robots, fault.robots[-1])
+        values |= {"robot": first, "one": first, "other": last}
+    values |= {
         "vertex": ends[0],
         "tail": ends[0],
         "head": ends[1],
@@ -140,6 +140,15 @@ _SHAPES: Mapping[tuple[str, str], Callable[[Values], Values]] = {
         "moment": values["earliest"],
     },
     ("wrong home", "remedy"): lambda _: {"moment": 0},
+    ("wrong start", "remedy"): lambda _: {"moment": 0},
+    ("outside visit", "reason"): lambda values: {
+        "time": _shape_booking(values["since"], values["until"])
+    },
+    ("stranded", "reason"): lambda values: {
+        "way": Fact("no way to charge")
+        if values["least"] is None
+        else Fact("way to charge", least=values["least"])
+    },
     ("wrong end", "remedy"): lambda values: {"vertex": values["end"]},
     ("work cut short", "reason"): _shape_needs,
     ("work cut short", "remedy"): lambda values: {"time": values["missing"]},
