@@ -54,15 +54,17 @@ levels:
     assert "3 vertices, 3 directed edges, 3 of them one-way, 9 x 9 m; 1 place." in ended.out
 
 
-def test_json_has_all_pieces_of_a_note_and_the_text_the_first_five(cli: Cli) -> None:
+def test_json_has_notes_as_facts_with_all_pieces(cli: Cli) -> None:
     text = (LAYOUTS / "hall.lif.json").read_text("utf-8")
     Path("hall.lif.json").write_text(text.replace('"nodeId"', '"region": 1, "nodeId"'), "utf-8")
     data = json.loads(cli("inspect", "hall.lif.json", "--json").out)
-    note = "5 times: rotationAllowed has no effect on plans: A-B, A-B loaded, B-A, A-C and C-A"
-    assert data["pieces"][note] == ["A-B", "A-B loaded", "B-A", "A-C", "C-A"]
-    (note,) = [each for each in data["notes"] if "region" in each]
-    assert note == "4 times: region has no effect on plans: P1, A, B and C"
-    assert set(data["pieces"]) <= set(data["notes"])
+    assert data["what"]["kind"] == "layout"
+    notes = [note["values"] for note in data["notes"] if note["kind"] == "note on pieces"]
+    unused = {"kind": "unused key", "values": {"key": "rotationAllowed"}}
+    repeated = {"kind": "several times", "values": {"count": 5, "repair": unused}}
+    assert {"sentence": repeated, "names": ["A-B", "A-B loaded", "B-A", "A-C", "C-A"]} in notes
+    said = cli("inspect", "hall.lif.json").out
+    assert "4 times: region has no effect on plans: P1, A, B and C" in said
 
 
 def test_all_examples_are_inspected(cli: Cli, door: Path) -> None:

@@ -132,18 +132,13 @@ def _size(given: str | None) -> Fraction | None:
 
 def _data(source: str, sites: Sites, results: list[tuple[str, Site, Inspection]]) -> dict[str, Any]:
     """Return the report for programs."""
-    from rightofway.report.facts import write_note, write_notes
+    from rightofway.report.facts import export_note
     from rightofway.report.inspection import export_finding
 
     return {
         "file": source,
-        "what": write_note(sites.description),
-        "notes": write_notes(sites.notes),
-        "pieces": {
-            write_note(note): write_notes(note.values["names"])
-            for note in sites.notes
-            if note.kind == "note on pieces"
-        },
+        "what": export_note(sites.description),
+        "notes": list(map(export_note, sites.notes)),
         "levels": [
             {
                 "level": name or None,

@@ -287,6 +287,11 @@ def write_note(note: str | Fact) -> str:
     return FactWriter(getattr(note, "about", None)).write(note)
 
 
+def export_note(note: str | Fact) -> FactData:
+    """Return a fact as plain data for JSON, text too."""
+    return FactWriter(getattr(note, "about", None)).export(note)
+
+
 def pack_note(note: str | Fact) -> Any:
     """Return a fact for pages, which write it in their language; text stays as it is."""
     return to_parts(write_note(note))
