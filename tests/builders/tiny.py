@@ -12,7 +12,7 @@ import numpy as np
 
 from rightofway.model import Robot, Rules, Scenario, Stop
 from rightofway.site import VertexId, make_grid_roadmap
-from rightofway.site.passing import unfold
+from rightofway.site.chains import unfold
 from tests.builders.closures import with_closures
 from tests.builders.sizes import crowded_roadmap, has_room, tiny, zoned
 from tests.oracles import joint_space, turning

@@ -9,7 +9,7 @@ from itertools import pairwise
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.site import Edge, Roadmap, VertexId, make_roadmap, passing
+from rightofway.site import Edge, Roadmap, VertexId, chains, make_roadmap
 
 
 def build_roadmap(lanes: Sequence[str], passed: str, *, one_way: bool = False) -> Roadmap:
@@ -110,7 +110,7 @@ def test_an_edge_at_a_passed_vertex_is_one_of_each_chain_on_it() -> None:
 
 def test_where_a_robot_may_stop_next() -> None:
     roadmap = build_roadmap(["ab1", "ap1", "pc1", "pd1"], "p")
-    stops = passing.list_next_stops(roadmap, roadmap.get_vertex("a"))
+    stops = chains.list_next_stops(roadmap, roadmap.get_vertex("a"))
     assert "".join(map(roadmap.name, stops)) == "bcd"
 
 

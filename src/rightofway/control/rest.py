@@ -34,7 +34,7 @@ from rightofway.repair.local_search import LocalSearch
 from rightofway.repair.task import Task
 from rightofway.search import Distances
 from rightofway.site import Roadmap, VertexId
-from rightofway.site.passing import list_next_stops
+from rightofway.site.chains import list_next_stops
 from rightofway.solve import solve
 
 __all__ = ["RestPlanner", "explain_error"]

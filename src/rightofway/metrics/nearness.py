@@ -16,7 +16,7 @@ from rightofway.model.resources import ClosePairs, close_pairs
 from rightofway.site import Roadmap
 from rightofway.site.geometry import measure_squared_distance
 from rightofway.site.walls import reaches_walls
-from rightofway.site.zones import ZoneGuard
+from rightofway.site.zone_guard import ZoneGuard
 
 TOUCHING = Fraction(1, 10**6)
 """Vertices and lanes nearer than this touch, whatever the size of the robots [length unit]."""

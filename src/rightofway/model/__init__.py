@@ -4,7 +4,7 @@ from rightofway.model.booking_rules import BookingRules
 from rightofway.model.closures import Closure, Closures
 from rightofway.model.kept_facts import RerouteReason, Status
 from rightofway.model.lap import Lap, make_lap, make_visits_of_laps
-from rightofway.model.lost_time import Loss, LostTime
+from rightofway.model.lost_time import Loss, LostTime, Wait
 from rightofway.model.outcome import ForcedLoss, Objective, Outcome, OutcomeKind, Proof
 from rightofway.model.plan import (
     Decision,
@@ -14,7 +14,6 @@ from rightofway.model.plan import (
     Reroute,
     RobotPlan,
     StartPlan,
-    Wait,
 )
 from rightofway.model.planned_work import PlannedItem, PlannedTour
 from rightofway.model.problem import Arc, Itinerary, Problem, Stage, compute_least_dwell

@@ -126,3 +126,33 @@ class LostTime:
                 for loss in self.losses
             ],
         }
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Wait:
+    """A robot stands still with nothing to do.
+
+    Attributes
+    ----------
+    robot
+        The robot that waits, by index.
+    vertex
+        Where it waits.
+    tick
+        When it begins: the robot has worked and turned, and might drive on [ticks].
+    ticks
+        How long it lasts [ticks].
+    towards
+        The vertex where the robot goes next.
+    for_robot
+        The robot whose right of way binds the visit of that vertex: the waiting robot books it as
+        soon as that robot is out of the way. None if no right of way does: then the reason lies
+        further on the route.
+    """
+
+    robot: int
+    vertex: VertexId
+    tick: Tick
+    ticks: Tick
+    towards: VertexId
+    for_robot: int | None

@@ -22,7 +22,7 @@ from rightofway.kinds.table import (
 )
 from rightofway.model.figures import get_figures
 from rightofway.model.kept_facts import RerouteReason, Status
-from rightofway.model.lost_time import LostTime
+from rightofway.model.lost_time import LostTime, Wait
 from rightofway.model.outcome import ForcedLoss, Objective, Outcome
 from rightofway.model.passing import unfold_tracks
 from rightofway.model.planned_work import (
@@ -221,36 +221,6 @@ class RobotPlan:
     def __repr__(self) -> str:
         trip = f"{len(self.vertices)} visits from {self.vertices[0]} to {self.vertices[-1]}"
         return f"RobotPlan({self.robot.name!r}, {trip}, completed at tick {self.completion})"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Wait:
-    """A robot stands still with nothing to do.
-
-    Attributes
-    ----------
-    robot
-        The robot that waits, by index.
-    vertex
-        Where it waits.
-    tick
-        When it begins: the robot has worked and turned, and might drive on [ticks].
-    ticks
-        How long it lasts [ticks].
-    towards
-        The vertex where the robot goes next.
-    for_robot
-        The robot whose right of way binds the visit of that vertex: the waiting robot books it as
-        soon as that robot is out of the way. None if no right of way does: then the reason lies
-        further on the route.
-    """
-
-    robot: int
-    vertex: VertexId
-    tick: Tick
-    ticks: Tick
-    towards: VertexId
-    for_robot: int | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

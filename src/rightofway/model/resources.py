@@ -29,7 +29,8 @@ from rightofway.errors import InputError, quote
 from rightofway.facts import Fact
 from rightofway.site import Roadmap, measure_squared_distance
 from rightofway.site.nearness import Lines, PointGrid
-from rightofway.site.zones import Zone, ZoneGuard
+from rightofway.site.zone_guard import ZoneGuard
+from rightofway.site.zones import Zone
 
 RADIUS_STEP = Fraction(1, 10**6)
 """The radius of a robot that is given by length and width is rounded up to this [length unit]."""

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from rightofway.deadline import READING, limit_loop
 from rightofway.errors import InputError, quote
 from rightofway.kinds.table import NAMES, NUMBER, TYPE_SPEEDS, TypeSpeeds, allow_none, coerce_fields
+from rightofway.site.chains import unfold
 from rightofway.site.geometry import Frame, VertexId, find_fractions
-from rightofway.site.passing import unfold
 from rightofway.site.roadmap import EdgeClass, Lane, Roadmap
 from rightofway.site.zones import NamedZone, number_zones
 

@@ -16,7 +16,7 @@ from rightofway.kinds.table import TypeSpeeds
 from rightofway.site.clustering import Obstacle
 from rightofway.site.drawing import Drawing
 from rightofway.site.geometry import Frame, Point, VertexId, read_shortest
-from rightofway.site.passing import Passing, fold
+from rightofway.site.passing import Passing
 from rightofway.site.zones import Zone
 
 WHOLE = (int, np.int32, np.int64)
@@ -329,8 +329,25 @@ class Roadmap:
         return int(self.passing.drawn[vertex])
 
     def fold(self) -> Roadmap:
-        """Return the roadmap as it is drawn, with edges to passed vertices and without chains."""
-        return fold(self)
+        """Return a roadmap as it is drawn, with edges to passed vertices and without chains.
+
+        No plan may be made on it: nothing keeps robots from a stop at a passed vertex.
+        """
+        passing = self.passing
+        if passing is None or self.heads is passing.heads:
+            return self
+        n = passing.n_drawn
+        return replace(
+            self,
+            indptr=passing.indptr,
+            heads=passing.heads,
+            class_of_edge=passing.class_of_edge,
+            positions=self.positions[:n],
+            labels=None if self.labels is None else self.labels[:n],
+            fractions={at: point for at, point in self.fractions.items() if at < n},
+            sides=None if self.sides is None else self.sides[:n],
+            passing=replace(passing, chains=(), drawn=passing.drawn[:n]),
+        )
 
     @checks_arguments
     def unfold_route(self, vertices: Sequence[int]) -> list[VertexId]:
