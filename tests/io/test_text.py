@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from rightofway.errors import InputError
-from rightofway.io.collector import pause_garbage_collection
+from rightofway.io.collector import FEW, pause_garbage_collection
 from rightofway.io.content import read_text
 from rightofway.io.json_text import parse_json
 from rightofway.io.layouts import read_layout
@@ -131,12 +131,22 @@ def test_garbage_is_collected_after_a_file_as_before_also_a_wrong_one(
         gc.enable()
 
 
+def test_a_small_file_is_read_without_a_count_of_what_is_frozen(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The count goes through all objects that a program has frozen, 20 ms in a long-lived one."""
+    monkeypatch.setattr(gc, "get_freeze_count", lambda: pytest.fail("it counts"))
+    with pause_garbage_collection():
+        made = [[] for _ in range(1000)]  # type: ignore[var-annotated]
+    assert len(made) == 1000
+
+
 def test_the_collector_does_not_look_at_all_that_was_made_while_it_paused(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(gc, "get_freeze_count", lambda: 0)  # the tests have frozen their modules
     with pause_garbage_collection():
-        made = [[] for _ in range(10_000)]  # type: ignore[var-annotated]
+        made = [[] for _ in range(2 * FEW)]  # type: ignore[var-annotated]
     n_young = gc.get_count()[0]
     gc.freeze()
     assert n_young < len(made) / 10
