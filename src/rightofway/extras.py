@@ -11,7 +11,7 @@ from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from rightofway.errors import InputError, describe_error, quote
-from rightofway.kinds.table import get_value
+from rightofway.kinds.table import make_words
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
@@ -42,7 +42,7 @@ def need(library: str, purpose: str) -> None:
     purpose
         The feature that needs it, for the message.
     """
-    extra = get_value(EXTRAS, library, "library")
+    extra = EXTRAS[make_words(*sorted(EXTRAS)).read_at("library", library)]
     if find_spec(library) is None:
         remedy = f"pip install 'rightofway[{extra}]'"
         raise InputError.at("", f"{purpose} needs {library} ({remedy})")

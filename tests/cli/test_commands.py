@@ -217,7 +217,10 @@ def test_time_that_runs_out_ends_with_3(cli: Cli) -> None:
         (["plan", EXAMPLES / "door.yaml", "--option", "swaps"], "'swaps' is not name=value"),
         (["plan", EXAMPLES / "door.yaml", "--time-limit", "0"], "0 is not positive (give"),
         (["plan", "nowhere.yaml", "--time-limit", "soon"], "'soon' is not a number (give seconds"),
-        (["plan", "nowhere.yaml", "--seed", "x"], "x is no seed (give a number from 0 to"),
+        (
+            ["plan", "nowhere.yaml", "--seed", "x"],
+            "'x' does not fit (give a whole number from 0 to",
+        ),
         (["plan", "nowhere.yaml", "-k", "0"], "0 does not fit (give a whole number of 1 or more)"),
         (["paper", "12"], "12 does not fit (give a whole number from 1 to 11)"),
         (["plan", EXAMPLES / "door.yaml", "--time-limit", "nan"], "nan is not positive (give"),

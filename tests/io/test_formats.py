@@ -91,5 +91,5 @@ def test_a_wrong_value_does_not_fit(key: str, value: Any) -> None:
 
 
 def test_there_is_no_schema_of_anything_else() -> None:
-    with pytest.raises(InputError, match=r"kind: 'fleet' is unknown \(give plan, scenario"):
+    with pytest.raises(InputError, match=r"kind: 'fleet' is unknown \(give plan, scenario or"):
         make_schema("fleet")  # type: ignore[arg-type]

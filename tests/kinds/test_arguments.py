@@ -61,10 +61,11 @@ def fits(kind: Kind[Any], value: object) -> bool:
         (rw.Scenario, [DOOR], [DOOR.roadmap, None, "door.yaml"]),
         (list[int], [[1], (1, 2), np.array([1])], [[1, "a"], "ab", {1: 2}, {1}, iter([1]), 1]),
         (tuple[str, str], [("a", "b")], [("a",), "ab", None]),
-        (dict[str, int], [{"a": 1}], [{"a": "b"}, [("a", 1)], None]),
+        (dict[str, int], [{"a": 1}], [[("a", 1)], "ab", None]),
         (tuple[str, int], [("a", 1)], [("a", "b"), (1, 1), ("a",), {"a": 1}]),
-        (Iterable[int], [[1], {1}, iter(["a"])], ["ab", {1: 1}, [1, "a"]]),
+        (Iterable[int], [[1], {1}, iter(["a"])], ["ab", {1: 1}, 1]),
         (Fraction, [1, 0.5, "1/3", Fraction(1, 3)], [True, "half", float("nan"), None]),
+        (Any, [1, None, [object()]], []),
         (Callable[[int], int], [abs], [1, "abs"]),
     ],
 )

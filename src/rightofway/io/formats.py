@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, Literal
 
 from rightofway.errors import InputError, find_nearest, quote
-from rightofway.kinds.table import get_value
+from rightofway.kinds.table import make_words
 
 SCENARIO_FORMAT = "rightofway-scenario/1"
 PLAN_FORMAT = "rightofway-plan/1"
@@ -72,7 +72,7 @@ def make_schema(kind: Literal["scenario", "plan", "suite"]) -> dict[str, Any]:
         "plan": PlanDocument,
         "suite": SuiteDocument,
     }
-    model = get_value(models, kind, "kind")
+    model = models[make_words(*sorted(models)).read_at("kind", kind)]
     dialect = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
     return {**dialect, **_without_titles(model.model_json_schema())}
 

@@ -21,7 +21,7 @@ from fractions import Fraction
 from typing import Any
 
 from rightofway.io.json_text import format_json_line
-from rightofway.kinds.table import get_value
+from rightofway.kinds.table import make_words
 from rightofway.metrics.events import list_events
 from rightofway.model import Plan, Stays, Track
 
@@ -73,7 +73,8 @@ def format_site_plan(plan: Plan, name: str) -> tuple[str, tuple[str, ...]]:
     tuple
         The text, and what had to be assumed, a sentence each.
     """
-    return get_value(SITE_PLAN_FORMATS, name, "name").write(plan), tuple(_list_assumed(plan, name))
+    name = make_words(*sorted(SITE_PLAN_FORMATS)).read_at("name", name)
+    return SITE_PLAN_FORMATS[name].write(plan), tuple(_list_assumed(plan, name))
 
 
 def _list_assumed(plan: Plan, name: str) -> Iterator[str]:

@@ -139,7 +139,7 @@ def is_whole(value: object) -> TypeGuard[int]:
 
 def make_kind(
     name: str,
-    holds: Callable[[Any], bool],
+    holds: Callable[[Any], bool] | type | tuple[type, ...],
     fault: str = "does not fit",
     *,
     remedy: str = "",
@@ -147,27 +147,16 @@ def make_kind(
     convert: Callable[[Any], Any] = lambda value: value,
     schema: Schema | None = None,
 ) -> Kind[Any]:
-    """Return the kind of the values for which a condition holds.
+    """Return the kind of the values of classes, or of those for which a condition holds.
 
-    Parameters
-    ----------
-    name
-        A noun phrase with its article, for "give …".
-    holds
-        The condition on the value that ``base`` returned.
-    fault
-        The predicate of the message on other values.
-    remedy
-        The words in brackets; "give" and the name by default.
-    base, convert
-        The reader before the condition, and the conversion to the one type after it.
-    schema
-        The JSON Schema.
+    The message on another value is its ``fault`` and, in brackets, the ``remedy``. ``base`` reads a
+    value before the condition, ``convert`` makes the one type after it.
     """
 
     def read(value: object) -> Any:
         result = base(value)
-        if not holds(result):
+        fits = isinstance(result, holds) if isinstance(holds, type | tuple) else holds(result)
+        if not fits:
             raise ValueError(f"{quote(value)} {fault} ({remedy or f'give {name}'})")
         return convert(result)
 
@@ -264,8 +253,7 @@ def make_class(kind: type[T]) -> Kind[T]:
     """Return the kind of the objects of a class."""
     noun = kind.__name__
     name = f"an {noun}" if noun[0] in "AEIO" else f"a {noun}"
-    remedy = REMEDIES.get(noun, "")
-    return make_kind(name, lambda value: isinstance(value, kind), f"is no {noun}", remedy=remedy)
+    return make_kind(name, kind, f"is no {noun}", remedy=REMEDIES.get(noun, ""))
 
 
 def allow_none(kind: Kind[T]) -> Kind[T | None]:
@@ -337,30 +325,30 @@ def mapping_of(kind: Kind[T], *, in_order: bool = False) -> Kind[tuple[tuple[str
     return Kind(name, {}, read)
 
 
-ANYTHING = make_kind("anything", lambda _: True)
+STRING: Schema = {"type": "string"}
+
+ANYTHING = make_kind("anything", object)
 TRUTH = make_kind(
     "true or false",
-    lambda value: isinstance(value, bool | np.bool_),
+    (bool, np.bool_),
     "is neither true nor false",
     convert=bool,
     schema={"type": "boolean"},
 )
-TEXT = make_kind(
-    "text", lambda value: isinstance(value, str), "is no text", schema={"type": "string"}
-)
+TEXT = make_kind("text", str, "is no text", schema=STRING)
 NAME = make_kind(
     "text",
     lambda value: isinstance(value, str) and is_printable(value),
     "is no name",
     remedy="give characters that can be printed",
-    schema={"type": "string", "minLength": 1},
+    schema=STRING | {"minLength": 1},
 )
 LINE = make_kind(
     "text",
     lambda value: isinstance(value, str) and (not value or is_printable(value)),
     "cannot be shown",
     remedy="give printable text on one line",
-    schema={"type": "string"},
+    schema=STRING,
 )
 NAMES = make_kind(
     "a list of texts",
@@ -371,7 +359,7 @@ NAMES = make_kind(
     "are no names",
     convert=frozenset,
 )
-PATH = make_kind("a path", lambda value: isinstance(value, str | os.PathLike), "is no path")
+PATH = make_kind("a path", (str, os.PathLike), "is no path")
 FUNCTION = make_kind("a function", callable, "is no function")
 
 COUNT = make_whole(1)
@@ -473,16 +461,3 @@ def require_one_for_each(robots: Any, **lists: Any) -> None:
     ]
     if faults:
         raise InputError(faults)
-
-
-def get_value(table: Mapping[str, U], key: str, place: str) -> U:
-    """Return the value of a key.
-
-    Raises
-    ------
-    InputError
-        If the table has no such key.
-    """
-    if key not in table:
-        raise InputError.at(place, f"{quote(key)} is unknown (give {', '.join(sorted(table))})")
-    return table[key]

@@ -12,7 +12,7 @@ from rightofway.io.content import read_text
 from rightofway.io.foreign import lacam, lns2, planviz, schedule
 from rightofway.io.foreign.trajectories import ForeignPlan, plan_of_trajectories
 from rightofway.io.locations import add_lines
-from rightofway.kinds.table import get_value
+from rightofway.kinds.table import make_words
 from rightofway.model import Plan
 
 
@@ -128,4 +128,4 @@ def format_foreign(plan: Plan, name: str) -> str:
     InputError
         If the name is unknown, or the roadmap is no grid.
     """
-    return get_value(FOREIGN_FORMATS, name, "name").write(plan)
+    return FOREIGN_FORMATS[make_words(*sorted(FOREIGN_FORMATS)).read_at("name", name)].write(plan)

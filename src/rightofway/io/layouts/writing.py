@@ -14,7 +14,7 @@ from typing import Any
 from rightofway.errors import InputError
 from rightofway.facts import Fact
 from rightofway.io.json_text import format_json_line
-from rightofway.kinds.table import get_value
+from rightofway.kinds.table import make_words
 from rightofway.site.geometry import Point, measure_squared_distance
 from rightofway.site.lane_table import LayoutEdge
 from rightofway.site.layout import Layout, LayoutVertex, Level, name_lanes
@@ -68,7 +68,7 @@ def format_layout(layout: Layout, name: str) -> tuple[str, tuple[Fact, ...]]:
     InputError
         If the name is unknown, or the layout has several levels and the format knows one.
     """
-    writer = get_value(LAYOUT_WRITERS, name, "name")
+    writer = LAYOUT_WRITERS[make_words(*sorted(LAYOUT_WRITERS)).read_at("name", name)]
     if len(layout.levels) > 1 and "levels" not in writer.says:
         message = f"{len(layout.levels)} levels, and {name} knows one (write lif or open-rmf)"
         raise InputError.at("", message)
