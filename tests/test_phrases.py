@@ -1,76 +1,147 @@
-"""Sentences that keep template and values; every one that pages translate has its German."""
+"""Phrases, and the texts of each language: the same kinds, values and labels in all."""
 
 from __future__ import annotations
 
 import ast
 import copy
-import inspect
 import json
 import re
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from rightofway.errors import join_names
-from rightofway.languages import read_tables
-from rightofway.phrases import Phrase, chain_items, join_items, say_count, to_parts
-from rightofway.report.facts import list_template_texts
+from rightofway.languages import LANGUAGES, VALUE, list_names, read_texts
+from rightofway.model import Objective
+from rightofway.phrases import Phrase, join_items, to_parts
+from tests.builders.languages import say, translate
 from tests.builders.sources import SOURCES, parse_modules
 
-VALUE = re.compile(r"\{(\w+)\}")
+DATA = Path(__file__).parent / "data"
 
 
-TERMINAL = {
-    *("report/driving.py", "report/execution.py", "report/inspection.py"),
-    *("report/laps.py", "report/plan.py"),
-}
-"""Reports of the command line, which speaks English, as ``cli`` and commands of rooms do."""
+@pytest.mark.parametrize("case", json.loads((DATA / "templates.json").read_text("utf-8")))
+def test_a_phrase_has_the_text_that_pages_make_of_it(case: dict[str, Any]) -> None:
+    phrase = say(case["phrase"])
+    assert (phrase, to_parts(phrase), translate(phrase)) == (
+        case["en"],
+        case["phrase"],
+        case["de"],
+    )
 
 
-def is_shown_by_pages(path: Path) -> bool:
-    """Return whether sentences of a module can be on a page, in the studio or in the live view."""
-    name = path.relative_to(SOURCES).as_posix()
-    return name not in TERMINAL and not name.startswith("cli/") and "/command_line" not in name
+def list_templates(node: Any, path: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield each template of a tree of texts, with the keys that lead to it."""
+    is_table = isinstance(node, dict) and all(isinstance(node[key], str) for key in node)
+    if isinstance(node, str) or (is_table and "other" in node):
+        yield path, node
+    elif isinstance(node, dict | list):
+        pairs = node.items() if isinstance(node, dict) else enumerate(node)
+        for key, each in pairs:
+            yield from list_templates(each, f"{path}.{key}")
+
+
+@pytest.mark.parametrize("section", ["facts", "page", "studio"])
+@pytest.mark.parametrize("language", LANGUAGES[1:])
+def test_each_text_has_a_translation_with_the_same_values(language: str, section: str) -> None:
+    english = {key: list_names(text) for key, text in list_templates(read_texts()[section])}
+    texts = dict(list_templates(read_texts(language)[section]))
+    forms = {form for text in texts.values() for _, form in VALUE.findall(str(text))}
+    others = {f".{form}" for form in forms} - english.keys()  # cases of nouns, for example
+    names = {key: list_names(text) for key, text in texts.items() if key not in others}
+    assert {key: set(each) - {"number"} for key, each in names.items()} == {
+        key: set(each) - {"number"} for key, each in english.items()
+    }
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_no_key_is_twice_in_a_file_of_texts(language: str) -> None:
+    def refuse_repeats(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        assert len(dict(pairs)) == len(pairs), [key for key, _ in pairs]
+        return dict(pairs)
+
+    text = (SOURCES / "texts" / f"{language}.json").read_text("utf-8")
+    json.loads(text, object_pairs_hook=refuse_repeats)
 
 
 @cache
-def templates() -> frozenset[str]:
-    """Return the templates of all phrases that pages show."""
-    return frozenset(_templates())
+def list_constants() -> frozenset[str]:
+    """Return the texts in the code of the package."""
+    return frozenset(
+        node.value
+        for module in parse_modules().values()
+        for node in ast.walk(module)
+        if isinstance(node, ast.Constant) and isinstance(node.value, str)
+    )
 
 
-def _templates() -> Iterator[str]:
-    yield from list_template_texts()
-    yield inspect.signature(chain_items).parameters["template"].default
-    for path, module in parse_modules().items():
-        if not is_shown_by_pages(path):
-            continue
-        for node in ast.walk(module):
-            if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Name)):
-                continue
-            texts = [str(each.value) for each in node.args if isinstance(each, ast.Constant)]
-            if node.func.id in {"Phrase", "chain_items"}:
-                yield from texts
-            elif node.func.id == "say_count" and len(texts) > 1:
-                yield from (f"{{number}} {text}" for text in texts)
+@cache
+def list_patterns() -> frozenset[str]:
+    """Return patterns of the texts that code makes of parts."""
+    return frozenset(
+        "".join(
+            re.escape(part.value) if isinstance(part, ast.Constant) else ".+"
+            for part in node.values
+        )
+        for module in parse_modules().values()
+        for node in ast.walk(module)
+        if isinstance(node, ast.JoinedStr) and len(node.values) > 1
+    )
 
 
-@pytest.mark.parametrize("language", read_tables())
-def test_every_phrase_that_pages_show_has_its_translation(language: str) -> None:
-    assert templates() - set(read_tables()[language]) == set()
+def test_each_kind_of_fact_is_one_that_code_names_and_code_names_no_other() -> None:
+    kinds = read_texts()["facts"]
+    texts = [text for _, text in list_templates(kinds)]
+    forms = {
+        form
+        for tree in (texts, read_texts()["page"], read_texts()["studio"])
+        for _, text in list_templates(tree)
+        for _, form in VALUE.findall(str(text))
+    }
+    faults = {kind for kind in kinds if kind.rpartition(": ")[2] in {"name", "reason", "remedy"}}
+    known = list_constants() | forms | {*Objective}
+    made = {
+        kind
+        for kind in kinds.keys() - faults - known
+        if any(re.fullmatch(pattern, kind) for pattern in list_patterns())
+    }
+    assert kinds.keys() - faults - known - made == set()
+    assert {kind.rpartition(": ")[0] for kind in faults} <= known
+    named = {
+        node.args[0].value
+        for module in parse_modules().values()
+        for node in ast.walk(module)
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") in {"Phrase", *FACTS}
+        if node.args and isinstance(node.args[0], ast.Constant)
+    }
+    assert named - kinds.keys() == set()
 
 
-@pytest.mark.parametrize("language", read_tables())
-def test_no_translation_is_left_of_a_phrase_that_no_page_shows(language: str) -> None:
-    assert set(read_tables()[language]) - templates() == set()
+COMPUTED = re.compile(r"^\.examples\.")
+"""Labels whose keys are names of files."""
 
 
-@pytest.mark.parametrize("language", read_tables())
-def test_a_translation_has_the_values_of_its_template(language: str) -> None:
-    for template, text in read_tables()[language].items():
-        assert sorted(VALUE.findall(template)) == sorted(VALUE.findall(text)), template
+@cache
+def read_scripts() -> str:
+    """Return the scripts and the markup of the page and of the studio."""
+    folders = SOURCES / "viz/page/assets", SOURCES / "studio/assets"
+    paths = [path for folder in folders for path in sorted(folder.rglob("*.js"))]
+    return "\n".join(path.read_text("utf-8") for path in paths if "vendor" not in path.parts)
+
+
+@pytest.mark.parametrize("section", ["page", "studio"])
+def test_each_label_is_one_that_a_script_names(section: str) -> None:
+    words = {*re.findall(r"\w+", read_scripts()), *list_constants()}
+    unused = [
+        path
+        for path, _ in list_templates(read_texts()[section])
+        if not COMPUTED.search(path)
+        and not {key for key in path.split(".") if key.isidentifier()} <= words
+    ]
+    assert unused == []
 
 
 OTHER_WORDS = {
@@ -86,16 +157,9 @@ OTHER_WORDS = {
 }
 """Second words for things of the glossary, with the words that it has for them."""
 
-GERMAN_TEXTS = (
-    "texts/de.json",
-    "viz/page/assets/texts/de.js",
-    "studio/assets/words/de.js",
-)
 
-
-@pytest.mark.parametrize("name", GERMAN_TEXTS)
-def test_the_german_texts_have_one_word_for_one_thing(name: str) -> None:
-    text = (SOURCES / name).read_text("utf-8")
+def test_the_german_texts_have_one_word_for_one_thing() -> None:
+    text = (SOURCES / "texts/de.json").read_text("utf-8")
     found = {
         match[0]: word for other, word in OTHER_WORDS.items() for match in re.finditer(other, text)
     }
@@ -103,17 +167,17 @@ def test_the_german_texts_have_one_word_for_one_thing(name: str) -> None:
 
 
 def test_a_phrase_is_its_text_and_keeps_template_and_values() -> None:
-    phrase = Phrase("{place} holds {robots}", place="{N1}", robots=say_count(2, "robot", "robots"))
-    assert phrase == "{N1} holds 2 robots"
-    assert json.loads(json.dumps(phrase)) == "{N1} holds 2 robots"
+    phrase = Phrase("reason and remedy", reason=Phrase("n_laps", number="2"), remedy="{N1}")
+    assert phrase == "2 laps ({N1})"
+    assert json.loads(json.dumps(phrase)) == "2 laps ({N1})"
     assert to_parts(phrase) == [
-        "{place} holds {robots}",
-        {"place": "{N1}", "robots": ["{number} robots", {"number": "2"}]},
+        "reason and remedy",
+        {"reason": ["n_laps", {"number": "2"}], "remedy": "{N1}"},
     ]
 
 
 def test_a_copy_of_a_phrase_keeps_its_values() -> None:
-    phrase = Phrase("station {name}", name="Dock")
+    phrase = Phrase("named station", name="Dock")
     assert to_parts(copy.deepcopy(phrase)) == to_parts(phrase)
 
 
@@ -144,8 +208,14 @@ FACTS = {"Fact", "Status", "RerouteReason"}
 REFUSED = {"message", "remedy", "hint", "fault"}
 """Names of variables for the parts of an error."""
 
+TERMINAL = {
+    *("report/driving.py", "report/execution.py", "report/inspection.py"),
+    *("report/laps.py", "report/plan.py"),
+}
+"""Reports of the command line, which speaks English."""
+
 MOST_LITERALS = {"planners": 11, "report": 0}
-"""How many parts of errors and help a room makes in other ways; the numbers may only fall."""
+"""How many parts of errors a room makes in other ways; the numbers may only fall."""
 
 
 def literals_for_people(node: ast.AST) -> Iterator[str]:
@@ -179,10 +249,11 @@ def is_exempt(node: ast.AST) -> bool:
 
 
 @pytest.mark.parametrize("room", MOST_LITERALS)
-def test_what_a_room_says_to_people_is_a_phrase(room: str) -> None:
+def test_each_sentence_of_a_room_that_pages_show_is_a_phrase(room: str) -> None:
     literals = [
         f"{path.relative_to(SOURCES)}: {text}"
         for path, module in parse_modules(SOURCES / room).items()
+        if path.relative_to(SOURCES).as_posix() not in TERMINAL
         for function in ast.walk(module)
         if isinstance(function, ast.FunctionDef)
         for text in literals_for_people(function)

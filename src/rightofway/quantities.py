@@ -11,7 +11,7 @@ from fractions import Fraction
 
 from rightofway.errors import InputError, quote
 from rightofway.kinds.arguments import checks_arguments
-from rightofway.phrases import Phrase, mark_figure, say_count
+from rightofway.phrases import Phrase, mark_figure
 from rightofway.units import DIGITS, Units, Value, round_half_up, write_decimal
 
 __all__ = ["Quantities", "format_decimal"]
@@ -73,21 +73,21 @@ class Quantities:
     def format_duration(self, ticks: Value) -> str:
         """Return how long a number of ticks lasts: ``6 min 23 s``, ``2 time units``."""
         if self.in_ticks:
-            return say_count(format_decimal(ticks), "tick", "ticks")
+            return Phrase("n_ticks", number=mark_figure(format_decimal(ticks)))
         time = self._time(ticks)
         seconds = self.units.seconds
         if seconds is None:
-            return say_count(format_decimal(time), "time unit", "time units")
+            return Phrase("n_time_units", number=mark_figure(format_decimal(time)))
         return mark_figure(self._clock(time * seconds))
 
     @checks_arguments
     def format_moment(self, ticks: Value) -> str:
         """Return a point in time: ``6 min 23 s`` after the start, ``time 2``, ``tick 4``."""
         if self.in_ticks:
-            return Phrase("tick {tick}", tick=format_decimal(ticks))
+            return Phrase("moment in ticks", tick=format_decimal(ticks))
         if self.units.time:
             return self.format_duration(ticks)
-        return Phrase("time {time}", time=self.format_cell(ticks))
+        return Phrase("moment", time=self.format_cell(ticks))
 
     @checks_arguments
     def format_cell(self, ticks: Value) -> str:
@@ -103,16 +103,16 @@ class Quantities:
     def format_heading(self, words: str) -> str:
         """Return the heading of a column of times: ``completes [s]``."""
         if self.in_ticks:
-            return Phrase("{heading} [ticks]", heading=words)
+            return Phrase("heading in ticks", heading=words)
         unit = self.time_unit
-        return Phrase("{heading} [{unit}]", heading=words, unit=unit) if unit else words
+        return Phrase("heading with unit", heading=words, unit=unit) if unit else words
 
     @checks_arguments
     def format_length(self, value: Value) -> str:
         """Return a length: ``0.45 m``, ``0.45 length units``."""
         if self.units.length:
             return mark_figure(self.units.write_length(value))
-        return say_count(format_decimal(value), "length unit", "length units")
+        return Phrase("n_length_units", number=mark_figure(format_decimal(value)))
 
     @checks_arguments
     def format_speed(self, value: Value) -> str:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import re
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
-from rightofway.languages import read_tables
+from rightofway.languages import VALUE, choose_text, list_values, read_texts
 from rightofway.phrases import Phrase
 
 if TYPE_CHECKING:
@@ -59,6 +61,39 @@ def english_on(viewer: Viewer) -> list[str]:
     return found
 
 
+def say(phrase: Any) -> str:
+    """Return plain data of a phrase as the phrase.
+
+    Parameters
+    ----------
+    phrase
+        Text, or a kind and values, as `rightofway.phrases.to_parts` returns them.
+    """
+    if isinstance(phrase, str):
+        return phrase
+    kind, values = phrase
+    return Phrase(kind, **{name: say(value) for name, value in values.items()})
+
+
+def read_entry(entries: Sequence[Any], index: int) -> str:
+    """Return a phrase of a page by its index.
+
+    Parameters
+    ----------
+    entries
+        Those of `rightofway.phrases.PhraseBook`.
+    index
+        The index of a text or a phrase.
+    """
+    entry = entries[index]
+    if isinstance(entry, str):
+        return entry
+    kind, *values = entry
+    names = list_values(entries[kind])
+    texts = (read_entry(entries, value) for value in values)
+    return Phrase(entries[kind], **dict(zip(names, texts, strict=True)))
+
+
 def translate(text: str) -> str:
     """Return a phrase in German, as pages show it.
 
@@ -67,7 +102,18 @@ def translate(text: str) -> str:
     text
         Text for people; text that is no phrase is returned as it is.
     """
-    if not isinstance(text, Phrase):
-        return str(text)
-    template = read_tables()["de"][text.template]
-    return template.format(**{name: translate(value) for name, value in text.values.items()})
+    return _translate(text, text.kind) if isinstance(text, Phrase) else str(text)
+
+
+def _translate(phrase: Phrase, kind: str) -> str:
+    facts, values = read_texts("de")["facts"], phrase.values
+    if kind == "figure":
+        return values["figure"].replace(".", ",").replace("%", " %")
+
+    def write(match: re.Match[str]) -> str:
+        value, form = values[match[1]], match[2]
+        if form and form.startswith("n_") and isinstance(value, Phrase):
+            return _translate(value, form)
+        return translate(value)
+
+    return VALUE.sub(write, choose_text(facts[kind], values))

@@ -227,5 +227,7 @@ def payload_text_in(page: str) -> str:
 
 
 def payload_in(page: str) -> Any:
-    """Return the data that a page was written with."""
-    return json.loads(payload_text_in(page))
+    """Return the data that a page was written with, without its texts."""
+    payload = json.loads(payload_text_in(page))
+    del payload["texts"]
+    return payload

@@ -8,14 +8,15 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
+from textwrap import indent
 from typing import Any
 
 from pydantic import TypeAdapter
 
-from rightofway.facts import Fact
 from rightofway.kinds.numbers import format_number
+from rightofway.languages import list_names, read_texts
 from rightofway.model.robot import ROBOT_ATTRIBUTES
 from rightofway.viz.page.schema import InspectionPayload, Payload
 from tests.builders.api_types import api_types
@@ -39,7 +40,7 @@ def robot_attributes() -> str:
     rows = []
     for it in ROBOT_ATTRIBUTES:
         usual = str(format_number(it.default)) if it.default else "\N{EN DASH}"
-        words = {part: str(Fact(f"{part} of {it.key}")) for part in ("title", "hint")}
+        words = {part: f"{part} of {it.key}" for part in ("title", "hint")}
         parts = {"isText": it.is_text, **words, "usual": usual}
         lines = (
             f"    {key}: {json.dumps(value, ensure_ascii=False)},\n" for key, value in parts.items()
@@ -53,8 +54,47 @@ def robot_attributes() -> str:
     )
 
 
+def label_types() -> str:
+    """Return the types of the labels of the page and of the studio."""
+    texts = read_texts()
+    return (
+        "// Generated from texts/en.json: change it there, then run `just types-refresh`.\n\n"
+        'import type { Value } from "./templates.js";\n\n'
+        "/** The text of a template with values. */\n"
+        "type Text<Name extends string> = (values: Record<Name, Value>) => string;\n"
+        "type Texts<Name extends string> = (values: Record<Name, Value>) => string[];\n\n"
+        f"export interface PageTexts {_type_of_label(texts['page'])}\n\n"
+        f"export interface StudioTexts {_type_of_label(texts['studio'])}\n"
+    )
+
+
+def _type_of_label(node: Any) -> str:
+    """Return the type of a label as ``labelsOf`` of ``templates.js`` makes it."""
+    if isinstance(node, list) and isinstance(node[0], list):
+        return "string[][]"
+    if isinstance(node, list):
+        names = [*dict.fromkeys(name for each in node for name in list_names(each))]
+        return _type_of_function(names, "Texts") if names else "string[]"
+    if isinstance(node, str) or "other" in node:
+        names = list_names(node)
+        return _type_of_function(names, "Text") if names else "string"
+    rows = [
+        f"{key if key.isidentifier() else json.dumps(key)}: {_type_of_label(each)};"
+        for key, each in node.items()
+    ]
+    kinds = {_type_of_label(each) for each in node.values()}
+    if len(kinds) == 1 and "<" not in (kind := kinds.pop()):  # modules compute keys
+        rows.append(f"[key: string]: {kind};")
+    return "{\n" + indent("\n".join(rows), "  ") + "\n}"
+
+
+def _type_of_function(names: Sequence[str], result: str) -> str:
+    return f"{result}<{' | '.join(map(json.dumps, names))}>"
+
+
 FILES: dict[str, Callable[[], str]] = {
     "src/rightofway/viz/page/assets/payload.d.ts": payload_types,
+    "src/rightofway/viz/page/assets/language/texts.d.ts": label_types,
     "src/rightofway/studio/assets/api_types.d.ts": api_types,
     "src/rightofway/studio/assets/robots/attributes.js": robot_attributes,
 }

@@ -64,7 +64,16 @@ def test_the_version_needs_no_room_and_no_library_but_click() -> None:
     loaded = imported_by("--version")
     assert not loaded & {*HEAVY, "numpy", "pydantic", "yaml", "rightofway._core"}
     rooms = {name.split(".")[1] for name in loaded if name.startswith("rightofway.")}
-    assert rooms <= {"cli", "deadline", "errors", "facts", "figures", "phrases", "provision"}
+    assert rooms <= {
+        "cli",
+        "deadline",
+        "errors",
+        "facts",
+        "figures",
+        "languages",
+        "phrases",
+        "provision",
+    }
 
 
 def test_a_plan_needs_only_what_reads_and_plans(tmp_path: Path) -> None:

@@ -17,8 +17,9 @@ from rightofway.control.recording import Recording
 from rightofway.errors import InputError
 from rightofway.facts import Fact, read_fact
 from rightofway.model import Plan
-from rightofway.phrases import join_parts, to_parts
+from rightofway.phrases import to_parts
 from rightofway.report.facts import FactWriter
+from tests.builders.languages import say
 from tests.builders.pages import ROOT
 from tests.builders.plans import door
 from tests.builders.warehouses import warehouse
@@ -58,7 +59,7 @@ def test_a_recording_says_where_robots_are_what_they_hold_and_whom_they_wait_for
         (0, "arrived", 0), (0, "released", 0), (1, "arrived", 0), (1, "released", 4),
     ]  # fmt: skip
     (wait,) = [row for row in frame["rows"] if row[2] == "says" and row[3] == "wait"]
-    assert join_parts(list(wait[4])) == "R1 waits at N0 until R2 is at N4"
+    assert say(list(wait[4])) == "R1 waits at N0 until R2 is at N4"
     assert wait[5] == [1]
     source.until = 2.0
     recording.read_on()

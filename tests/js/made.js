@@ -1,4 +1,5 @@
 import { readFileSync } from "node:fs";
+import "./texts.js";
 import { Plan } from "../../src/rightofway/viz/page/assets/plan/plan.js";
 
 /** @import { Payload, UnitsData } from "../../src/rightofway/viz/page/assets/payload.d.ts" */

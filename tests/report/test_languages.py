@@ -9,7 +9,7 @@ from rightofway.facts import Fact
 from rightofway.io import load_with_notes
 from rightofway.io.layouts.draft import LayoutDraft
 from rightofway.io.layouts.formats import describe_layout
-from rightofway.phrases import Phrase, say_count
+from rightofway.phrases import say_count
 from rightofway.report.facts import write_note, write_notes
 from rightofway.report.lines import COLUMNS, Facts, Table, lay_out
 from rightofway.report.plan import report_decisions, summarize_plan
@@ -28,16 +28,16 @@ def test_no_line_of_a_report_is_longer_than_80_columns() -> None:
 
 
 def test_columns_are_as_wide_as_their_words() -> None:
-    facts = Facts([(Phrase("flowtime"), say_count(2, "tick", "ticks")), (Phrase("makespan"), "1")])
+    facts = Facts([("flowtime", say_count(2, "tick", "ticks")), ("makespan", "1")])
     assert lay_out([facts]) == "flowtime  2 ticks\nmakespan  1"
-    table = Table((Phrase("robot"), Phrase("alone")), [("R1", "10"), ("R2", Phrase("never"))])
+    table = Table(("robot", "alone"), [("R1", "10"), ("R2", "never")])
     assert lay_out([table]) == "robot  alone\nR1        10\nR2     never"
 
 
 def test_notes_of_a_reader_are_said_in_german() -> None:
     (note,) = write_notes(load_with_notes(EXAMPLES / "floor.yaml").notes)
     assert note == "floor cut into 24 x 16 = 384 cells of 0.5 m"
-    assert translate(note) == "Grundriss in 24 x 16 = 384 Zellen von 0.5 m geteilt"
+    assert translate(note) == "Grundriss in 24 x 16 = 384 Zellen von 0,5 m geteilt"
     draft = LayoutDraft("LIF layout")
     level = draft.begin_level()
     for name, x in (("A", 0), ("B", 2)):

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from rightofway.errors import Blockage, NoPlanExists
 from rightofway.io.sites import Choice, read_sites
 from rightofway.metrics import inspect
 from rightofway.viz import write_inspection
@@ -74,13 +73,6 @@ def test_no_state_of_the_page_says_an_english_word_to_a_german(
         viewer.painted()
         assert english_on(viewer) == [], state
     assert viewer.complaints == []
-
-
-def test_reasons_of_the_library_are_marked_as_english(show: Opener) -> None:
-    blocked = Blockage("no way leads from N0 to N2", robots=(0,), vertices=(), remedy="open one")
-    viewer = show(door(), no_plan=NoPlanExists([blocked]), title="door", locale="de-DE")
-    assert english_on(viewer) == []
-    assert "no way leads" in viewer.text("#fault-list [lang=en]")
 
 
 def test_the_page_of_an_inspection_says_findings_in_german(

@@ -11,9 +11,9 @@ import pytest
 from rightofway.cyclic import make_excerpt, run_laps
 from rightofway.errors import InputError
 from rightofway.model import Status, SteadyState, Tick
-from rightofway.phrases import list_names
 from rightofway.viz import make_page, make_payload
 from tests.builders.fleets import grid_fleet
+from tests.builders.languages import read_entry
 from tests.builders.payloads import template_in
 from tests.builders.plans import counter, counter_steady, door
 
@@ -31,7 +31,7 @@ def told(*groups: SteadyState, laps: int = 4) -> Any:
 def test_a_group_is_told_with_its_circuit() -> None:
     payload = told(counter_steady())
     (group,) = payload["steady"]
-    short, at_length = (said(payload["phrases"], text) for text in group.pop("bottleneck"))
+    short, at_length = (read_entry(payload["phrases"], text) for text in group.pop("bottleneck"))
     assert group == {
         "robots": [0, 1],
         "start": 6,
@@ -44,18 +44,6 @@ def test_a_group_is_told_with_its_circuit() -> None:
         "R1 enters N1 once R2 has left N1, works at N1, drives home;"
         " R2 enters N1 once R1 has left N1, works at N1, drives home"
     )
-
-
-def said(entries: list[Any], index: int) -> str:
-    """Return a text of the phrases of a page."""
-    match entries[index]:
-        case str(text):
-            return text
-        case [template, *values]:
-            names = list_names(entries[template])
-            texts = (said(entries, value) for value in values)
-            return str(entries[template]).format(**dict(zip(names, texts, strict=True)))
-    raise AssertionError(entries[index])
 
 
 def test_the_repetition_ends_with_the_last_lap() -> None:
@@ -137,7 +125,7 @@ def test_an_excerpt_of_laps_has_no_faults_and_a_plan_of_whole_laps_has() -> None
     whole = replace(plan, run=replace(plan.run, status=Status("whole laps")))
     payload = make_payload(whole, steady=steady)
     [(kind, count)] = payload["faults"]["kinds"]
-    assert (template_in(payload, kind), count) == ("stop missed", 1)
+    assert (template_in(payload, kind), count) == ("stop missed: name", 1)
 
 
 @pytest.mark.parametrize("robot", [0, 1])

@@ -14,11 +14,12 @@ import pytest
 from rightofway.errors import InputError
 from rightofway.model import Tick
 from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import list_names
 from rightofway.units import Units
 from rightofway.viz import make_frame, make_page, make_payload, make_png, write_page
 from rightofway.viz.page.schema import Payload
 from rightofway.viz.page.scripts import order_scripts
+from rightofway.viz.page.texts import find_texts
+from tests.builders.languages import read_entry
 from tests.builders.payloads import payload_in, template_in
 from tests.builders.plans import (
     counter,
@@ -58,12 +59,7 @@ def test_the_page_carries_the_payload() -> None:
 
 def text_in(payload: Payload, index: int) -> str:
     """Return a text of a payload in English."""
-    entry = payload["phrases"][index]
-    if isinstance(entry, str):
-        return entry
-    template = str(payload["phrases"][entry[0]])
-    values = (text_in(payload, value) for value in entry[1:])
-    return template.format(**dict(zip(list_names(template), values, strict=True)))
+    return read_entry(payload["phrases"], index)
 
 
 def test_the_page_has_the_figures_of_a_decision_as_the_report_has_them() -> None:
@@ -81,7 +77,7 @@ def test_the_page_has_the_figures_of_a_decision_as_the_report_has_them() -> None
         ["Conflicts left", "impossible", "3"],
         ["Sum of completion times", "18 time units", "no way"],
     ]
-    assert payload["translations"]["de"]["Conflicts left"] == "Übrige Konflikte"
+    assert find_texts(payload)["de"]["facts"]["figure: conflicts left"] == "Übrige Konflikte"
 
 
 def test_the_page_calls_cells_after_robots_as_reports_do() -> None:
@@ -93,7 +89,6 @@ def test_the_page_calls_cells_after_robots_as_reports_do() -> None:
     places = {vertex: text_in(payload, text) for vertex, text in payload["places"]}
     assert places == names.of_robots
     assert places[int(scenario.robots[0].home)] == "the home of R1"
-    assert payload["translations"]["de"]["the home of {robot}"] == "Startplatz {robot}"
 
 
 def test_a_small_plan_makes_a_small_page() -> None:
@@ -112,7 +107,7 @@ def test_names_come_through_as_they_are() -> None:
     payload = payload_in(make_page(hostile(EVIL)))
     assert payload["robots"][0]["name"] == EVIL
     assert payload["map"]["names"][0] == EVIL
-    assert payload["reroutes"][0]["because"] == ["{text}", {"text": EVIL}]
+    assert payload["reroutes"][0]["because"] == ["other", {"text": EVIL}]
 
 
 def test_a_name_that_is_no_valid_unicode_can_be_written(tmp_path: Path) -> None:
@@ -168,9 +163,7 @@ def test_lost_time_has_its_cause() -> None:
     # R1 waits for R2 in vertex 0 to get to 1, which R2 leaves, from tick 0 to 1, for 1 tick
     payload = make_payload(door())
     assert [row[:-1] for row in payload["losses"]] == [(0, 0, 1, 0, 0, 1, 1, 0, 1, 1)]
-    assert template_in(payload, payload["losses"][0][-1]) == (
-        "waits {time} in {here} for {other} to leave {freed}"
-    )
+    assert template_in(payload, payload["losses"][0][-1]) == ("waits for place")
     assert make_payload(door())["robots"][0]["lost"] == (0, 0, 1)
 
 

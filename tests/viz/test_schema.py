@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, cast
@@ -20,7 +21,7 @@ from rightofway.viz.page.document import as_compact_json
 from rightofway.viz.page.schema import InspectionPayload, Payload
 from tests.builders.closures import closed_fleet
 from tests.builders.fleets import grid_fleet
-from tests.builders.payloads import payload_text_in
+from tests.builders.payloads import payload_in
 from tests.builders.plans import (
     counter,
     counter_late,
@@ -86,7 +87,7 @@ def test_the_payload_of_every_inspection_has_the_declared_types(name: str) -> No
     sites = read_sites(TESTS / "data" / "layouts" / name, Choice())
     levels = [(level, site, inspect(site)) for level, site in sites.sites]
     page = make_inspection_page(levels, title=name, description="a hall", notes=["one"])
-    INSPECTION.validate_json(payload_text_in(page), strict=True, extra="forbid")
+    INSPECTION.validate_json(json.dumps(payload_in(page)), strict=True, extra="forbid")
 
 
 def test_a_key_that_no_type_has_is_found() -> None:

@@ -17,7 +17,7 @@ DECIMALS = 3
 def describe_middle(roadmap: Roadmap, vertex: int) -> str:
     """Return the middle of a cell in the site's frame: ``7.25, 4.75``."""
     x, y = (format_decimal(part, DECIMALS) for part in roadmap.get_point(vertex))
-    return Phrase("{x}, {y}", x=x, y=y)
+    return Phrase("point", x=x, y=y)
 
 
 class PlaceNames:
@@ -47,10 +47,10 @@ class PlaceNames:
             return roadmap.name(vertex)
         if vertex in self._stations:
             return self._with_number(self._stations[vertex], vertex)
-        middle = Phrase("({middle})", middle=describe_middle(roadmap, vertex))
+        middle = Phrase("middle", middle=describe_middle(roadmap, vertex))
         if not self.numbered:
             return middle
-        return Phrase("{first} {second}", first=roadmap.name(vertex), second=middle)
+        return Phrase("two sentences", first=roadmap.name(vertex), second=middle)
 
     def __call__(self, vertex: int) -> str:
         """Return what a sentence calls a vertex: ``the home of R1``, else where it is."""
@@ -63,7 +63,7 @@ class PlaceNames:
     def _with_number(self, name: str, vertex: int) -> str:
         if not self.numbered:
             return name
-        return Phrase("{name} ({what})", name=name, what=self.scenario.roadmap.name(vertex))
+        return Phrase("name with detail", name=name, what=self.scenario.roadmap.name(vertex))
 
     @cached_property
     def _stations(self) -> dict[int, str]:
@@ -79,12 +79,10 @@ class PlaceNames:
         stops = [{int(stop.at) for stop in robot.stops} - {int(robot.home)} for robot in robots]
         count = Counter(at for vertices in stops for at in vertices)
         names: dict[int, str] = {
-            at: Phrase("the stop of {robot}", robot=robot.name)
+            at: Phrase("the stop of", robot=robot.name)
             for robot, vertices in zip(robots, stops, strict=True)
             for at in vertices
             if len(vertices) == count[at] == 1
         }
-        homes = {
-            int(robot.home): Phrase("the home of {robot}", robot=robot.name) for robot in robots
-        }
+        homes = {int(robot.home): Phrase("the home of", robot=robot.name) for robot in robots}
         return {**names, **homes}

@@ -10,7 +10,7 @@ from typing import Literal
 from rightofway.cyclic import Piece
 from rightofway.model import Scenario, Tick
 from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase, chain_items, join_items, say_count
+from rightofway.phrases import Phrase, chain_items, join_items
 from rightofway.site import VertexId
 
 MAX_STEPS = 12
@@ -69,14 +69,14 @@ def _steps_of_robot(
     for piece in run[:first]:
         yield _step(piece, awaited, scenario, place)
     if first < last:
-        laps = say_count(len(arrivals) - 1, "lap", "laps")
+        laps = Phrase("n_laps", number=str(len(arrivals) - 1))
         between = run[first:last]
         yield CircuitStep(
             kind="laps",
             robot=run[0].robot,
             places=tuple(dict.fromkeys(vertex for piece in between for vertex in piece.places)),
             ticks=Tick(sum(piece.ticks for piece in between)),
-            text=Phrase("makes {laps} of its own", laps=laps),
+            text=Phrase("step: own laps", laps=laps),
         )
     for piece in run[last:]:
         yield _step(piece, awaited, scenario, place)
@@ -86,19 +86,19 @@ def _step(piece: Piece, awaited: int, scenario: Scenario, place: PlaceNames) -> 
     robot, names = scenario.robots[piece.robot], [place(vertex) for vertex in piece.places]
     match piece.kind:
         case "way" if piece.places[-1] == robot.home:
-            text = Phrase("drives home")
+            text = Phrase("step: drives home")
         case "way":
-            text = Phrase("drives to {place}", place=names[-1])
+            text = Phrase("step: drives", place=names[-1])
         case "work" if piece.places[0] in {stop.at for stop in robot.stops} - {robot.home}:
-            text = Phrase("works at {place}", place=names[0])
+            text = Phrase("step: works", place=names[0])
         case "work":
-            text = Phrase("turns at {place}", place=names[0])
+            text = Phrase("step: turns", place=names[0])
         case _ if awaited == piece.robot:
-            text = Phrase("enters {place}", place=names[0])
+            text = Phrase("step: enters", place=names[0])
         case _:
             other = scenario.robots[awaited].name
             text = Phrase(
-                "enters {place} once {other} has left {left}",
+                "step: enters after",
                 place=names[0],
                 other=other,
                 left=names[-1],
@@ -116,15 +116,15 @@ def describe_circuit(pieces: Sequence[Piece], scenario: Scenario, *, most: int =
     names = [robot.name for robot in scenario.robots]
     steps = list_circuit_steps(pieces, scenario)
     if len({step.robot for step in steps}) == 1:
-        return Phrase("{robot}'s own lap: it waits for no robot", robot=names[steps[0].robot])
+        return Phrase("circuit of one robot", robot=names[steps[0].robot])
     parts = []
     for robot, run in groupby(steps[:most], lambda step: step.robot):
         texts = chain_items([step.text for step in run])
-        parts.append(Phrase("{robot} {steps}", robot=names[robot], steps=texts))
+        parts.append(Phrase("steps of robot", robot=names[robot], steps=texts))
     if len(steps) > most:
-        further = say_count(len(steps) - most, "more step", "more steps")
-        parts.append(Phrase("and {steps}", steps=further))
-    return chain_items(parts, "{first}; {second}")
+        further = Phrase("n_more_steps", number=str(len(steps) - most))
+        parts.append(Phrase("further steps", steps=further))
+    return chain_items(parts, "two clauses")
 
 
 def summarize_circuit(pieces: Sequence[Piece], scenario: Scenario, period: Tick) -> Phrase:
@@ -134,11 +134,11 @@ def summarize_circuit(pieces: Sequence[Piece], scenario: Scenario, period: Tick)
     time = scenario.quantities.format_duration(period)
     if len(names) == 1:
         return Phrase(
-            "Bottleneck: {robot} alone, which waits for no robot, {time} a period",
+            "bottleneck of one robot",
             robot=names[0],
             time=time,
         )
     if len(names) > MAX_ROBOTS:
-        more = Phrase("{number} more", number=str(len(names) - MAX_ROBOTS + 1))
+        more = Phrase("number more", number=str(len(names) - MAX_ROBOTS + 1))
         names = [*names[: MAX_ROBOTS - 1], more]
-    return Phrase("Bottleneck: {robots}, {time} a period", robots=join_items(names), time=time)
+    return Phrase("bottleneck of robots", robots=join_items(names), time=time)

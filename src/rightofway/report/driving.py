@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rightofway.execution.drive_result import DriveResult
-from rightofway.phrases import Phrase, chain_items, say_count
+from rightofway.phrases import chain_items, say_count
 from rightofway.quantities import Quantities
 from rightofway.report.lines import Facts, Part, Table, lay_out
 
@@ -30,16 +30,15 @@ def report_drive(result: DriveResult, quantities: Quantities) -> str:
 
 
 def _totals(result: DriveResult, quantities: Quantities) -> Iterator[tuple[str, str]]:
-    yield Phrase("jobs"), Phrase("{number} done", number=str(sum(result.jobs)))
+    yield "jobs", f"{sum(result.jobs)} done"
     if result.completion is None:
         time = quantities.format_duration(result.now)
-        yield Phrase("laps"), Phrase("{number} in {time}", number=str(sum(result.laps)), time=time)
+        yield "laps", f"{sum(result.laps)} in {time}"
     elif None in result.completion:
         ended = sum(completion is not None for completion in result.completion)
         yield (
-            Phrase("ended"),
-            Phrase(
-                "{ended} of {robots} at the end of their way after {time}",
+            "ended",
+            "{ended} of {robots} at the end of their way after {time}".format(
                 ended=str(ended),
                 robots=say_count(len(result.completion), "robot", "robots"),
                 time=quantities.format_duration(result.now),
@@ -47,33 +46,32 @@ def _totals(result: DriveResult, quantities: Quantities) -> Iterator[tuple[str, 
         )
     else:
         makespan = max(completion or 0 for completion in result.completion)
-        text = Phrase(
-            "{makespan}; planned {planned}",
-            makespan=quantities.format_duration(makespan),
-            planned=quantities.format_duration(max(result.plan.completions)),
+        text = (
+            f"{quantities.format_duration(makespan)}; planned"
+            f" {quantities.format_duration(max(result.plan.completions))}"
         )
-        yield Phrase("makespan"), text
+        yield "makespan", text
     sent = result.messages
     messages = (
         say_count(sent.get("order", 0), "order", "orders"),
         say_count(sent.get("instantActions", 0), "instant action", "instant actions"),
         say_count(sent.get("state", 0), "state", "states"),
     )
-    yield Phrase("messages"), chain_items(messages)
+    yield "messages", chain_items(messages)
 
 
 def _robots(result: DriveResult, quantities: Quantities) -> Iterator[Part]:
     robots = result.plan.scenario.robots
     if result.completion is None:
-        yield Phrase("laps of each robot")
-        headings = (Phrase("laps"), Phrase("mean lap"))
+        yield "laps of each robot"
+        headings = ("laps", "mean lap")
         times = [
             (str(laps), quantities.format_cell(round(result.now / laps)) if laps else "-")
             for laps in result.laps
         ]
     else:
-        yield quantities.format_heading(Phrase("completion of each robot"))
-        headings = (Phrase("planned"), Phrase("actual"))
+        yield quantities.format_heading("completion of each robot")
+        headings = ("planned", "actual")
         pairs = zip(result.plan.completions, result.completion, strict=True)
         times = [
             (
@@ -86,7 +84,7 @@ def _robots(result: DriveResult, quantities: Quantities) -> Iterator[Part]:
         (robots[robot].name, str(result.jobs[robot]), str(result.waits[robot]), *times[robot])
         for robot in range(min(len(robots), MAX_ROBOTS))
     ]
-    yield Table((Phrase("robot"), Phrase("jobs"), Phrase("waits"), *headings), rows)
+    yield Table(("robot", "jobs", "waits", *headings), rows)
     if len(robots) > MAX_ROBOTS:
         more = say_count(len(robots) - MAX_ROBOTS, "more robot", "more robots")
-        yield Phrase("… and {robots}", robots=more)
+        yield f"… and {more}"

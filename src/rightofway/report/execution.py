@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from rightofway.execution import PolicyGain, Quantiles, SimulationResult
 from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase, chain_items, say_count
+from rightofway.phrases import chain_items, say_count
 from rightofway.quantities import Quantities, format_decimal
 from rightofway.report.lines import Facts, Part, Table, choose_further_format, lay_out, shorten_name
 
@@ -31,80 +31,76 @@ def report(outcome: SimulationResult, quantities: Quantities) -> str:
 def _totals(outcome: SimulationResult, quantities: Quantities) -> Iterator[tuple[str, str]]:
     runs, late, gain = outcome.runs, outcome.lateness, outcome.gain
     yield (
-        Phrase("runs"),
-        Phrase(
-            "{runs} with {delays}; seed {seed}",
+        "runs",
+        "{runs} with {delays}; seed {seed}".format(
             runs=str(runs),
             delays=", ".join(outcome.delays),
             seed=str(outcome.seed),
         ),
     )
-    collisions = say_count(outcome.collisions or Phrase("no"), "collision", "collisions")
-    deadlocks = say_count(outcome.deadlocks or Phrase("no"), "deadlock", "deadlocks")
-    yield Phrase("right of way"), chain_items([collisions, deadlocks])
-    yield Phrase("by the clock"), _by_clock(outcome, quantities)
-    yield Phrase("late"), _lateness(late.all, quantities, is_delay=True)
+    collisions = say_count(outcome.collisions or "no", "collision", "collisions")
+    deadlocks = say_count(outcome.deadlocks or "no", "deadlock", "deadlocks")
+    yield "right of way", chain_items([collisions, deadlocks])
+    yield "by the clock", _by_clock(outcome, quantities)
+    yield "late", _lateness(late.all, quantities, is_delay=True)
     if late.flowtime.mean is not None:
-        yield Phrase("flowtime"), _lateness(late.flowtime, quantities)
-        yield Phrase("makespan"), _lateness(late.makespan, quantities)
+        yield "flowtime", _lateness(late.flowtime, quantities)
+        yield "makespan", _lateness(late.makespan, quantities)
     stranded = _mean(outcome.stranded, runs)
     if outcome.plan.scenario.closures:
-        text = Phrase(
-            "robots per run: {caught} are caught in a closure, {stranded} never complete",
-            caught=_mean(outcome.caught, runs),
-            stranded=stranded,
+        text = (
+            f"robots per run: {_mean(outcome.caught, runs)} are caught in a closure,"
+            f" {stranded} never complete"
         )
-        yield Phrase("closures"), text
+        yield "closures", text
     if outcome.switches:
-        yield Phrase("switched"), _per_run(outcome.switches, runs)
+        yield "switched", _per_run(outcome.switches, runs)
     if outcome.replans:
-        yield Phrase("replanned"), _per_run(outcome.replans, runs)
+        yield "replanned", _per_run(outcome.replans, runs)
     if gain and gain.runs and gain.flowtime.mean is not None:
-        yield Phrase("gain"), _gain(gain, gain.flowtime.mean, quantities)
+        yield "gain", _gain(gain, gain.flowtime.mean, quantities)
     if outcome.broken:
-        broken: str = Phrase(
-            "robots per run: {broken} break down, {stranded} wait for them for ever",
-            broken=_mean(outcome.broken, runs),
-            stranded=stranded,
+        broken: str = (
+            f"robots per run: {_mean(outcome.broken, runs)} break down, {stranded} wait"
+            " for them for ever"
         )
         if outcome.replans:
             cut_off = _mean(outcome.cut_off, runs)
-            broken = chain_items(
-                [broken, Phrase("{number} are cut off from a place", number=cut_off)]
-            )
-        yield Phrase("broken"), broken
+            broken = chain_items([broken, f"{cut_off} are cut off from a place"])
+        yield "broken", broken
 
 
-def _by_clock(outcome: SimulationResult, quantities: Quantities) -> Phrase:
+def _by_clock(outcome: SimulationResult, quantities: Quantities) -> str:
     clock, runs = outcome.by_clock, outcome.runs
     if not clock.runs or clock.first.median is None:
-        return Phrase("no run collides")
-    return Phrase(
-        "{share} of runs collide, {times}, first at {moment} (median)",
+        return "no run collides"
+    return "{share} of runs collide, {times}, first at {moment} (median)".format(
         share=f"{clock.runs / runs:.1%}",
         times=_per_run(clock.total, runs),
         moment=quantities.format_moment(clock.first.median),
     )
 
 
-def _gain(gain: PolicyGain, saved: float, quantities: Quantities) -> Phrase:
+def _gain(gain: PolicyGain, saved: float, quantities: Quantities) -> str:
     """Compare runs with the plan's rights of way in the same runs; a loss is below zero."""
     if not (gain.earlier or gain.later):
-        return Phrase("none")
+        return "none"
     values = {
         "time": quantities.format_duration(abs(saved)),
         "earlier": f"{gain.earlier / gain.runs:.0%}",
         "later": f"{gain.later / gain.runs:.0%}",
     }
     if saved < 0:
-        return Phrase(
+        return (
             "flowtime {time} more on average than with the plan's rights of way in the same runs;"
-            " {earlier} of runs earlier, {later} later",
+            " {earlier} of runs earlier, {later} later"
+        ).format(
             **values,
         )
-    return Phrase(
+    return (
         "flowtime {time} less on average than with the plan's rights of way in the same runs;"
-        " {earlier} of runs earlier, {later} later",
+        " {earlier} of runs earlier, {later} later"
+    ).format(
         **values,
     )
 
@@ -113,36 +109,32 @@ def _mean(number: int, runs: int) -> str:
     return format_decimal(Fraction(number, runs))
 
 
-def _per_run(number: int, runs: int) -> Phrase:
+def _per_run(number: int, runs: int) -> str:
     times = say_count(_mean(number, runs), "time", "times")
-    return Phrase("{times} per run on average", times=times)
+    return f"{times} per run on average"
 
 
-def _lateness(lateness: Quantiles, quantities: Quantities, *, is_delay: bool = False) -> Phrase:
+def _lateness(lateness: Quantiles, quantities: Quantities, *, is_delay: bool = False) -> str:
     """Return how late robots are, or how much later a sum of their times is."""
     mean, most = lateness.mean, lateness.max
     if mean is None or most is None:
-        return Phrase("no robot ever completes")
+        return "no robot ever completes"
     write = choose_further_format(quantities)
     times = {"time": quantities.format_duration(abs(mean))}
     if mean < 0:
-        average = Phrase("earlier by {time} on average", **times)
+        average = "earlier by {time} on average".format(**times)
     elif is_delay:
-        average = Phrase("by {time} on average", **times)
+        average = "by {time} on average".format(**times)
     else:
-        average = Phrase("later by {time} on average", **times)
+        average = "later by {time} on average".format(**times)
     quantiles = (
-        (Phrase("median"), lateness.median),
-        (Phrase("90% within"), lateness.p90),
-        (Phrase("95% within"), lateness.p95),
+        ("median", lateness.median),
+        ("90% within", lateness.p90),
+        ("95% within", lateness.p95),
     )
-    parts: list[str] = [
-        Phrase("{cause} {time}", cause=name, time=write(ticks))
-        for name, ticks in quantiles
-        if ticks is not None
-    ]
-    parts.append(Phrase("at most {time}", time=write(most)))
-    return Phrase("{first}; {second}", first=average, second=chain_items(parts))
+    parts: list[str] = [f"{name} {write(ticks)}" for name, ticks in quantiles if ticks is not None]
+    parts.append(f"at most {write(most)}")
+    return f"{average}; {chain_items(parts)}"
 
 
 def _robots(outcome: SimulationResult, quantities: Quantities) -> Iterator[Part]:
@@ -154,7 +146,7 @@ def _robots(outcome: SimulationResult, quantities: Quantities) -> Iterator[Part]
     for number in listed:
         robot, late = robots[number], robots[number].quantiles
         if late.mean is None or late.p95 is None or late.max is None:
-            rows.append([names[number], Phrase("never completes")])
+            rows.append([names[number], "never completes"])
             continue
         waiting = [
             f"{names[other]} {cell(ticks)}"
@@ -163,12 +155,12 @@ def _robots(outcome: SimulationResult, quantities: Quantities) -> Iterator[Part]
         ]
         times = (cell(late.mean), cell(late.p95), cell(late.max), cell(robot.own))
         rows.append([names[number], *times, ", ".join(waiting[:3])])
-    yield quantities.format_heading(Phrase("how late each robot is"))
-    headings = (Phrase("mean"), "95%", Phrase("most"), Phrase("own"), Phrase("waiting for"))
-    yield Table((Phrase("robot"), *headings), rows, has_remarks=True)
+    yield quantities.format_heading("how late each robot is")
+    headings = ("mean", "95%", "most", "own", "waiting for")
+    yield Table(("robot", *headings), rows, has_remarks=True)
     if len(robots) > len(listed):
         more = say_count(len(robots) - len(listed), "more robot", "more robots")
-        yield Phrase("… and {robots} that are less late", robots=more)
+        yield f"… and {more} that are less late"
 
 
 def _sources(outcome: SimulationResult, quantities: Quantities) -> Iterator[Part]:
@@ -179,19 +171,15 @@ def _sources(outcome: SimulationResult, quantities: Quantities) -> Iterator[Part
     robots, place = scenario.robots, PlaceNames(scenario, numbered=True).describe_place
     rows = [
         [
-            Phrase(
-                "{robot} at {place}",
-                robot=shorten_name(robots[source.robot].name),
-                place=place(source.vertex),
-            ),
+            f"{shorten_name(robots[source.robot].name)} at {place(source.vertex)}",
             quantities.format_cell(source.own),
             quantities.format_cell(source.of_others),
         ]
         for source in sources[:MAX_SOURCES]
     ]
     yield ""
-    yield quantities.format_heading(Phrase("where most lateness begins, mean per run"))
-    yield Table((Phrase("robot"), Phrase("itself"), Phrase("others")), rows)
+    yield quantities.format_heading("where most lateness begins, mean per run")
+    yield Table(("robot", "itself", "others"), rows)
     if len(sources) > len(rows):
         more = say_count(len(sources) - len(rows), "more place", "more places")
-        yield Phrase("… and {places} (--json lists all)", places=more)
+        yield f"… and {more} (--json lists all)"

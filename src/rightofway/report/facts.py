@@ -1,4 +1,4 @@
-"""Sentences of facts: one table of templates for each language, ``texts/en.json`` and others.
+"""Sentences of facts, from the templates of `rightofway.languages`.
 
 A template has values in braces, with the form in which people read them: ``{robot:robot}`` is the
 name of a robot, ``{time:duration}`` a number of ticks as a time. A value without a form is text, a
@@ -7,19 +7,17 @@ number, or another fact.
 
 from __future__ import annotations
 
-import json
-import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache, cached_property
-from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
 from typing_extensions import TypedDict
 
 from rightofway.errors import Blockage
 from rightofway.facts import Fact
+from rightofway.languages import VALUE, find_text
 from rightofway.model import Scenario
 from rightofway.model.place_names import PlaceNames, describe_middle
 from rightofway.phrases import Phrase, chain_items, join_first, join_items, mark_figure, to_parts
@@ -29,10 +27,7 @@ from rightofway.units import Units
 if TYPE_CHECKING:
     from rightofway.metrics import Site
 
-__all__ = ["FactData", "FactWriter", "read_templates", "strip_forms", "write_notes"]
-
-VALUE = re.compile(r"\{(\w+)(?::(\w+))?\}")
-"""A value of a template: its name, and the form in which it is shown."""
+__all__ = ["FactData", "FactWriter", "write_notes"]
 
 
 class FactData(TypedDict):
@@ -43,36 +38,15 @@ class FactData(TypedDict):
 
 
 @cache
-def read_templates() -> Mapping[str, Any]:
-    """Return the English templates: of faults, and of all other facts."""
-    text = files("rightofway").joinpath("texts", "en.json").read_text("utf-8")
-    templates: Mapping[str, Any] = json.loads(text)
-    return templates
-
-
-@cache
-def strip_forms(template: str) -> str:
-    """Return a template with the names of its values only."""
-    return VALUE.sub(r"{\1}", template)
-
-
-@cache
 def list_forms(template: str) -> tuple[tuple[str, str], ...]:
     """Return the names of the values of a template, each with its form."""
     return tuple(VALUE.findall(template))
 
 
-def find_template(fact: Fact) -> str:
-    """Return the template of a fact; of several, that for the number of things or for others.
-
-    That is the value ``number``, or how many ``robots`` there are.
-    """
-    template: str | Mapping[str, str] = read_templates()["facts"][fact.kind]
-    if isinstance(template, str):
-        return template
-    values = fact.values
-    number = values["number"] if "number" in values else len(values["robots"])
-    return template.get(str(number), template["other"])
+def count_things(values: Mapping[str, Any]) -> str:
+    """Return the number that chooses a template: the value ``number``, or the count of robots."""
+    number = values.get("number", values.get("robots", ()))
+    return str(number if isinstance(number, int | str) else len(number))
 
 
 MOST_NAMES = 8
@@ -105,12 +79,14 @@ class FactWriter:
         """Return the sentence of a fact; English text of other packages stays as it is."""
         if isinstance(fact, str):
             return fact
-        return self.fill(find_template(fact), fact.values)
+        return self.fill(fact.kind, fact.values)
 
-    def fill(self, template: str, values: Mapping[str, Any]) -> Phrase:
-        """Return a template with its values in their forms."""
-        texts = {name: self._show(form, values[name]) for name, form in list_forms(template)}
-        return Phrase(strip_forms(template), **texts)
+    def fill(self, kind: str, values: Mapping[str, Any]) -> Phrase:
+        """Return the template of a kind with its values in their forms."""
+        number = count_things(values)
+        forms = list_forms(find_text(kind, number))
+        texts = {name: self._show(form, values[name]) for name, form in forms}
+        return Phrase(kind, **{"number": number, **texts})
 
     def _show(self, form: str, value: Any) -> str:
         """Return a value in a form; all other forms are facts about a number of things."""
@@ -122,7 +98,7 @@ class FactWriter:
         """Return a fact as plain data for JSON: robots and vertices by name, times in ticks."""
         if isinstance(fact, str):
             fact = Fact("other", text=fact)
-        forms = dict(list_forms(find_template(fact)))
+        forms = dict(list_forms(find_text(fact.kind, count_things(fact.values))))
         values = {
             name: self._export_value(forms.get(name, ""), value)
             for name, value in fact.values.items()
@@ -232,7 +208,7 @@ class FactWriter:
         """Return the name of a vertex for people, whether the roadmap has it or not."""
         if 0 <= vertex < self.scenario.roadmap.n_vertices:
             return self._places(vertex)
-        return Phrase("vertex {number}", number=str(vertex))
+        return Phrase("vertex by number", number=str(vertex))
 
     def name_place(self, vertex: int) -> str:
         """Return the name of a vertex with its use, without the number of a cell.
@@ -246,17 +222,17 @@ class FactWriter:
         if about.roadmap.has_cells and about.units.length:
             middle = describe_middle(about.roadmap, vertex)
             if use is None:
-                return Phrase("({middle})", middle=middle)
-            return Phrase("({middle}, {what})", middle=middle, what=self.write(use))
+                return Phrase("middle", middle=middle)
+            return Phrase("middle with detail", middle=middle, what=self.write(use))
         name = about.roadmap.name(vertex)
-        return name if use is None else Phrase("{name} ({what})", name=name, what=self.write(use))
+        return name if use is None else Phrase("name with detail", name=name, what=self.write(use))
 
     def _write_name(self, vertex: int) -> str:
         return self.about.roadmap.name(vertex)
 
     def _name_lane(self, ends: Sequence[int]) -> Phrase:
         tail, head = map(self._write_name, ends)
-        return Phrase("{tail} to {head}", tail=tail, head=head)
+        return Phrase("lane", tail=tail, head=head)
 
     def _describe_place(self, vertex: int) -> str:
         return self._plain_places.describe_place(vertex)
@@ -278,7 +254,7 @@ def join_few(names: Sequence[str]) -> str:
     """Return names as a sentence has them; of more than eight, seven and the number of others."""
     if len(names) > MOST_NAMES:
         left = len(names) - MOST_NAMES + 1
-        names = [*names[: MOST_NAMES - 1], Phrase("{number} more", number=str(left))]
+        names = [*names[: MOST_NAMES - 1], Phrase("number more", number=str(left))]
     return join_items(names) if names else ""
 
 
@@ -308,22 +284,3 @@ def write_blockage(blockage: Blockage) -> str:
 def write_notes(notes: Iterable[str | Fact]) -> list[str]:
     """Return notes of a reader as text, the facts among them as sentences."""
     return list(map(write_note, notes))
-
-
-def list_texts() -> Sequence[str]:
-    """Return the English templates of all faults and facts."""
-    templates = read_templates()
-    faults = templates["faults"].values()
-    texts = [text for fault in faults for text in (fault["reason"], fault["remedy"])]
-    names = [name for fault in faults for name in fault.get("names", ())]
-    facts = [
-        text
-        for fact in templates["facts"].values()
-        for text in ([fact] if isinstance(fact, str) else fact.values())
-    ]
-    return [*texts, *names, *facts]
-
-
-def list_template_texts() -> Sequence[str]:
-    """Return the English texts of all faults and facts, without forms."""
-    return list(map(strip_forms, list_texts()))

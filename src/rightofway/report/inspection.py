@@ -9,7 +9,6 @@ from typing import Any
 from rightofway.facts import Fact
 from rightofway.metrics import Inspection, Site
 from rightofway.metrics.site import Finding, Severity
-from rightofway.phrases import Phrase
 from rightofway.report.facts import FactWriter, write_note, write_notes
 from rightofway.report.lines import Paragraph, Part
 from rightofway.site.scale import compute_extent
@@ -99,20 +98,20 @@ def report_inspection(
 
     ``limit`` findings of each kind are listed; the name of a level is empty where there is but one.
     """
-    yield Phrase("{file}: {text}", file=source, text=write_note(description))
+    yield f"{source}: {write_note(description)}"
     for note in write_notes(notes):
         yield Paragraph(note, "  ")
     for name, site, inspection in results:
         yield ""
         if name:
-            yield Phrase("Level {name}", name=name)
+            yield f"Level {name}"
         yield from describe_site(site, inspection)
         yield from _list_findings(site, inspection, limit)
 
 
 def _list_findings(site: Site, inspection: Inspection, limit: int) -> Iterator[Part]:
     if not inspection.findings:
-        yield Phrase("Nothing was found that will hurt.")
+        yield "Nothing was found that will hurt."
         return
     of_severity = Counter(finding.severity for finding in inspection.findings)
     of_kind = Counter((finding.severity, finding.kind) for finding in inspection.findings)
@@ -123,17 +122,13 @@ def _list_findings(site: Site, inspection: Inspection, limit: int) -> Iterator[P
             severity = finding.severity
             number = str(of_severity[severity])
             yield ""
-            yield Phrase("{heading}: {number}", heading=write_heading(severity), number=number)
+            yield f"{write_heading(severity)}: {number}"
         group = severity, finding.kind
         listed[group] += 1
         if listed[group] <= limit:
             fact, remedy = describe_finding(site, finding)
-            text = Phrase("{reason} ({remedy})", reason=fact, remedy=remedy)
+            text = f"{fact} ({remedy})"
             yield Paragraph(text, "  ")
         elif listed[group] == limit + 1:
-            text = Phrase(
-                "and {number} more: {kind} (see --limit)",
-                number=str(of_kind[group] - limit),
-                kind=finding.kind,
-            )
+            text = f"and {of_kind[group] - limit} more: {finding.kind} (see --limit)"
             yield Paragraph(text, "  ")

@@ -7,16 +7,16 @@ from typing import Any
 
 from rightofway.check import Fault, Report
 from rightofway.facts import Fact
-from rightofway.phrases import Phrase, chain_items, say_count
+from rightofway.phrases import Phrase, chain_items
 from rightofway.quantities import Quantities
-from rightofway.report.facts import FactWriter, read_templates
+from rightofway.report.facts import FactWriter
 
 Values = Mapping[str, Any]
 
 
 def name_fault(kind: str, count: int = 1) -> Phrase:
     """Return the name of a kind of fault, in the plural for other counts than 1."""
-    return Phrase(read_templates()["faults"][kind]["names"][count != 1])
+    return Phrase(f"{kind}: name", number=str(count))
 
 
 def describe_fault(fault: Fault, quantities: Quantities | None = None) -> tuple[Phrase, Phrase]:
@@ -28,14 +28,14 @@ def describe_fault(fault: Fault, quantities: Quantities | None = None) -> tuple[
 def write_fault_message(fault: Fault, quantities: Quantities | None = None) -> Phrase:
     """Return the reason of a fault, and its remedy in brackets."""
     reason, remedy = describe_fault(fault, quantities)
-    return Phrase("{reason} ({remedy})", reason=reason, remedy=remedy)
+    return Phrase("reason and remedy", reason=reason, remedy=remedy)
 
 
 def write_fault(fault: Fault, quantities: Quantities | None = None) -> Phrase:
     """Return when a fault begins, its kind, and its message."""
     writer = FactWriter(fault.scenario, quantities)
     return Phrase(
-        "{moment}: {kind}: {message}",
+        "fault at moment",
         moment=writer.quantities.format_moment(fault.tick),
         kind=name_fault(fault.kind),
         message=write_fault_message(fault, quantities),
@@ -47,11 +47,11 @@ def summarize_report(report: Report) -> Phrase:
     if report.ok:
         return Phrase("no fault")
     kinds = [
-        Phrase("{number} {kind}", number=str(count), kind=name_fault(kind, count))
+        Phrase("faults of kind", number=str(count), kind=name_fault(kind, count))
         for kind, count in report.counts.items()
     ]
-    faults = say_count(report.total, "fault", "faults")
-    return Phrase("{faults}: {kinds}", faults=faults, kinds=chain_items(kinds))
+    faults = Phrase("n_faults", number=str(report.total))
+    return Phrase("faults by kind", faults=faults, kinds=chain_items(kinds))
 
 
 def list_report_sentences(report: Report, quantities: Quantities | None = None) -> Iterator[Phrase]:
@@ -60,7 +60,7 @@ def list_report_sentences(report: Report, quantities: Quantities | None = None) 
     for fault in report.faults:
         yield write_fault(fault, quantities)
     if unlisted := report.total - len(report.faults):
-        yield Phrase("and {number} more (raise the limit to list them)", number=str(unlisted))
+        yield Phrase("unlisted faults", number=str(unlisted))
 
 
 def _fill(writer: FactWriter, fault: Fault, part: str) -> Phrase:
@@ -81,7 +81,7 @@ def _fill(writer: FactWriter, fault: Fault, part: str) -> Phrase:
         **fault.numbers,
     }
     values |= _SHAPES.get((fault.kind, part), _keep)(values)
-    return writer.fill(read_templates()["faults"][kind][part], values)
+    return writer.fill(f"{kind}: {part}", values)
 
 
 def _keep(_: Values) -> Values:

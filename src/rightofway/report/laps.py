@@ -20,7 +20,7 @@ from rightofway.cyclic import (
 )
 from rightofway.model import Scenario, Tick
 from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase, chain_items, say_count
+from rightofway.phrases import chain_items, say_count
 from rightofway.quantities import Quantities, format_decimal
 from rightofway.report.circuits import describe_circuit
 from rightofway.report.laps_data import (
@@ -58,17 +58,17 @@ def report_laps(run: CyclicResult, quantities: Quantities) -> str:
 def _report(run: CyclicResult, quantities: Quantities) -> Iterator[Part]:
     together = [group for group in run.groups if len(group.robots) > 1]
     rate = format_decimal(compute_hour(run.scenario) * run.compute_throughput())
-    throughput = Phrase("{rate} laps per hour", rate=rate)
+    throughput = f"{rate} laps per hour"
     if not run.scenario.units.time:
-        throughput = Phrase("{rate} laps in {hour} time units", rate=rate, hour=str(HOUR))
+        throughput = f"{rate} laps in {HOUR} time units"
     yield Facts(
         [
             (
-                Phrase("rule"),
-                Phrase("{rule}, on {routes} routes", rule=run.rule, routes=str(run.routes)),
+                "rule",
+                f"{run.rule}, on {run.routes} routes",
             ),
-            (Phrase("groups"), _groups(together, len(run.groups) - len(together))),
-            (Phrase("throughput"), throughput),
+            ("groups", _groups(together, len(run.groups) - len(together))),
+            ("throughput", throughput),
         ]
     )
     largest = sorted(together, key=lambda group: -len(group.robots))
@@ -80,73 +80,58 @@ def _report(run: CyclicResult, quantities: Quantities) -> Iterator[Part]:
     if len(largest) > MAX_GROUPS:
         more = say_count(len(largest) - MAX_GROUPS, "more group", "more groups")
         yield ""
-        yield Phrase("… and {groups}, none larger (--json lists all)", groups=more)
+        yield f"… and {more}, none larger (--json lists all)"
 
 
 def _groups(together: Sequence[GroupResult], alone: int) -> str:
     ends = Counter(group.ends for group in together)
     counts = [
-        (ends["repeats"], Phrase("periodic")),
-        (ends["deadlock"], Phrase("in deadlock")),
-        (ends["open"], Phrase("open: time ran out")),
+        (ends["repeats"], "periodic"),
+        (ends["deadlock"], "in deadlock"),
+        (ends["open"], "open: time ran out"),
     ]
-    groups: list[str] = [
-        Phrase("{number} of {all} {end}", number=str(number), all=str(len(together)), end=end)
-        for number, end in counts
-        if number
-    ]
+    groups: list[str] = [f"{number} of {len(together)} {end}" for number, end in counts if number]
     if alone:
         groups.append(say_count(alone, "robot meets no other", "robots meet no other"))
-    return chain_items(groups, "{first}; {second}")
+    return chain_items(groups, "two clauses")
 
 
 def _group_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) -> Iterator[Part]:
     number = str(len(group.robots))
     if group.pattern is None:
-        source = Phrase("Laps until then")
+        source = "Laps until then"
         if group.ends != "deadlock":
             measured = group.measure_laps()
             laps = format_decimal(Fraction(sum(measured.laps), len(measured.laps)), 1)
-            source = Phrase(
-                "Measured, not proven: means of {laps} laps per robot from {moment} on",
-                laps=laps,
-                moment=quantities.format_moment(measured.warm_up),
+            source = (
+                f"Measured, not proven: means of {laps} laps per robot from"
+                f" {quantities.format_moment(measured.warm_up)} on"
             )
-        yield Phrase(
-            "{number} robots: {why}. {source}:",
-            number=number,
-            why=write_reason(group, quantities),
-            source=source,
-        )
+        yield f"{number} robots: {write_reason(group, quantities)}. {source}:"
         yield _robot_table(scenario, quantities, group)
         yield from _further_robots(group)
         return
-    yield Phrase(
-        "{number} robots: period {period}, from {moment} on",
-        number=number,
-        period=quantities.format_duration(group.pattern.period),
-        moment=quantities.format_moment(group.pattern.transient),
+    yield (
+        f"{number} robots: period {quantities.format_duration(group.pattern.period)},"
+        f" from {quantities.format_moment(group.pattern.transient)} on"
     )
     yield _robot_table(scenario, quantities, group)
     yield from _further_robots(group)
     yield from _stuck_lines(scenario, group)
     if is_long(group):
-        yield Phrase(
-            "waits and bottleneck: not computed for a period of more than {number} visits",
-            number=str(MAX_VISITS),
-        )
+        yield f"waits and bottleneck: not computed for a period of more than {MAX_VISITS} visits"
         return
     yield from _wait_lines(scenario, quantities, group)
     bottleneck = group.find_bottleneck()
     if bottleneck:
         circuit = describe_circuit(bottleneck.pieces, scenario)
-        yield Phrase("bottleneck: {circuit}", circuit=circuit)
+        yield f"bottleneck: {circuit}"
         yield from _sensitivity_lines(scenario, group)
 
 
 def _robot_table(scenario: Scenario, quantities: Quantities, group: GroupResult) -> Table:
     counts = group.pattern.counts if group.pattern else group.measure_laps().laps
-    never: str = Phrase("never") if group.pattern else "?"
+    never: str = "never" if group.pattern else "?"
     rows = [
         [
             name,
@@ -167,15 +152,15 @@ def _robot_table(scenario: Scenario, quantities: Quantities, group: GroupResult)
             MAX_LINES,
         )
     ]
-    laps_heading = Phrase("laps/period") if group.pattern else Phrase("laps")
-    means, alone = map(quantities.format_heading, (Phrase("mean lap"), Phrase("alone")))
-    return Table((Phrase("robot"), laps_heading, means, alone, Phrase("waits")), rows)
+    laps_heading = "laps/period" if group.pattern else "laps"
+    means, alone = map(quantities.format_heading, ("mean lap", "alone"))
+    return Table(("robot", laps_heading, means, alone, "waits"), rows)
 
 
 def _further_robots(group: GroupResult) -> Iterator[Part]:
     if len(group.robots) > MAX_LINES:
         more = say_count(len(group.robots) - MAX_LINES, "more robot", "more robots")
-        yield Phrase("… and {robots} (--json lists all)", robots=more)
+        yield f"… and {more} (--json lists all)"
 
 
 def _stuck_lines(scenario: Scenario, group: GroupResult) -> Iterator[Part]:
@@ -187,12 +172,13 @@ def _stuck_lines(scenario: Scenario, group: GroupResult) -> Iterator[Part]:
         name = scenario.robots[group.robots[robot]].name
         route, last = group.context.routes[robot], len(group.history[robot]) - 1
         values = {"place": place(route.get_vertex(last)), "next": place(route.get_vertex(last + 1))}
-        listed.append(Phrase("{robot} in {place} on its way to {next}", robot=name, **values))
+        listed.append("{robot} in {place} on its way to {next}".format(robot=name, **values))
     if len(stuck) > MAX_LINES:
-        listed.append(Phrase("{number} more", number=str(len(stuck) - MAX_LINES)))
+        listed.append(f"{len(stuck) - MAX_LINES} more")
     if listed:
-        yield Phrase(
-            "{stand} still for ever: {robots} (another --rule may help, for example timetable)",
+        yield (
+            "{stand} still for ever: {robots} (another --rule may help, for example timetable)"
+        ).format(
             stand=say_count(len(stuck), "robot stands", "robots stand"),
             robots=chain_items(listed),
         )
@@ -201,11 +187,9 @@ def _stuck_lines(scenario: Scenario, group: GroupResult) -> Iterator[Part]:
 def _wait_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) -> Iterator[Part]:
     """Yield which robot waits where for which other, in each period and in the first lap."""
     first, periodic = _sites(group.list_first_waits()), _sites(group.waits())
-    yield Phrase(
-        "waits: {first} in the first lap, {periodic} in each period, {both} in both",
-        first=str(len(first)),
-        periodic=str(len(periodic)),
-        both=str(len(first.keys() & periodic.keys())),
+    yield (
+        f"waits: {len(first)} in the first lap, {len(periodic)} in each period,"
+        f" {len(first.keys() & periodic.keys())} in both"
     )
     robots, place = scenario.robots, PlaceNames(scenario, numbered=True)
     sites = list(periodic | first)
@@ -213,24 +197,23 @@ def _wait_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) 
         vertex, beside, waiting, awaited = site
         where = place(vertex)
         if beside is not None and place(beside) != where:
-            where = Phrase("{place} beside {other}", place=where, other=place(beside))
+            where = f"{where} beside {place(beside)}"
         when: list[str] = []
         if site in first:
             moments = _moments(quantities, first[site])
-            when.append(Phrase("first lap at {moments}", moments=moments))
+            when.append(f"first lap at {moments}")
         if site in periodic:
             moments = _moments(quantities, periodic[site])
-            when.append(Phrase("each period at {moments}", moments=moments))
-        text = Phrase(
-            "{place}: {robot} waits for {other}, {when}",
+            when.append(f"each period at {moments}")
+        text = "{place}: {robot} waits for {other}, {when}".format(
             place=where,
             robot=robots[waiting].name,
             other=robots[awaited].name,
-            when=chain_items(when, "{first}; {second}"),
+            when=chain_items(when, "two clauses"),
         )
         yield Paragraph(text, "  ")
     if len(sites) > MAX_LINES:
-        yield Paragraph(Phrase("… and {number} more", number=str(len(sites) - MAX_LINES)), "  ")
+        yield Paragraph(f"… and {len(sites) - MAX_LINES} more", "  ")
 
 
 def _sites(waits: Sequence[LapWait]) -> Sites:
@@ -248,8 +231,8 @@ def _moments(quantities: Quantities, ticks: Sequence[Tick]) -> str:
     more = len(ticks) - MAX_TIMES
     if more <= 0:
         return listed
-    return Phrase(
-        "{first} and {last}", first=listed, last=say_count(more, "more time", "more times")
+    return "{first} and {last}".format(
+        first=listed, last=say_count(more, "more time", "more times")
     )
 
 
@@ -260,7 +243,7 @@ def _sensitivity_lines(scenario: Scenario, group: GroupResult) -> Iterator[Part]
         return
     if len(graph.vertex) > MAX_VISITS_OF_SENSITIVITY:
         most = str(MAX_VISITS_OF_SENSITIVITY)
-        text = Phrase("sensitivity: not computed for more than {number} visits", number=most)
+        text = f"sensitivity: not computed for more than {most} visits"
         yield Paragraph(text, "  ")
         return
     effects = compute_parameter_effects(scenario, graph, most=MAX_EFFECTS)
@@ -268,54 +251,50 @@ def _sensitivity_lines(scenario: Scenario, group: GroupResult) -> Iterator[Part]
         parameter for parameter in effects if parameter.ten_per_cent < parameter.effect.cycle_time
     ]
     for parameter in helpful:
-        text = Phrase(
-            "{change}: the period gets {share} shorter",
+        text = "{change}: the period gets {share} shorter".format(
             change=_change(scenario, parameter),
             share=f"{float(1 - parameter.ten_per_cent / parameter.effect.cycle_time):.2%}",
         )
         yield Paragraph(text, "  ")
     if not helpful:
-        text = Phrase("no single change shortens the period: another circuit is as long")
+        text = "no single change shortens the period: another circuit is as long"
         yield Paragraph(text, "  ")
 
 
-def _change(scenario: Scenario, effect: ParameterEffect) -> Phrase:
+def _change(scenario: Scenario, effect: ParameterEffect) -> str:
     if effect.robot is None:
-        return Phrase("10% less headway")
+        return "10% less headway"
     robot = scenario.robots[effect.robot]
     if effect.kind == "speed":
-        return Phrase("{robot} 10% faster", robot=robot.name)
+        return f"{robot.name} 10% faster"
     if effect.stop is None:
-        return Phrase("{robot} 10% less turning", robot=robot.name)
+        return f"{robot.name} 10% less turning"
     where = PlaceNames(scenario, numbered=True).describe_place(robot.stops[effect.stop].at)
-    return Phrase("{robot} 10% less work at {place}", robot=robot.name, place=where)
+    return f"{robot.name} 10% less work at {where}"
 
 
 BASELINES = {
-    "repeats": Phrase("first come first served"),
-    "open": Phrase("first come first served as measured within its time"),
-    "starves": Phrase("first come first served, where a robot stands still for ever"),
+    "repeats": "first come first served",
+    "open": "first come first served as measured within its time",
+    "starves": "first come first served, where a robot stands still for ever",
 }
 """What a timetable is compared with, by how that ends."""
 
 
-def report_comparison(comparison: BaselineComparison) -> Iterator[Phrase]:
+def report_comparison(comparison: BaselineComparison) -> Iterator[str]:
     """Yield how a timetable compares with its baseline, and how fair it is."""
     if not comparison.baseline:
-        yield Phrase("throughput: first come first served ends in a deadlock")
+        yield "throughput: first come first served ends in a deadlock"
     elif comparison.throughput < comparison.baseline:
-        yield Phrase(
-            "throughput: {share} below {baseline} (give more time)",
+        yield "throughput: {share} below {baseline} (give more time)".format(
             share=f"{float(1 - comparison.throughput / comparison.baseline):.2%}",
             baseline=BASELINES[comparison.baseline_ends],
         )
     else:
-        yield Phrase(
-            "throughput: {share} against {baseline}",
+        yield "throughput: {share} against {baseline}".format(
             share=f"{float(comparison.throughput / comparison.baseline - 1):+.1%}",
             baseline=BASELINES[comparison.baseline_ends],
         )
-    yield Phrase(
-        "fairness: every robot makes at least {share} of the laps that it makes alone",
+    yield "fairness: every robot makes at least {share} of the laps that it makes alone".format(
         share=f"{float(comparison.fairness):.0%}",
     )

@@ -172,7 +172,7 @@ def _steps_data(scenario: Scenario, bottleneck: Bottleneck | None) -> list[dict[
             "vertices": [place(vertex) for vertex in step.places],
             "for": format_number(clock.convert_to_time(step.ticks)),
             "text": Phrase(
-                "{robot} {steps}", robot=scenario.robots[step.robot].name, steps=step.text
+                "steps of robot", robot=scenario.robots[step.robot].name, steps=step.text
             ),
         }
         for step in list_circuit_steps(bottleneck.pieces if bottleneck else (), scenario)

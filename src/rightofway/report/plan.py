@@ -32,7 +32,6 @@ from rightofway.report.lines import (
     lay_out,
 )
 from rightofway.report.sentences import (
-    OBJECTIVES,
     Words,
     describe_decision,
     describe_forced_loss,
@@ -53,16 +52,16 @@ MAX_HOMES = 5
 """Homes on the way of other robots that a report names: those that cost most."""
 
 HEADINGS = (
-    Phrase("robot"),
-    Phrase("completes"),
-    Phrase("alone"),
-    Phrase("detours"),
-    Phrase("makes room"),
-    Phrase("waits"),
+    "robot",
+    "completes",
+    "alone",
+    "detours",
+    "makes room",
+    "waits",
 )
 """Headings of the table of robots: the first time is the sum of the others."""
 
-NOT_COMPUTED = Phrase("not computed, because the time limit is over")
+NOT_COMPUTED = "not computed, because the time limit is over"
 
 
 def summarize_plan(plan: Plan, quantities: Quantities, *, with_lost_time: bool = True) -> str:
@@ -74,13 +73,13 @@ def summarize_plan(plan: Plan, quantities: Quantities, *, with_lost_time: bool =
     lost = compute_lost_time(plan) if with_lost_time else ()
     lost_in_words = _lost(words, lost) if with_lost_time else NOT_COMPUTED
     costs = [
-        (Phrase("planner"), describe_planning(plan, quantities)),
-        (Phrase("flowtime"), _flowtime(words, metrics)),
-        (Phrase("makespan"), words.say_time(metrics.makespan)),
-        (Phrase("lost time"), lost_in_words),
+        ("planner", describe_planning(plan, quantities)),
+        ("flowtime", _flowtime(words, metrics)),
+        ("makespan", words.say_time(metrics.makespan)),
+        ("lost time", lost_in_words),
     ]
     if quantities.in_ticks:
-        costs.append((Phrase("tick"), replace(quantities, in_ticks=False).format_duration(1)))
+        costs.append(("tick", replace(quantities, in_ticks=False).format_duration(1)))
     details = [*_robots(words, lost), *_losses(words, lost)] if with_lost_time else []
     parts = [*details, *_forced_losses(words)]
     return lay_out([Facts(costs), "", *parts])
@@ -91,11 +90,7 @@ def describe_planning(plan: Plan, quantities: Quantities) -> str:
     run, metrics, words = plan.run, measure(plan), Words(plan=plan, quantities=quantities)
     parts = [run.name]
     if run.seconds is not None:
-        parts = [
-            Phrase(
-                "{planner}, planned in {time} s", planner=run.name, time=format_decimal(run.seconds)
-            )
-        ]
+        parts = [f"{run.name}, planned in {format_decimal(run.seconds)} s"]
     proven = describe_proof(plan)
     if proven:
         parts.append(proven)
@@ -105,8 +100,7 @@ def describe_planning(plan: Plan, quantities: Quantities) -> str:
         parts.append(describe_improvement(run.improvement, quantities))
     if run.start is not None:
         parts.append(
-            Phrase(
-                "{routes} of {fleet} keep their old route, {tracks} also its times",
+            "{routes} of {fleet} keep their old route, {tracks} also its times".format(
                 routes=str(run.start.routes),
                 fleet=say_count(len(plan.tracks), "robot", "robots"),
                 tracks=str(run.start.tracks),
@@ -114,18 +108,17 @@ def describe_planning(plan: Plan, quantities: Quantities) -> str:
         )
     if run.reroutes:
         names = [words.name_robot(reroute.robot) for reroute in run.reroutes]
-        parts.append(Phrase("rerouted: {robots}", robots=chain_items(names)))
-    return chain_items(parts, "{first}; {second}")
+        parts.append(f"rerouted: {chain_items(names)}")
+    return chain_items(parts, "two clauses")
 
 
 def _flowtime(words: Words, metrics: Metrics) -> str:
     flowtime, bound = words.say_time(metrics.flowtime), metrics.lower_bound
     if metrics.flowtime == bound:
-        return Phrase("{flowtime}, the least possible", flowtime=flowtime)
+        return f"{flowtime}, the least possible"
     if not bound:
         return flowtime
-    return Phrase(
-        "{flowtime}, {gap} above the lower bound of {bound}",
+    return "{flowtime}, {gap} above the lower bound of {bound}".format(
         flowtime=flowtime,
         gap=f"{metrics.gap:.1%}",
         bound=words.say_time(bound),
@@ -134,20 +127,14 @@ def _flowtime(words: Words, metrics: Metrics) -> str:
 
 def _lost(words: Words, lost: Sequence[LostTime]) -> str:
     parts = {
-        Phrase("detours"): sum(times.detours for times in lost),
-        Phrase("making room"): sum(times.making_room for times in lost),
-        Phrase("waiting"): sum(times.waiting for times in lost),
+        "detours": sum(times.detours for times in lost),
+        "making room": sum(times.making_room for times in lost),
+        "waiting": sum(times.waiting for times in lost),
     }
-    causes = [
-        Phrase("{cause} {time}", cause=cause, time=words.say_time(ticks))
-        for cause, ticks in parts.items()
-        if ticks
-    ]
+    causes = [f"{cause} {words.say_time(ticks)}" for cause, ticks in parts.items() if ticks]
     if not causes:
-        return Phrase("none")
-    return Phrase(
-        "{time}: {causes}", time=words.say_time(sum(parts.values())), causes=chain_items(causes)
-    )
+        return "none"
+    return f"{words.say_time(sum(parts.values()))}: {chain_items(causes)}"
 
 
 def _robots(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
@@ -155,9 +142,9 @@ def _robots(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
     if len(lost) > MAX_LINES:
         most = [robot for robot in most if lost[robot].lost] or most
     listed, cell = sorted(most), words.quantities.format_cell
-    heading = Phrase("times of each robot")
+    heading = "times of each robot"
     if len(listed) < len(lost):
-        heading = Phrase("times of the robots that lose most")
+        heading = "times of the robots that lose most"
     yield words.quantities.format_heading(heading)
     rows = [
         [
@@ -172,7 +159,7 @@ def _robots(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
     yield Table(HEADINGS, rows)
     if len(lost) > len(listed):
         rest = say_count(len(lost) - len(listed), "more robot", "more robots")
-        yield Phrase("… and {robots} that lose less time (--json lists all)", robots=rest)
+        yield f"… and {rest} that lose less time (--json lists all)"
 
 
 def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
@@ -188,7 +175,7 @@ def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
     for group in largest[:MAX_LINES]:
         yield describe_losses(words, group)
     if len(largest) > MAX_LINES:
-        yield Phrase("… and {number} more (--json lists all)", number=str(len(largest) - MAX_LINES))
+        yield f"… and {len(largest) - MAX_LINES} more (--json lists all)"
     yield from _detours(words, lost)
     yield from _homes_in_the_way(words, chain.from_iterable(groups.values()))
 
@@ -202,7 +189,7 @@ def _forced_losses(words: Words) -> Iterator[Part]:
         place = words.name_place(loss.vertex)
         yield describe_forced_loss(words.plan.scenario, loss, words.quantities, place)
     if len(losses) > MAX_LINES:
-        yield Phrase("… and {number} more (--json lists all)", number=str(len(losses) - MAX_LINES))
+        yield f"… and {len(losses) - MAX_LINES} more (--json lists all)"
 
 
 def _detours(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
@@ -214,15 +201,15 @@ def _detours(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
         return
     times = [words.say_time, *[choose_further_format(words.quantities)] * (MAX_DETOURS - 1)]
     listed: list[str] = [
-        Phrase("{robot} {time}", robot=words.name_robot(lost_by.robot), time=write(lost_by.detours))
+        f"{words.name_robot(lost_by.robot)} {write(lost_by.detours)}"
         for lost_by, write in zip(longest, times, strict=False)
     ]
     robots = chain_items(listed)
     if rest := len(longest) - len(listed):
         more = say_count(rest, "more robot", "more robots")
-        robots = Phrase("{first} and {last}", first=robots, last=more)
+        robots = f"{robots} and {more}"
     yield ""
-    yield Phrase("Detours: {robots}.", robots=robots)
+    yield f"Detours: {robots}."
 
 
 def _homes_in_the_way(words: Words, losses: Iterable[Loss]) -> Iterator[Part]:
@@ -254,7 +241,7 @@ def _homes_in_the_way(words: Words, losses: Iterable[Loss]) -> Iterator[Part]:
         ranked = sorted(costs[robot], key=lambda other: -costs[robot][other])
         names: list[str] = [*map(words.name_robot, ranked[:3])]
         if ranked[3:]:
-            names.append(Phrase("others"))
+            names.append("others")
         values = {
             "place": words.places.describe_place(last),
             "robot": words.name_robot(robot),
@@ -262,15 +249,17 @@ def _homes_in_the_way(words: Words, losses: Iterable[Loss]) -> Iterator[Part]:
             "time": words.say_time(sum(costs[robot].values())),
         }
         if last == scenario.robots[robot].home:
-            yield Phrase(
+            yield (
                 "{place}, the home of {robot}, is on the way of {others} and costs {robot} {time}:"
-                " a home or a parking place off that way would help.",
+                " a home or a parking place off that way would help."
+            ).format(
                 **values,
             )
         else:
-            yield Phrase(
+            yield (
                 "{place}, the last place of {robot}, is on the way of {others} and costs {robot}"
-                " {time}: a last place or a parking place off that way would help.",
+                " {time}: a last place or a parking place off that way would help."
+            ).format(
                 **values,
             )
 
@@ -283,23 +272,19 @@ def report_decisions(plan: Plan, quantities: Quantities) -> str:
 def _decisions(words: Words) -> Iterator[Part]:
     plan = words.plan
     for decision in plan.run.decisions:
-        yield Phrase(
-            "At {moment}: {decision}",
-            moment=words.say_moment(decision.tick),
-            decision=describe_decision(words, decision),
-        )
+        yield f"At {words.say_moment(decision.tick)}: {describe_decision(words, decision)}"
         yield Paragraph(explain_decision(words, decision), "    ")
     for reroute in plan.run.reroutes:
         robot = words.name_robot(reroute.robot)
         why = FactWriter(plan.scenario).write(reroute.because)
-        yield Phrase("{robot} is rerouted: {why}.", robot=robot, why=why)
+        yield f"{robot} is rerouted: {why}."
     if plan.run.decisions or plan.run.reroutes:
         return
     tracks = free_running(plan)
     if not find_collisions(plan.scenario, tracks) and not find_swaps(tracks):
-        yield Phrase("No decision was needed: no two robots meet.")
+        yield "No decision was needed: no two robots meet."
         return
-    yield Phrase(
+    yield (
         "The search that found this plan records no decisions, so no wait has a reason here"
         " (`--planner two-level` plans with a reason for each decision;"
         " `rightofway table PLAN --events` lists each wait and the robot waited for)."
@@ -320,29 +305,27 @@ def report_bounds(
     """
     alone = compute_alone_completions(scenario)
 
-    def at_least(ticks: int) -> Phrase:
-        return Phrase("at least {time}", time=quantities.format_duration(ticks))
+    def at_least(ticks: int) -> str:
+        return f"at least {quantities.format_duration(ticks)}"
 
     bounds: list[tuple[str, str]] = [
-        (Phrase("flowtime"), at_least(sum(alone))),
-        (Phrase("makespan"), at_least(max(alone))),
+        ("flowtime", at_least(sum(alone))),
+        ("makespan", at_least(max(alone))),
     ]
     if proof is not None and proof.bound is not None:
         proven: str = at_least(proof.bound)
         if is_reached:
-            proven = Phrase("{bound}, and a plan reaches it", bound=proven)
-        bounds.append(
-            (Phrase("{objective}, proven", objective=OBJECTIVES[proof.objective]), proven)
-        )
+            proven = f"{proven}, and a plan reaches it"
+        bounds.append((f"{Phrase(proof.objective.value)}, proven", proven))
     rows = [
         (robot.name, quantities.format_cell(ticks))
         for robot, ticks in zip(scenario.robots[:MAX_LINES], alone, strict=False)
     ]
-    heading = quantities.format_heading(Phrase("alone"))
-    parts: list[Part] = [Facts(bounds), "", Table((Phrase("robot"), heading), rows)]
+    heading = quantities.format_heading("alone")
+    parts: list[Part] = [Facts(bounds), "", Table(("robot", heading), rows)]
     if len(alone) > MAX_LINES:
         more = say_count(len(alone) - MAX_LINES, "more robot", "more robots")
-        parts.append(Phrase("… and {robots} (--json lists all)", robots=more))
+        parts.append(f"… and {more} (--json lists all)")
     if losses:
         parts.append("")
     place = PlaceNames(scenario)
@@ -359,14 +342,9 @@ def report_check(
     """Yield the faults of the plan of a file, each in a line."""
     if judgement.ok:
         yield Line(
-            Phrase(
-                "{file}: no fault in {robots} robots and {visits} visits",
-                file=file,
-                robots=str(len(plan.tracks)),
-                visits=str(sum(map(len, plan.tracks))),
-            )
+            f"{file}: no fault in {len(plan.tracks)} robots and {sum(map(len, plan.tracks))} visits"
         )
         return
     first, *others = list_report_sentences(judgement, quantities)
-    yield Line(Phrase("{file}: {text}", file=file, text=first))
+    yield Line(f"{file}: {first}")
     yield from map(Line, others)

@@ -24,17 +24,8 @@ from rightofway.model import (
     Scenario,
 )
 from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase, chain_items, join_items, mark_figure, say_count
+from rightofway.phrases import Phrase, chain_items, join_items, mark_figure
 from rightofway.quantities import Quantities
-
-OBJECTIVES: Mapping[Objective, Phrase] = {
-    Objective.FLOWTIME: Phrase("flowtime"),
-    Objective.COST: Phrase("flowtime and surcharges"),
-    Objective.WEIGHTED: Phrase("weighted flowtime"),
-    Objective.MAKESPAN: Phrase("makespan"),
-    Objective.BOTH: Phrase("makespan and flowtime"),
-}
-"""What people call that which planners minimize."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,7 +46,7 @@ class Words:
     def name_way(self, vertices: Sequence[int]) -> str:
         """Return a place, or the first and the last of several."""
         first, last = self.name_place(vertices[0]), self.name_place(vertices[-1])
-        return first if first == last else Phrase("{first} to {last}", first=first, last=last)
+        return first if first == last else Phrase("first to last", first=first, last=last)
 
     def say_time(self, ticks: int) -> str:
         """Return how long a number of ticks lasts."""
@@ -97,14 +88,12 @@ def describe_proof(plan: Plan) -> str:
     outcome, metrics = derive_outcome(plan), measure(plan)
     if outcome.kind is OutcomeKind.OPTIMAL:
         if metrics.flowtime == metrics.flowtime_alone:
-            return Phrase("optimal, no robot loses time")
-        objective = OBJECTIVES[outcome.objective]
-        return Phrase("optimal, no plan has a smaller {objective}", objective=objective)
+            return Phrase("proof: as fast as alone")
+        objective = Phrase(outcome.objective.value)
+        return Phrase("proof: optimal", objective=objective)
     if outcome.kind is OutcomeKind.BOUNDED and outcome.factor is not None:
-        factor, objective = str(format_number(outcome.factor)), OBJECTIVES[outcome.objective]
-        return Phrase(
-            "at most {factor} times the least {objective}", factor=factor, objective=objective
-        )
+        factor, objective = str(format_number(outcome.factor)), Phrase(outcome.objective.value)
+        return Phrase("proof: factor", factor=factor, objective=objective)
     # The flowtime is shown with its own bound; surcharges count where they raise it.
     is_shown = outcome.objective is Objective.FLOWTIME or (
         outcome.objective is Objective.COST and (outcome.bound or 0) <= metrics.flowtime_alone
@@ -112,9 +101,9 @@ def describe_proof(plan: Plan) -> str:
     if outcome.kind is OutcomeKind.BEST_FOUND and outcome.bound and not is_shown:
         cost = plan.compute_value(outcome.objective)
         return Phrase(
-            "at most {gap} above the least {objective}",
+            "proof: gap",
             gap=mark_figure(f"{cost / outcome.bound - 1:.1%}"),
-            objective=OBJECTIVES[outcome.objective],
+            objective=Phrase(outcome.objective.value),
         )
     return ""
 
@@ -130,10 +119,10 @@ def summarize_forced_loss(scenario: Scenario, loss: ForcedLoss, quantities: Quan
     names = join_items([scenario.robots[robot].name for robot in loss.robots])
     values = {"robots": names, "time": _lost_time(loss, quantities)}
     if loss.objective is not Objective.MAKESPAN:
-        return Phrase("{robots} lose {time}", **values)
+        return Phrase("robots lose", **values)
     if len(loss.robots) == 1:
-        return Phrase("{robots} needs {time}", **values)
-    return Phrase("{robots} need {time}", **values)
+        return Phrase("robot needs", **values)
+    return Phrase("robots need", **values)
 
 
 def describe_forced_loss(
@@ -144,35 +133,29 @@ def describe_forced_loss(
     values = {"time": _lost_time(loss, quantities), "place": place}
     match loss.objective, names:
         case Objective.MAKESPAN, [one]:
-            return Phrase(
-                "No plan ends before {time}: {one} alone needs as long.", one=one, **values
-            )
+            return Phrase("forced makespan of one", one=one, **values)
         case Objective.MAKESPAN, [one, other]:
             return Phrase(
-                "No plan ends before {time}: {one} and {other} need as long however they pass each"
-                " other; alone they would meet in {place}.",
+                "forced makespan of two",
                 one=one,
                 other=other,
                 **values,
             )
         case Objective.MAKESPAN, _:
             return Phrase(
-                "No plan ends before {time}: {robots} need as long however they pass each other;"
-                " alone, two of them would meet in {place}.",
+                "forced makespan of robots",
                 robots=join_items(names),
                 **values,
             )
         case _, [one, other]:
             return Phrase(
-                "In every plan, {one} and {other} lose at least {time} to each other: alone they"
-                " would meet in {place}.",
+                "forced loss of two",
                 one=one,
                 other=other,
                 **values,
             )
     return Phrase(
-        "In every plan, {robots} lose at least {time} to each other: alone, two of them would"
-        " meet in {place}.",
+        "forced loss of robots",
         robots=join_items(names),
         **values,
     )
@@ -182,23 +165,23 @@ def _lost_time(loss: ForcedLoss, quantities: Quantities) -> str:
     time = quantities.format_duration(loss.ticks)
     match loss.objective:
         case Objective.WEIGHTED:
-            return Phrase("{time} by weight", time=time)
+            return Phrase("time by weight", time=time)
         case Objective.COST:
-            return Phrase("{time} with surcharges", time=time)
+            return Phrase("time with surcharges", time=time)
     return time
 
 
 def describe_improvement(improvement: Improvement, quantities: Quantities) -> Phrase:
     """Return the gain of a search over its first plan, and the number of attempts."""
-    gain = Phrase("found no better plan")
+    gain = Phrase("gain: none")
     if improvement.saved > 0:
-        gain = Phrase("saved {time}", time=quantities.format_duration(improvement.saved))
+        gain = Phrase("gain: time saved", time=quantities.format_duration(improvement.saved))
     attempts: Phrase = Phrase("attempts")
     if improvement.tries is not None:
-        attempts = say_count(improvement.tries, "attempt", "attempts")
+        attempts = Phrase("n_attempts", number=str(improvement.tries))
     if improvement.interrupted:
-        attempts = Phrase("interrupted: {attempts}", attempts=attempts)
-    return Phrase("{attempts} to improve the first plan {gain}", attempts=attempts, gain=gain)
+        attempts = Phrase("interrupted attempts", attempts=attempts)
+    return Phrase("improvement", attempts=attempts, gain=gain)
 
 
 def describe_loss(words: Words, loss: Loss) -> Phrase:
@@ -213,17 +196,13 @@ def describe_loss(words: Words, loss: Loss) -> Phrase:
             return _wait_in_words(words, loss, names)
         case "follows":
             if loss.until_vertex == loss.vertex:
-                return Phrase("follows {other} in {here}, loses {time}", **names)
+                return Phrase("follows at place", **names)
             end_place = words.name_place(loss.until_vertex)
-            return Phrase(
-                "follows {other} from {here} to {there}, loses {time}", **names, there=end_place
-            )
+            return Phrase("follows along way", **names, there=end_place)
         case "makes room":
             if loss.for_robot is None:
-                return Phrase("leaves {here} and comes back, loses {time}", **names)
-            return Phrase(
-                "leaves {here} to make room for {other} and comes back, loses {time}", **names
-            )
+                return Phrase("makes room", **names)
+            return Phrase("makes room for", **names)
 
 
 def describe_executed_loss(words: Words, loss: Loss, unplanned: int) -> Phrase:
@@ -231,7 +210,7 @@ def describe_executed_loss(words: Words, loss: Loss, unplanned: int) -> Phrase:
     text = describe_loss(words, loss)
     if unplanned <= 0:
         return text
-    return Phrase("{loss}, {time} more than planned", loss=text, time=words.say_time(unplanned))
+    return Phrase("loss beyond plan", loss=text, time=words.say_time(unplanned))
 
 
 def _wait_in_words(words: Words, loss: Loss, names: Mapping[str, str]) -> Phrase:
@@ -239,11 +218,9 @@ def _wait_in_words(words: Words, loss: Loss, names: Mapping[str, str]) -> Phrase
     if loss.for_robot is not None:
         freed = words.name_place(loss.freed)
         if loss.freed == loss.towards:
-            return Phrase(
-                "waits {time} in {here} for {other} to leave {freed}", **names, freed=freed
-            )
+            return Phrase("waits for place", **names, freed=freed)
         return Phrase(
-            "waits {time} in {here} for {other} to leave {freed}, further on its way",
+            "waits for place further on",
             **names,
             freed=freed,
         )
@@ -251,16 +228,13 @@ def _wait_in_words(words: Words, loss: Loss, names: Mapping[str, str]) -> Phrase
         is_ahead = loss.towards in vertices and (len(vertices) == 1 or loss.vertex in vertices)
         if end > loss.tick and is_ahead:
             names = {**names, "way": words.name_way(vertices), "end": words.say_moment(end)}
-            return Phrase("waits {time} in {here}: {way} is closed until {end}", **names)
+            return Phrase("waits for closure", **names)
     if words.plan.scenario.closures:
         return Phrase(
-            "waits {time} in {here}, because something on its way is closed, or to let a robot pass"
-            " later",
+            "waits for closure or robot",
             **names,
         )
-    return Phrase(
-        "waits {time} in {here}, though no place on its way becomes free just then", **names
-    )
+    return Phrase("waits for nothing free", **names)
 
 
 def describe_losses(words: Words, group: Sequence[Loss]) -> Phrase:
@@ -275,14 +249,10 @@ def describe_losses(words: Words, group: Sequence[Loss]) -> Phrase:
         "number": str(number),
     }
     if number == 1:
-        return Phrase("At {moment}, {robot} {loss}.", **names)
+        return Phrase("loss at moment", **names)
     if first.for_robot is None:
-        return Phrase(
-            "{robot} loses {time}, {number} times; first, at {moment}, it {loss}.", **names
-        )
-    return Phrase(
-        "{robot} loses {time} to {other}, {number} times; first, at {moment}, it {loss}.", **names
-    )
+        return Phrase("losses", **names)
+    return Phrase("losses to robot", **names)
 
 
 def summarize_decision(words: Words, decision: Decision) -> tuple[Phrase, Phrase]:
@@ -294,23 +264,23 @@ def summarize_decision(words: Words, decision: Decision) -> tuple[Phrase, Phrase
     names["place"] = words.name_way(decision.vertices)
     match decision.kind:
         case "head-on":
-            head = Phrase("{waits} waits for {first}, head-on, {place}", **names)
+            head = Phrase("decision: head-on", **names)
         case "following":
-            head = Phrase("{waits} follows {first}, {place}", **names)
+            head = Phrase("decision: following", **names)
         case _:
-            head = Phrase("{waits} waits for {first}, {place}", **names)
+            head = Phrase("decision: waits", **names)
     cost: Phrase = Phrase("no time lost")
     if decision.ticks:
-        cost = Phrase("loses {time}", time=words.say_time(decision.ticks))
+        cost = Phrase("loses time", time=words.say_time(decision.ticks))
     moment, why = words.say_moment(decision.tick), _why(words, decision)
-    return head, Phrase("at {moment} · {cost} · {why}", moment=moment, cost=cost, why=why)
+    return head, Phrase("decision at moment", moment=moment, cost=cost, why=why)
 
 
 REASONS: Mapping[str, Phrase] = {
-    "node": Phrase("fewer conflicts left"),
-    "settled": Phrase("the other one is settled"),
-    "priority": Phrase("by priority"),
-    "only": Phrase("the only way"),
+    "node": Phrase("why: fewer conflicts"),
+    "settled": Phrase("why: settled"),
+    "priority": Phrase("why: priority"),
+    "only": Phrase("why: only way"),
 }
 """Why a robot goes first, by the level of a decision that looks at no times."""
 
@@ -321,10 +291,10 @@ def _why(words: Words, decision: Decision) -> Phrase:
     if reason is not None:
         return reason
     if not _adds_up_times(words):
-        return Phrase("better for both")
+        return Phrase("why: better for both")
     if _is_tie(decision):
-        return Phrase("a tie: either choice costs the same")
-    return Phrase("both done sooner in all")
+        return Phrase("why: tie")
+    return Phrase("why: sooner in all")
 
 
 def describe_decision(words: Words, decision: Decision) -> Phrase:
@@ -341,26 +311,18 @@ def describe_decision(words: Words, decision: Decision) -> Phrase:
     }
     match decision.kind:
         case "head-on":
-            met = Phrase(
-                "{one} and {other} would have met head-on on the way from {place}.", **names
-            )
+            met = Phrase("met head-on", **names)
         case "following":
-            met = Phrase(
-                "{one} and {other} go the same way from {place} and cannot overtake.", **names
-            )
+            met = Phrase("met following", **names)
         case "crossing":
             met = Phrase(
-                "{one} and {other} would have come too near to each other: {first} drives from"
-                " {place}.",
+                "met too near",
                 **names,
             )
         case _:
-            met = Phrase("{one} and {other} would both have been in {place}.", **names)
-    if decision.ticks:
-        how = Phrase("{waits} waits {time} in {here} and lets {first} go first.", **names)
-    else:
-        how = Phrase("{waits} gives way in {here}, at no loss, and lets {first} go first.", **names)
-    return Phrase("{first} {second}", first=met, second=how)
+            met = Phrase("met at place", **names)
+    how = Phrase("gives way at loss" if decision.ticks else "gives way", **names)
+    return Phrase("two sentences", first=met, second=how)
 
 
 def goes_first(decision: Decision) -> int:
@@ -390,28 +352,25 @@ def describe_reason(words: Words, decision: Decision) -> Phrase:
     match decision.level:
         case "node":
             return Phrase(
-                "Node level: {waits} waits because that leaves fewer conflicts in the whole"
-                " system.",
+                "reason: node level",
                 **names,
             )
         case "settled":
             return Phrase(
-                "Node level: {first} cannot wait: it would then meet robots that are settled"
-                " already.",
+                "reason: settled",
                 **names,
             )
         case "priority":
-            return Phrase("{waits} waits because {first} has the higher priority.", **names)
+            return Phrase("reason: priority", **names)
         case "only":
             return Phrase(
-                "{first} cannot wait here: with the decisions taken before, no plan is possible"
-                " then.",
+                "reason: only way",
                 **names,
             )
         case "robot":
             sums = _sums_in_words(words, decision, names["waits"])
             return Phrase(
-                "Robot level: either choice leaves as many conflicts in the whole system{sums}",
+                "reason: robot level",
                 sums=sums,
             )
 
@@ -420,15 +379,15 @@ def _sums_in_words(words: Words, decision: Decision, waits: str) -> Phrase:
     """Return how the completion times decide, where the conflicts left are equal."""
     has_both = None not in (decision.completion_sums or ())
     if has_both and not _adds_up_times(words):
-        return Phrase(", so the objective decides: by the completion times of the two robots.")
+        return Phrase("sums: objective decides")
     if _is_tie(decision):
         return Phrase(
-            ", and the completion times add up to the same. Then {waits} waits by rule.",
+            "sums: tie",
             waits=waits,
         )
     if None in (decision.completion_sums or ()):
-        return Phrase(", and only with {waits} waiting do both get through.", waits=waits)
-    return Phrase(", so the smaller sum of completion times decides.")
+        return Phrase("sums: one choice", waits=waits)
+    return Phrase("sums: smaller decides")
 
 
 def list_figures(words: Words, decision: Decision) -> list[tuple[Phrase, str, str]]:
@@ -437,13 +396,13 @@ def list_figures(words: Words, decision: Decision) -> list[tuple[Phrase, str, st
     if any(count is not None for count in decision.conflicts_left):
         impossible = Phrase("impossible")
         first, other = (impossible if n is None else str(n) for n in decision.conflicts_left)
-        rows.append((Phrase("Conflicts left"), first, other))
+        rows.append((Phrase("figure: conflicts left"), first, other))
     if decision.completion_sums:
-        no_way = Phrase("no way")
+        no_way = Phrase("no way at all")
         first, other = (
             no_way if n is None else words.say_time(n) for n in decision.completion_sums
         )
-        rows.append((Phrase("Sum of completion times"), first, other))
+        rows.append((Phrase("figure: sum of completion times"), first, other))
     return rows
 
 
@@ -452,7 +411,7 @@ def describe_figures(words: Words, decision: Decision) -> list[Phrase]:
     first_name, other = map(words.name_robot, decision.robots)
     return [
         Phrase(
-            "{figure}: {if_one} if {one} waits, {if_other} if {other} waits.",
+            "figure of both choices",
             figure=figure,
             if_one=if_one,
             if_other=if_other,
@@ -466,7 +425,7 @@ def describe_figures(words: Words, decision: Decision) -> list[Phrase]:
 def explain_decision(words: Words, decision: Decision) -> str:
     """Return why the planner decided so, with the figures that it compared."""
     sentences = [describe_reason(words, decision), *describe_figures(words, decision)]
-    return chain_items(sentences, "{first} {second}")
+    return chain_items(sentences, "two sentences")
 
 
 def describe_closure(closure: Closure, scenario: Scenario) -> Phrase:
@@ -479,13 +438,13 @@ def describe_closure(closure: Closure, scenario: Scenario) -> Phrase:
     values = {"begin": moment(begin)}
     if len(vertices) > 1:
         first, last = place(vertices[0]), place(vertices[-1])
-        values["way"] = Phrase("{first} to {last}", first=first, last=last)
+        values["way"] = Phrase("first to last", first=first, last=last)
         if end is None:
-            return Phrase("{way} closed from {begin} on", **values)
-        return Phrase("{way} closed from {begin} until {end}", **values, end=moment(end))
+            return Phrase("way closed from moment", **values)
+        return Phrase("way closed until moment", **values, end=moment(end))
     if end is None:
-        return Phrase("closed from {begin} on", **values)
-    return Phrase("closed from {begin} until {end}", **values, end=moment(end))
+        return Phrase("closed from moment", **values)
+    return Phrase("closed until moment", **values, end=moment(end))
 
 
 def list_closed_vertices(closure: Closure, scenario: Scenario) -> tuple[int, ...]:

@@ -19,7 +19,6 @@ from rightofway.control.journal import JournalReader
 from rightofway.control.recording import Recording
 from rightofway.errors import InputError
 from rightofway.facts import Fact, read_fact
-from rightofway.languages import read_tables
 from rightofway.model import Plan
 from rightofway.phrases import to_parts
 from rightofway.report.facts import FactWriter
@@ -27,7 +26,6 @@ from rightofway.studio.errors import Busy, Refused
 from rightofway.viz.page.document import as_compact_json, make_document
 from rightofway.viz.page.payload import make_payload
 from rightofway.viz.page.schema import FeedData, Payload
-from rightofway.viz.page.translations import find_translations
 
 __all__ = ["ORDERS", "Watched"]
 
@@ -105,13 +103,8 @@ class Watched:
 
     def _write_page(self, feed: FeedData, *, is_whole: bool = False) -> str:
         """Return the page of the plan with a feed."""
-        said = find_translations(feed["frame"]["rows"]) if is_whole else read_tables()
         payload = self._payload.copy()
         payload["driven"] = feed
-        payload["translations"] = {
-            language: {**own, **said.get(language, {})}
-            for language, own in payload["translations"].items()
-        }
         about = f"{self._title}: {len(self._plan.scenario.robots)} robots"
         return make_document(about, payload, "watch_main", connects=not is_whole)
 

@@ -16,9 +16,10 @@ from rightofway.errors import InputError
 from rightofway.facts import Fact, note_pieces
 from rightofway.io import read_layout
 from rightofway.io.layouts import make_layout_of_graph
-from rightofway.phrases import join_parts, to_parts
+from rightofway.phrases import to_parts
 from rightofway.report.facts import write_note
 from rightofway.site.layout import Layout, build_roadmap_of_level
+from tests.builders.languages import say
 from tests.builders.sentences import tell_notes
 
 HERE = Path(__file__).parents[2] / "data" / "layouts"
@@ -323,4 +324,4 @@ def test_a_note_on_pieces_is_copied_and_translated() -> None:
         assert again == note
     sentence = write_note(note)
     left_out = "a zone without vertices and lanes, or with a name twice, is left out"
-    assert join_parts(to_parts(sentence)) == sentence == f"{left_out}: Aisle and Dock"
+    assert say(to_parts(sentence)) == sentence == f"{left_out}: Aisle and Dock"

@@ -6,9 +6,9 @@ import {
   boxBeside,
   cut,
 } from "../../../src/rightofway/viz/page/assets/drawing/label_board.js";
-import { completed } from "../../../src/rightofway/viz/page/assets/language/language.js";
 import { blend } from "../../../src/rightofway/viz/page/assets/drawing/theme.js";
 import { joined, several } from "../../../src/rightofway/viz/page/assets/language/words.js";
+import "../texts.js";
 
 test("a label is free where nothing is, inside the canvas", () => {
   const board = new LabelBoard();
@@ -49,15 +49,6 @@ test("a search finds texts with all of its words, in any order", () => {
   assert.equal(matches("R1 waits for R2", "r2 WAITS"), true);
   assert.equal(matches("R1 waits for R2", "r3"), false);
   assert.equal(matches("R1", " "), true);
-});
-
-test("texts that a language lacks are those of the other one", () => {
-  const other = { a: "one", table: { b: "two", c: "three" }, list: ["x"] };
-  assert.deepEqual(completed({ table: { b: "zwei" } }, other), {
-    a: "one",
-    table: { b: "zwei", c: "three" },
-    list: ["x"],
-  });
 });
 
 test("a colour lies between two", () => {

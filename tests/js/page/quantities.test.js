@@ -6,10 +6,12 @@ import {
   decimal,
   fraction,
 } from "../../../src/rightofway/viz/page/assets/language/quantities.js";
-import { figure, setLanguage } from "../../../src/rightofway/viz/page/assets/language/language.js";
-import { learn, said } from "../../../src/rightofway/viz/page/assets/language/library.js";
+import { figure, said } from "../../../src/rightofway/viz/page/assets/language/language.js";
 import { roundLength } from "../../../src/rightofway/viz/page/assets/drawing/scale_bar.js";
 import { times } from "../made.js";
+import { speak } from "../texts.js";
+
+/** @import { PhraseData } from "../../../src/rightofway/viz/page/assets/payload.d.ts" */
 
 /** Values and their texts; the package is tested with the same ones. */
 const CASES = JSON.parse(
@@ -78,11 +80,11 @@ test("the scale bar has the longest round length that 130 pixels have room for",
 
 /** @param {() => void} check */
 function inGerman(check) {
-  setLanguage("de", /** @type {HTMLElement} */ ({}));
+  speak("de");
   try {
     check();
   } finally {
-    setLanguage("en", /** @type {HTMLElement} */ ({}));
+    speak("en");
   }
 }
 
@@ -101,15 +103,14 @@ test("quantities have decimal commas in German", () =>
   }));
 
 test("marked numbers of a phrase have decimal commas in German, names keep their points", () => {
-  learn({ de: { "{robot} waits {time}": "{robot} wartet {time}", "{figure}": "{figure}" } });
-  /** @type {[string, Record<string, any>]} */
+  /** @type {PhraseData} */
   const phrase = [
-    "{robot} waits {time}",
-    { robot: "AGV 1.2", time: ["{figure}", { figure: "6 min 23.5 s" }] },
+    "robots lose",
+    { robots: "AGV 1.2", time: ["figure", { figure: "6 min 23.5 s" }] },
   ];
-  assert.equal(said(phrase), "AGV 1.2 waits 6 min 23.5 s");
+  assert.equal(said(phrase), "AGV 1.2 lose 6 min 23.5 s");
   inGerman(() => {
-    assert.equal(said(phrase), "AGV 1.2 wartet 6 min 23,5 s");
+    assert.equal(said(phrase), "AGV 1.2 verlieren 6 min 23,5 s");
     assert.equal(figure("4.4%"), "4,4 %");
     assert.equal(figure("1/3"), "1/3");
   });

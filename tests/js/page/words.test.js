@@ -1,20 +1,16 @@
 /** Sentences about a plan. */
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { test } from "node:test";
-import {
-  LANGUAGES,
-  setLanguage,
-  texts,
-} from "../../../src/rightofway/viz/page/assets/language/language.js";
-import { Phrases, learn, said } from "../../../src/rightofway/viz/page/assets/language/library.js";
-import { ENGLISH } from "../../../src/rightofway/viz/page/assets/texts/en.js";
+import { said, texts } from "../../../src/rightofway/viz/page/assets/language/language.js";
+import { Phrases } from "../../../src/rightofway/viz/page/assets/language/phrases.js";
 import { Plan } from "../../../src/rightofway/viz/page/assets/plan/plan.js";
 import { Words } from "../../../src/rightofway/viz/page/assets/language/words.js";
 import { Use } from "../../../src/rightofway/viz/page/assets/plan/use.js";
 import { made, planOf } from "../made.js";
+import { speak } from "../texts.js";
 
-/** @import { Texts } from "../../../src/rightofway/viz/page/assets/texts/en.js" */
 /** @import { Theme } from "../../../src/rightofway/viz/page/assets/drawing/theme.js" */
 
 const MEASURED = made("measured");
@@ -40,42 +36,47 @@ test("a closure is said with its lane and its times", () => {
 
 test("a phrase by index is said with its values, in the language that is spoken", () => {
   const phrases = new Phrases([
-    "not said",
     "R1",
-    "station {name}",
+    "named station",
     "Dock",
-    [2, 3],
-    "{waits} waits for {first}, {place}",
+    [1, 2],
+    "decision: waits",
     "R2",
-    [5, 1, 6, 4],
+    [4, 5, 3, 0], // the robot that goes first, the place, the robot that waits
   ]);
-  assert.equal(phrases.said(1), "R1");
-  assert.equal(phrases.said(7), "R1 waits for R2, station Dock");
-  learn({ de: { "station {name}": "Station {name}" } });
-  learn({ de: { "{waits} waits for {first}, {place}": "{waits} wartet auf {first}, {place}" } });
-  setLanguage("de", /** @type {HTMLElement} */ ({}));
-  assert.equal(phrases.said(7), "R1 wartet auf R2, Station Dock");
-  assert.deepEqual(
-    [7, 1].map((index) => phrases.languageOf(index)),
-    ["de", "en"],
-  );
-  setLanguage("en", /** @type {HTMLElement} */ ({}));
+  assert.equal(phrases.said(0), "R1");
+  assert.equal(phrases.said(6), "R1 waits for R2, station Dock");
+  speak("de");
+  assert.equal(phrases.said(6), "R1 wartet auf R2, Station Dock");
+  speak("en");
 });
 
-test("a third language is a line of its own, and a sentence in it a line of one table", () => {
-  const phrase =
-    /** @type {import("../../../src/rightofway/viz/page/assets/payload.d.ts").PhraseData} */ ([
-      "works at {place}",
-      { place: ["station {name}", { name: "Dock" }] },
-    ]);
-  LANGUAGES.fr = { name: "Français", texts: /** @type {Texts} */ ({}) };
-  learn({ fr: { "works at {place}": "travaille à {place}" } });
-  setLanguage("fr", /** @type {HTMLElement} */ ({}));
-  assert.equal(said(phrase), "travaille à station Dock"); // what it lacks is English
-  assert.equal(texts.home, ENGLISH.home);
-  setLanguage("en", /** @type {HTMLElement} */ ({}));
-  delete LANGUAGES.fr;
-  assert.equal(said(phrase), "works at station Dock");
+test("texts are those of the package for the same phrases, in both languages", () => {
+  const url = new URL("../../data/templates.json", import.meta.url);
+  for (const { phrase, ...expected } of JSON.parse(readFileSync(url, "utf8")))
+    for (const [code, text] of Object.entries(expected)) {
+      speak(code);
+      assert.equal(said(phrase), text);
+    }
+  speak("en");
+});
+
+test("labels are text, or functions of the values that their templates name", () => {
+  assert.equal(texts.home, "Home");
+  assert.equal(texts.doneAt({ isHome: true }), "Home at");
+  assert.equal(texts.doneAt({ isHome: false }), "Done at");
+  assert.deepEqual(texts.of({ time: "3 s", all: "9 s" }), ["3 s", " of 9 s"]);
+  assert.equal(
+    texts.lapsEvery({ laps: 1, period: "4 s", start: "0 s" }),
+    "1 lap every 4 s, from 0 s on",
+  );
+  speak("de");
+  assert.equal(
+    texts.lapsEvery({ laps: 1.5, period: "4 s", start: "0 s" }),
+    "1,5 Umläufe alle 4 s, ab 0 s",
+  );
+  speak("fr"); // unknown
+  assert.equal(texts.home, "Home");
 });
 
 test("homes and stops are called after their robots, stations keep their names", () => {

@@ -2,7 +2,6 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { setLanguage } from "../../../src/rightofway/viz/page/assets/language/language.js";
 import { cellsOfBox, cellsOfLine } from "../../../src/rightofway/studio/assets/draw/ground.js";
 import {
   numberOf,
@@ -10,6 +9,7 @@ import {
   textOfPlace,
 } from "../../../src/rightofway/studio/assets/draw/places.js";
 import { withHeadway } from "../../../src/rightofway/studio/assets/runs/rules.js";
+import { speak } from "../texts.js";
 
 test("a headway is written beside rules that had a name", () => {
   const document = { map: {}, robots: [], rules: "classic" };
@@ -31,10 +31,10 @@ test("places are read as they are written, and cells lie on a line", () => {
 });
 
 test("a point is written and read with decimal commas in German", () => {
-  setLanguage("de", /** @type {HTMLElement} */ ({}));
+  speak("de");
   assert.equal(textOfPlace({ x: 1.25, y: 0.75 }), "1,25 | 0,75");
   assert.deepEqual(placeOfText("1,25 | 0,75"), { x: 1.25, y: 0.75 });
   assert.deepEqual(placeOfText("1,25; 0,75"), { x: 1.25, y: 0.75 });
   assert.deepEqual(placeOfText("1.25, 0.75"), { x: 1.25, y: 0.75 });
-  setLanguage("en", /** @type {HTMLElement} */ ({}));
+  speak("en");
 });

@@ -1,7 +1,7 @@
 /** Faults and findings of the map that is drawn, in the library's words; each lights its places. */
 
 import { html, useState } from "./vendor/htm-preact.js";
-import { languageOf, said } from "../../viz/page/assets/language/library.js";
+import { said } from "../../viz/page/assets/language/language.js";
 import { nameOf } from "./fault_place.js";
 import { words } from "./words.js";
 /** @import { SiteFinding } from "./api_types.js" */
@@ -39,7 +39,7 @@ export function Findings({ studio }) {
           <${Sign} severity=${finding.severity} /><span><${Phrase} phrase=${finding.phrases.fact} /><br /><small><${Phrase} phrase=${finding.phrases.remedy} /></small></span></button></li>`,
         )}</ul>`
       }
-      ${findings.length > shown.length && html`<button type="button" class="link" onClick=${() => setWhole(true)}>${words.moreFindings(findings.length - shown.length)}</button>`}
+      ${findings.length > shown.length && html`<button type="button" class="link" onClick=${() => setWhole(true)}>${words.moreFindings({ count: findings.length - shown.length })}</button>`}
       ${!store.faults.length && !findings.length && html`<p class="hint">${words.nothingFound}</p>`}
     </section>`;
 }
@@ -48,7 +48,7 @@ export function Findings({ studio }) {
  * A phrase of the library, in the language of the page or marked as English.
  * @param {{phrase: Parameters<typeof said>[0]}} props
  */
-const Phrase = ({ phrase }) => html`<span lang=${languageOf(phrase)}>${said(phrase)}</span>`;
+const Phrase = ({ phrase }) => html`<span>${said(phrase)}</span>`;
 
 /** @param {{severity: SiteFinding["severity"]}} props */
 const Sign = ({ severity }) =>

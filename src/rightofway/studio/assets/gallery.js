@@ -2,8 +2,8 @@
 
 import { UNREACHABLE, get, inAddress } from "./api.js";
 import { html, useEffect, useRef, useState } from "./vendor/htm-preact.js";
-import { figure } from "../../viz/page/assets/language/language.js";
-import { language, words } from "./words.js";
+import { figure, language } from "../../viz/page/assets/language/language.js";
+import { words } from "./words.js";
 import { present } from "./given.js";
 /** @import { Glance } from "./api_types.js" */
 /** @import { CardData } from "./types.js" */
@@ -56,7 +56,7 @@ export function Gallery({ documents, open, remove }) {
     html`<${Card} key=${`${each.source} ${each.name}`} document=${each} open=${open} remove=${remove} />`;
   return html`
     <ul class="gallery">${documents.slice(0, most).map(card)}</ul>
-    ${documents.length > most && html`<button type="button" class="framed" onClick=${() => setMost(documents.length)}>${words.moreFiles(documents.length - most)}</button>`}`;
+    ${documents.length > most && html`<button type="button" class="framed" onClick=${() => setMost(documents.length)}>${words.moreFiles({ count: documents.length - most })}</button>`}`;
 }
 
 /** @param {{document: CardData, open: (card: CardData) => void, remove?: (card: CardData) => void}} props */
@@ -105,8 +105,8 @@ function Card({ document, open, remove }) {
  */
 function aboutOf({ kind, robots, extent: [width, height], unit }, hasRoom) {
   const size = unit && hasRoom ? figure(`${width} × ${height} ${unit}`) : "";
-  const what = kind === "layout" ? words.mapAlone : words.robotCount(robots ?? 0);
-  return [kind === "plan" ? words.planOf(what) : what, size].filter(Boolean).join(" · ");
+  const what = kind === "layout" ? words.mapAlone : words.robotCount({ count: robots ?? 0 });
+  return [kind === "plan" ? words.planOf({ what }) : what, size].filter(Boolean).join(" · ");
 }
 
 /** @type {[Intl.RelativeTimeFormatUnit, number][]} */

@@ -5,7 +5,8 @@ import { connection } from "./connection.js";
 import { Field } from "./field.js";
 import { Icon } from "./icons.js";
 import { present } from "./given.js";
-import { LANGUAGES, language, words } from "./words.js";
+import { words } from "./words.js";
+import { LANGUAGES, language } from "../../viz/page/assets/language/language.js";
 /** @import { ScenarioStore } from "./document.js" */
 /** @import { Props } from "./types.js" */
 /** @import { PageEvent } from "./vendor/htm-preact.js" */
@@ -20,7 +21,7 @@ export function Header({ studio }) {
       <h1><b>rightofway</b> <span>studio</span></h1>
       ${!isStarting && html`<${File} studio=${studio} />`}
       <div class="actions last">
-        <select class="language" aria-label=${words.language} value=${language} onChange=${({ target }) => studio.speak(target.value)}>${LANGUAGES.map(([code, name]) => html`<option value=${code}>${name}</option>`)}</select>
+        <select class="language" aria-label=${words.language} value=${language} onChange=${({ target }) => studio.speak(target.value)}>${Object.entries(LANGUAGES).map(([code, { name }]) => html`<option value=${code}>${name}</option>`)}</select>
         <button type="button" aria-label=${words.keys} title=${`${words.keys} (?)`} onClick=${() => studio.help(true)}><${Icon} name="help" /></button>
         ${!isStarting && html`<${PlanButton} studio=${studio} />`}
       </div>

@@ -18,7 +18,6 @@ import { Start } from "./start.js";
 import { Status } from "./status.js";
 import { Studio, TABS } from "./studio.js";
 import { words } from "./words.js";
-import { learn } from "../../viz/page/assets/language/library.js";
 /** @import { Props, Tab } from "./types.js" */
 
 /** @type {Record<string, number>} */
@@ -135,5 +134,4 @@ function listenToDrops(studio) {
   });
 }
 
-learn(await (await fetch("/languages.json")).json());
 render(html`<${App} />`, document.body);

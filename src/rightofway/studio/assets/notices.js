@@ -46,8 +46,8 @@ export class Notices extends Observable {
       const [was, is] = [countsOf(store.before), countsOf(store.document)];
       const gone = COUNTED.filter((kind) => is[kind] < was[kind]);
       if (!gone.length || isErasing()) return this.end();
-      const parts = gone.map((kind) => words.counted[kind](was[kind] - is[kind]));
-      this.say(words.deleted(parts.join(", ")), words.undo, () => store.undo());
+      const parts = gone.map((kind) => words.counted[kind]({ count: was[kind] - is[kind] }));
+      this.say(words.deleted({ what: parts.join(", ") }), words.undo, () => store.undo());
     });
     for (const event of ["undo", "open"]) store.on(event, () => this.end());
   }

@@ -50,7 +50,7 @@ export class Shelf {
     const open = () => this.studio.attempt(() => this.#open(path));
     if (!draft || draft.saved < (file?.modified ?? 0)) return open();
     return this.openDraft(path).then(() =>
-      this.studio.notices.say(words.draftIsNewer(path), words.openSaved, open),
+      this.studio.notices.say(words.draftIsNewer({ name: path }), words.openSaved, open),
     );
   }
 
@@ -143,14 +143,16 @@ export class Shelf {
       await this.list();
       const { notices, about } = this.studio;
       if (others.length) {
-        const text = words.otherContent(others.map(pathOf).join(", "));
+        const text = words.otherContent({ names: others.map(pathOf).join(", ") });
         notices.say(text, words.replace, () => this.take(given, { replace: true }));
         return;
       }
       try {
         await this.#openTaken(given.find(({ name }) => !PICTURES.test(name)) ?? given[0], given);
       } finally {
-        notices.say(words.putIntoFolder(given.map(pathOf).join(", "), about.folder ?? ""));
+        notices.say(
+          words.putIntoFolder({ names: given.map(pathOf).join(", "), folder: about.folder ?? "" }),
+        );
       }
     });
   }
@@ -209,7 +211,7 @@ export class Shelf {
       if (!store.path) store.rename(await this.#freeName(this.studio.suggested || words.newName));
       await store.save();
       await this.list();
-      this.studio.notices.say(words.savedAs(store.path));
+      this.studio.notices.say(words.savedAs({ name: store.path }));
     });
   }
 

@@ -50,7 +50,7 @@ export function Start({ studio }) {
   const titleOf = (folder) =>
     folder
       ? html`<span class="hint">${about.folder} / </span>${folder.replaceAll("/", " / ")}`
-      : words.inFolder(about.folder ?? "");
+      : words.inFolder({ name: about.folder ?? "" });
   return html`
     <main class="start">
       <h2 class="title">${words.startTitle}</h2>
@@ -71,7 +71,7 @@ export function Start({ studio }) {
       }
       ${byFolder(files).map(
         ([folder, inside]) => html`
-      <section class="shelf" key=${folder} aria-label=${words.inFolder(folder || (about.folder ?? ""))}><h3>${titleOf(folder)}</h3>
+      <section class="shelf" key=${folder} aria-label=${words.inFolder({ name: folder || (about.folder ?? "") })}><h3>${titleOf(folder)}</h3>
         <${Gallery} documents=${inside.map(fileCard)} open=${(/** @type {CardData} */ { name }) => shelf.open(name)} /></section>`,
       )}
       ${
@@ -113,7 +113,7 @@ const exampleCard = ({ name }) => ({
   source: "examples",
   name,
   revision: "",
-  title: words.examples[name] ?? words.paperCase(name.split("/").at(-1) ?? name),
+  title: words.examples[name] ?? words.paperCase({ name: name.split("/").at(-1) ?? name }),
 });
 
 /**

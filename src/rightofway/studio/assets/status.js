@@ -6,7 +6,7 @@ import { nameOf } from "./fault_place.js";
 import { robotsOf } from "./robots/fleet.js";
 import { Change } from "./runs/change.js";
 import { doNotRun } from "./runs/faults.js";
-import { said } from "../../viz/page/assets/language/library.js";
+import { said } from "../../viz/page/assets/language/language.js";
 import { words } from "./words.js";
 import { present } from "./given.js";
 /** @import { Editor } from "./draw/editor.js" */
@@ -23,7 +23,7 @@ export function Status({ studio }) {
           : html`<span role="status">${editor.isOn ? html`<${ToolHint} editor=${editor} />` : html`<${PlanHint} studio=${studio} />`}</span>`
       }
       ${studio.isLive && studio.tab !== "plan" && html`<${Change} studio=${studio} />`}
-      ${store.faults.length > 0 && html`<button type="button" class="link wrong" onClick=${() => studio.showFaults()}>${words.faultCount(store.faults.length)}</button>`}
+      ${store.faults.length > 0 && html`<button type="button" class="link wrong" onClick=${() => studio.showFaults()}>${words.faultCount({ count: store.faults.length })}</button>`}
     </div>`;
 }
 
@@ -45,7 +45,7 @@ function PlanHint({ studio }) {
   if (stage.isPlan && stage.plan.faultCount)
     return html`<b class="wrong">${doNotRun(stage.plan.faultCount)}</b>`;
   const { robot } = stage.choice ?? {};
-  if (robot && robotsOf(store.document)) return words.dragPlaces(robot.name);
+  if (robot && robotsOf(store.document)) return words.dragPlaces({ name: robot.name });
   if (robot || !losses) return words.watching;
   const waits = losses.filter((loss) => loss.for);
   if (!waits.length) return losses.length ? words.watching : words.noWaitNext;

@@ -224,7 +224,7 @@ export class Studio extends Observable {
   get notReady() {
     const { document, faults, survey } = this.store;
     if (Array.isArray(document?.robots) && !document.robots.length) return words.needsRobots;
-    return survey.ok ? "" : words.needsMending(faults.length);
+    return survey.ok ? "" : words.needsMending({ count: faults.length });
   }
 
   /** Plan what is drawn, and watch it; or lead to what keeps it from being planned. */

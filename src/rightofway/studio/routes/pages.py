@@ -16,7 +16,7 @@ from fastapi import APIRouter, Request, Response
 
 from rightofway import __version__
 from rightofway.io import make_schema
-from rightofway.languages import read_tables
+from rightofway.languages import LANGUAGES, read_texts
 from rightofway.studio.errors import Refused
 from rightofway.studio.guard import MAX_BODY
 from rightofway.studio.routes.models import MAX_SECONDS, InStudio
@@ -60,10 +60,10 @@ async def get_viewer_asset(request: Request, path: str) -> Response:
     return _send_file(request, f"viz/page/assets/{path}")
 
 
-@router.get("/languages.json")
-async def send_languages(request: Request) -> Response:
-    """Return the sentences of the library in other languages."""
-    return _send_file(request, "languages.json")
+@router.get("/texts.json")
+async def send_texts(request: Request) -> Response:
+    """Return the texts of all languages."""
+    return _send_file(request, "texts.json")
 
 
 def _send_file(request: Request, path: str) -> Response:
@@ -80,8 +80,8 @@ def read_page_file(path: str) -> bytes:
     """Return a file of the page; `Refused` if there is none."""
     if path == STYLE:
         return make_style_sheet().encode()
-    if path == "languages.json":
-        return as_compact_json(read_tables()).encode()
+    if path == "texts.json":
+        return as_compact_json({code: read_texts(code) for code in LANGUAGES}).encode()
     text = _read_text(path)
     if path == "studio/assets/index.html":  # else a browser asks for modules one after another
         modules = order_scripts("studio/assets/main", _read_text)

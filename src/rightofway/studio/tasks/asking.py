@@ -74,7 +74,7 @@ def _make_loss(words: Words, loss: Loss) -> dict[str, Any]:
             "index": index,
             "decision": (story := describe_decision(words, words.plan.run.decisions[index])),
             "reason": (reason := explain_decision(words, words.plan.run.decisions[index])),
-            "phrase": to_parts(Phrase("{first} {second}", first=story, second=reason)),
+            "phrase": to_parts(Phrase("two sentences", first=story, second=reason)),
         }
         for index in _list_decisions_behind(words.plan, loss)
     ]

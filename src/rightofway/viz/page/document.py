@@ -22,6 +22,7 @@ from rightofway.model import ExecutionTrace, Plan, SteadyState
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.payload import make_payload
 from rightofway.viz.page.scripts import make_classic_script, order_scripts, read_asset
+from rightofway.viz.page.texts import find_texts
 from rightofway.viz.palette import DARK, LIGHT
 
 FRAME_HEIGHT = 680
@@ -92,10 +93,10 @@ def make_page(
 def make_document(
     about: str, payload: Mapping[str, object], entry: str, *, connects: bool = False
 ) -> str:
-    """Return a page of style, plain data and scripts, as one HTML document.
+    """Return a page of style, texts, plain data and scripts, as one HTML document.
 
     Its content security policy forbids any script but these and any connection, but with
-    ``connects`` those to the server that it comes from.
+    ``connects`` those to the server that it comes from. That server sends further facts.
     """
     own = "connect-src 'self'; "
     style, scripts = (
@@ -107,7 +108,7 @@ def make_document(
         "policy": f"default-src 'none'; img-src data:; {own * connects}"
         f"style-src {_compute_hash(style)}; script-src {' '.join(map(_compute_hash, scripts))}",
         "style": style,
-        "payload": as_script(payload),
+        "payload": as_script({"texts": find_texts(payload, is_whole=connects), **payload}),
         "scripts": "\n".join(f"<script>{script}</script>" for script in scripts),
     }
     # Each {{name}} is filled once; what is filled in is not looked at again.
@@ -187,8 +188,9 @@ def make_frame(
 
 
 def make_payload_text(plan: Plan) -> str:
-    """Return the plan for the page, as JSON that may stand in a script element."""
-    return as_script(make_payload(plan))
+    """Return the plan and the texts for the page, as JSON that may stand in a script element."""
+    payload = make_payload(plan)
+    return as_script({"texts": find_texts(payload), **payload})
 
 
 def as_script(payload: Mapping[str, object]) -> str:

@@ -21,7 +21,6 @@ from rightofway.viz.page.background import Background
 from rightofway.viz.page.document import make_document
 from rightofway.viz.page.map_data import map_data
 from rightofway.viz.page.schema import InspectionPayload, LevelData, SiteData
-from rightofway.viz.page.translations import find_translations
 from rightofway.viz.palette import choose_colours
 
 Inspected = tuple[str, Site, Inspection]
@@ -64,16 +63,12 @@ def make_inspection_page(
     text = write_note(description)
     payload: InspectionPayload = {
         "title": title,
-        "translations": {},
         "description": to_parts(text),
         "notes": to_parts(write_notes(notes)),
         "names": {severity: to_parts(name_severity(severity)) for severity in SEVERITIES},
         "headings": {severity: to_parts(write_heading(severity)) for severity in SEVERITIES},
         "levels": [_make_level(*level, background) for level in levels],
     }
-    said = [(level["sentences"], level["findings"]) for level in payload["levels"]]
-    others = payload["description"], payload["notes"], payload["names"], payload["headings"]
-    payload["translations"] = find_translations(said, others)
     about = f"{title}: {text}" if text else title
     return make_document(about, payload, "inspect_main")
 

@@ -77,7 +77,6 @@ from rightofway.viz.page.schema import (
     SteadyData,
     TurnRow,
 )
-from rightofway.viz.page.translations import find_translations
 from rightofway.viz.palette import choose_colours
 from rightofway.viz.placement import make_edge_length, order_in_line
 from rightofway.viz.verdict import LISTED_FAULTS, give_verdict, make_comparison_data
@@ -121,7 +120,6 @@ def make_payload(
     payload: Payload = {
         "title": title,
         "phrases": book.entries,
-        "translations": {},
         "units": {"length": scenario.units.length, "time": scenario.units.time},
         "tick": (tick.numerator, tick.denominator),
         "end": max(end_of(trips), 1),
@@ -172,8 +170,6 @@ def make_payload(
     if no_plan is not None:
         payload["noPlan"] = True
         payload["faults"] = _make_blockages(scenario, no_plan, book)
-    said = book.entries, payload["planner"], payload["reroutes"], payload.get("closures")
-    payload["translations"] = find_translations(*said)
     if others:
         _compare(plan, title, others, payload)
     return payload
@@ -190,8 +186,6 @@ def _compare(plan: Plan, title: str, others: Sequence[tuple[Plan, str]], payload
     payload["others"] = []
     for other, name in others:
         data: dict[str, Any] = {**make_payload(other, title=name)}
-        for language, table in data.pop("translations").items():
-            payload["translations"][language] |= table
         for robot in data["robots"]:
             robot["colour"] = colours[robot["name"]]
         if other.scenario.roadmap == plan.scenario.roadmap:

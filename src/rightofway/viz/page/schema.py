@@ -424,9 +424,8 @@ class OtherPlan(PlanData):
 
 
 class Payload(PlanData):
-    """Input of the page of a plan; translations are by language, then by English template."""
+    """Input of the page of a plan."""
 
-    translations: dict[str, dict[str, str]]
     map: MapData
     driven: NotRequired[FeedData]
     others: NotRequired[list[OtherPlan]]
@@ -456,7 +455,6 @@ class InspectionPayload(TypedDict):
     """Input of the page of an inspection."""
 
     title: str
-    translations: dict[str, dict[str, str]]
     description: PhraseData
     notes: list[PhraseData]
     names: dict[Literal["error", "warning", "note"], PhraseData]

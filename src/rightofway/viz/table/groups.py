@@ -82,8 +82,8 @@ def _describe_sum(
     group: MovementGroup | None, number: str, term: str, quantities: Quantities
 ) -> Phrase:
     if group is None:
-        return Phrase("List {number}: no way was found.", number=number)
+        return Phrase("list without way", number=number)
     first, other = map(quantities.format_cell, group.completions)
     total = quantities.format_duration(sum(group.completions))
     values = {"number": number, "sum": f"{term} = {first} + {other}", "total": total}
-    return Phrase("List {number}: {sum} = {total}", **values)
+    return Phrase("sum of list", **values)

@@ -476,7 +476,7 @@ export class Editor extends Observable {
   #pointText({ x: right, y: up }) {
     const { roadmap } = this.stage.plan;
     const [x, y] = roadmap.toSite(right, up);
-    return texts.pair(figure(x.toFixed(2)), figure(y.toFixed(2)));
+    return texts.pair({ x: figure(x.toFixed(2)), y: figure(y.toFixed(2)) });
   }
 
   /** The menu of the cursor's place, or of what is selected. */

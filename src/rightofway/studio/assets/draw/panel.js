@@ -23,7 +23,7 @@ export function MapPanel({ studio }) {
     <div class="scroll">
       ${
         elsewhere &&
-        html`<div class="aside"><p>${words.mapElsewhere(elsewhere)}</p>
+        html`<div class="aside"><p>${words.mapElsewhere({ file: elsewhere })}</p>
         <button type="button" class="framed" onClick=${() => studio.shelf.inline()} disabled=${store.faults.length > 0}>${words.drawOnIt}</button></div>`
       }
       <${Selected} studio=${studio} />
@@ -139,7 +139,7 @@ function Selected({ studio }) {
   const button = (text, action) =>
     html`<button type="button" class="framed" onClick=${action}>${text}</button>`;
   return html`
-    <section class="selected"><h2>${words.selected(selection.size)}</h2>
+    <section class="selected"><h2>${words.selected({ count: selection.size })}</h2>
       ${
         isOne &&
         known[obstacle] &&

@@ -90,7 +90,9 @@ export function textOfPlace(place) {
   if (place === undefined || place === null) return "";
   if (Array.isArray(place)) return `[${place.join(", ")}]`;
   if (typeof place !== "object") return String(place);
-  return texts.pair(figure(String(place.x)), figure(String(place.y))).replaceAll("\u00a0", " ");
+  return texts
+    .pair({ x: figure(String(place.x)), y: figure(String(place.y)) })
+    .replaceAll("\u00a0", " ");
 }
 
 /**

@@ -1,7 +1,6 @@
 /** The columns of the table of robots: what a cell says, and what it means when it is written. */
 
-import { figure } from "../../../viz/page/assets/language/language.js";
-import { said } from "../../../viz/page/assets/language/library.js";
+import { figure, said } from "../../../viz/page/assets/language/language.js";
 import { numberOf, placeOfText, textOfPlace } from "../draw/places.js";
 import { ATTRIBUTES } from "./attributes.js";
 import { stopsOf, textOfStops, withKey, withStops } from "./fleet.js";

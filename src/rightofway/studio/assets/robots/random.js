@@ -64,7 +64,7 @@ export function FewRobots({ studio }) {
   const between = hasStations(studio) ? "stations" : "anywhere";
   /** @type {Parameters<typeof deal>[1]} */
   const few = { count: FEW, seed: count + 1, work: 0, speed: 1, between };
-  return html`<button type="button" class="framed" disabled=${!studio.editor.isReady} onClick=${() => studio.attempt(() => deal(studio, few))}>${words.dealFew(FEW, between)}</button>`;
+  return html`<button type="button" class="framed" disabled=${!studio.editor.isReady} onClick=${() => studio.attempt(() => deal(studio, few))}>${words.dealFew({ count: FEW, between })}</button>`;
 }
 
 /** @param {Props} props */

@@ -258,7 +258,7 @@ export function Sheet({ studio, columns, wanted }) {
             html`<li><button type="button" onClick=${() => studio.goTo(fault)}><b>${nameOf(fault)}</b> <span lang="en">${fault.message}</span></button></li>`,
         )}</ul></div>`
     }
-    ${rows.length > most && html`<button type="button" class="framed" onClick=${() => setMost(most + MOST_ROWS)}>${words.moreRows(rows.length - most)}</button>`}`;
+    ${rows.length > most && html`<button type="button" class="framed" onClick=${() => setMost(most + MOST_ROWS)}>${words.moreRows({ count: rows.length - most })}</button>`}`;
 }
 
 /** @type {Record<string, [number, number]>} */

@@ -47,7 +47,7 @@ export function Ask({ studio, children }) {
     );
   };
   return html`
-    <section class="ask" aria-labelledby="ask-title"><h2 id="ask-title">${name === null || index < 0 ? words.whatIf : words.whatIfOf(name)}</h2>
+    <section class="ask" aria-labelledby="ask-title"><h2 id="ask-title">${name === null || index < 0 ? words.whatIf : words.whatIfOf({ name })}</h2>
       ${
         index < 0
           ? html`<p class="hint">${robotsOf(store.document) ? words.chooseRobot : words.robotsElsewhere}</p>`

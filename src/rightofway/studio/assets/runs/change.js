@@ -40,16 +40,17 @@ export function Change({ studio }) {
   const [before, after] = comparison.plans.map(({ text }) => figure(text.flowtime));
   const { changes } = comparison.comparison.plans[1];
   const { start, robots } = runs.run?.figures ?? {};
+  const { waits, goes_first } = runs.run?.request ?? {};
   const found = differences(comparison);
   return html`
     <section class="change" role="status" aria-busy=${String(comparison.runs[1] !== runs.shown)}>
-      ${runs.run?.kind === "flip" && html`<p class="edit">${words.goesBefore(runs.run.request)}</p>`}
+      ${runs.run?.kind === "flip" && html`<p class="edit">${words.goesBefore({ waits, goes_first })}</p>`}
       ${changes.map((change) => html`<p class="edit">${changeInWords(change)}</p>`)}
       ${faultsOf(runs.run) > 0 && html`<p class="wrong">${doNotRun(faultsOf(runs.run))}</p>`}
-      <p><${Term} of="flowtime" /> <b>${after}</b>${before === after ? ` ${words.asBefore}` : `, ${words.wasBefore(before)}`}</p>
+      <p><${Term} of="flowtime" /> <b>${after}</b>${before === after ? ` ${words.asBefore}` : `, ${words.wasBefore({ text: before })}`}</p>
       <${Robots} studio=${studio} className="gain" label=${words.gains} found=${found.filter(({ by }) => by < 0)} />
       <${Robots} studio=${studio} className="lose" label=${words.losesTime} found=${found.filter(({ by }) => by > 0).reverse()} />
-      ${start && html`<p class="hint">${words.keptRoutes(start.routes, robots ?? 0)}</p>`}
+      ${start && html`<p class="hint">${words.keptRoutes({ kept: start.routes, robots: robots ?? 0 })}</p>`}
       ${studio.former.ways.length > 0 && html`<p class="hint">${words.formerRoute}</p>`}
       ${runs.run?.request.start === comparison.runs[0] && html`<button type="button" class="framed" onClick=${() => studio.putBack(comparison.runs[0])}>${words.putBack}</button>`}
     </section>`;
@@ -77,5 +78,5 @@ function Robots({ studio: { stage }, className, label, found }) {
   const row = ({ name, by }) =>
     html`<button type="button" class="link" onClick=${() => look(name)}>${name}</button> ${time(by)}`;
   const rest = found.length - MOST;
-  return html`<p class=${className}>${label} ${found.slice(0, MOST).map((robot, i) => [i ? ", " : "", row(robot)])}${rest > 0 && `, ${words.andMore(rest)}`}</p>`;
+  return html`<p class=${className}>${label} ${found.slice(0, MOST).map((robot, i) => [i ? ", " : "", row(robot)])}${rest > 0 && `, ${words.andMore({ count: rest })}`}</p>`;
 }

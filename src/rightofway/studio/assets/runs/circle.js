@@ -1,7 +1,7 @@
 /** A critical circle: what each robot on it does until the next one can go on, with its share of the period. */
 
 import { html, useState } from "../vendor/htm-preact.js";
-import { said } from "../../../viz/page/assets/language/library.js";
+import { said } from "../../../viz/page/assets/language/language.js";
 import { fraction } from "../../../viz/page/assets/language/quantities.js";
 import { words } from "../words.js";
 import { number } from "./parameter_curve.js";
@@ -39,5 +39,5 @@ export function Circle({ studio, pieces, short, isNow }) {
         <span>${said(piece.text)}</span>
         ${isNow && piece.time[0] > 0n && html`<small>${short(piece.time)}</small>`}</button></li>`,
     )}</ol>
-    ${steps.length > shown.length && html`<button type="button" class="quiet" onClick=${() => setWhole(true)}>${words.moreSteps(steps.length - shown.length)}</button>`}`;
+    ${steps.length > shown.length && html`<button type="button" class="quiet" onClick=${() => setWhole(true)}>${words.moreSteps({ count: steps.length - shown.length })}</button>`}`;
 }

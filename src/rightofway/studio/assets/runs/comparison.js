@@ -5,7 +5,8 @@ import { address } from "../api.js";
 import { Compared } from "../../../viz/page/assets/figures/compared.js";
 import { ComparedRobots } from "../../../viz/page/assets/figures/compared_robots.js";
 import { ComparedTable } from "../../../viz/page/assets/figures/compared_table.js";
-import { language, words } from "../words.js";
+import { words } from "../words.js";
+import { language } from "../../../viz/page/assets/language/language.js";
 /** @import { Robot } from "../../../viz/page/assets/plan/robot.js" */
 /** @import { Studio } from "../studio.js" */
 /** @import { Props } from "../types.js" */

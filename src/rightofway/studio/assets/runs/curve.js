@@ -2,8 +2,7 @@
 
 import { html, useEffect, useState } from "../vendor/htm-preact.js";
 import { connection } from "../connection.js";
-import { figure } from "../../../viz/page/assets/language/language.js";
-import { said as phraseText } from "../../../viz/page/assets/language/library.js";
+import { figure, said as phraseText } from "../../../viz/page/assets/language/language.js";
 import { Quantities } from "../../../viz/page/assets/language/quantities.js";
 import { words } from "../words.js";
 import { secondsOf } from "./list.js";
@@ -145,13 +144,13 @@ function inWords(drawn, bound, time) {
   if (!drawn.length || !time) return words.curve;
   const parts = drawn.map(({ number, points }) => {
     const [[start, first], [end, best]] = [points[0], points[points.length - 1]];
-    return words.curveOf(
+    return words.curveOf({
       number,
-      time(first),
-      figure(start.toFixed(1)),
-      time(best),
-      figure(end.toFixed(1)),
-    );
+      first: time(first),
+      start: figure(start.toFixed(1)),
+      best: time(best),
+      end: figure(end.toFixed(1)),
+    });
   });
   return [words.curve, ...parts, bound === undefined ? "" : `${words.bound} ${time(bound)}`]
     .filter(Boolean)

@@ -47,8 +47,8 @@ export function Delays({ studio, report }) {
     const found = flowtime[index];
     const share = Math.floor((100 * rank[index]) / report.runs);
     return found === null
-      ? words.runNeverEnds(run[index])
-      : words.runSays(run[index], ticks(found), share);
+      ? words.runNeverEnds({ run: run[index] })
+      : words.runSays({ run: run[index], flowtime: ticks(found), share });
   };
   const choice = (/** @type {string} */ name, /** @type {number} */ index) =>
     html`<button type="button" class="framed" aria-pressed=${String(at === index)} onClick=${() => play(index)}>${name}</button>`;
@@ -57,10 +57,10 @@ export function Delays({ studio, report }) {
   return html`
     ${
       report.spread &&
-      html`<p class="late">${words.lateInSum(late(ticks, median), late(short, p90), late(short, max))}</p>
+      html`<p class="late">${words.lateInSum({ median: late(ticks, median), most: late(short, p90), worst: late(short, max) })}</p>
       <${Spread} spread=${report.spread} short=${short} flowtime=${flowtime} at=${at} play=${play} />`
     }
-    ${never > 0 && html`<p class="wrong">${words.runsNeverEnd(never, report.runs)}</p>`}
+    ${never > 0 && html`<p class="wrong">${words.runsNeverEnd({ count: never, all: report.runs })}</p>`}
     <label class="ranks" for="rank"><span>${words.runByRank}</span>
       <input type="range" id="rank" min="0" max=${run.length - 1} step="1" value=${at} aria-valuetext=${says(at)} style=${`--over: ${run.length > 1 ? (100 * at) / (run.length - 1) : 0}%`}
         onInput=${({ target }) => setAt(Number(target.value))} onChange=${({ target }) => play(Number(target.value))} /></label>
@@ -68,7 +68,7 @@ export function Delays({ studio, report }) {
     <div class="buttons">
       ${choice(words.best, 0)}${choice(words.typical, middle)}${choice(words.worst, run.length - 1)}
     </div>
-    <p class="hint">${words.byClock((100 * report.by_clock.share_of_runs).toFixed(0), report.collisions)}</p>
+    <p class="hint">${words.byClock({ share: (100 * report.by_clock.share_of_runs).toFixed(0), collisions: report.collisions })}</p>
     <${HeldUp} studio=${studio} />
     <${Sufferers} studio=${studio} report=${report} ticks=${ticks} short=${short} />`;
 }
@@ -122,7 +122,7 @@ function Spread({ spread: { counts, planned, from, to, text }, short, flowtime, 
   const isInside = from <= planned && planned <= to;
   const ends = [Math.min(from, planned), ...(isInside ? [planned] : []), Math.max(to, planned)];
   return html`
-    <figure class="spread"><svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" preserveAspectRatio="none" onClick=${press} aria-label=${words.spread(text.from, text.to, text.planned)}>
+    <figure class="spread"><svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" preserveAspectRatio="none" onClick=${press} aria-label=${words.spread({ from: text.from, to: text.to, planned: text.planned })}>
       ${counts.map((count, i) => {
         const height = count ? Math.max(((HEIGHT - 6) * count) / most, 1.5) : 0;
         const isChosen =
@@ -135,7 +135,7 @@ function Spread({ spread: { counts, planned, from, to, text }, short, flowtime, 
         return html`<rect class=${isChosen ? "chosen" : ""} x=${x(from) + i * width} y=${HEIGHT - height} width=${width * 0.88} height=${height} />`;
       })}
       <path class=${planned < first || planned > last ? "far" : ""} d="M${x(Math.min(Math.max(planned, first), last))} 0V${HEIGHT}" /></svg>
-      <figcaption>${ends.map((end) => (end === planned ? html`<span class="planned">${words.plannedSum(short(end))}</span>` : html`<span>${short(end)}</span>`))}</figcaption></figure>`;
+      <figcaption>${ends.map((end) => (end === planned ? html`<span class="planned">${words.plannedSum({ time: short(end) })}</span>` : html`<span>${short(end)}</span>`))}</figcaption></figure>`;
 }
 
 /**
@@ -206,8 +206,8 @@ function Sufferers({ studio, report, ticks, short }) {
       const itself = Math.min(Math.max(own, 0), mean);
       return html`<li><button type="button" class="watch" onClick=${() => stage.choice.chooseRobot(index)}>
         <i class="dot" style=${`background: ${stage.plan?.robots?.[index]?.colour}`}></i><b>${name}</b><span class="bar" aria-hidden="true"><i style=${`width: ${(100 * itself) / most}%`}></i><i class="others" style=${`width: ${(100 * (mean - itself)) / most}%`}></i></span>
-        <span>${words.laterBy(ticks(mean))}</span>
-        <small>${words.suffers(short(p95), short(itself), behind && behind[1] >= LEAST * mean ? behind[0] : "", behind ? short(behind[1]) : "")}</small></button></li>`;
+        <span>${words.laterBy({ time: ticks(mean) })}</span>
+        <small>${words.suffers({ p95: short(p95), own: short(itself), behind: behind && behind[1] >= LEAST * mean ? behind[0] : "", waits: behind ? short(behind[1]) : "" })}</small></button></li>`;
     })}</ul>
-    ${latest.length > robots.length && html`<button type="button" class="quiet" onClick=${() => setWhole(true)}>${words.moreRows(latest.length - robots.length)}</button>`}`;
+    ${latest.length > robots.length && html`<button type="button" class="quiet" onClick=${() => setWhole(true)}>${words.moreRows({ count: latest.length - robots.length })}</button>`}`;
 }

@@ -3,7 +3,8 @@
 import { html, useEffect, useState } from "../vendor/htm-preact.js";
 import { get, post } from "../api.js";
 import { connection } from "../connection.js";
-import { language, words } from "../words.js";
+import { words } from "../words.js";
+import { language } from "../../../viz/page/assets/language/language.js";
 import { Causes, notation } from "./causes.js";
 import { showModal } from "./comparison.js";
 /** @import { Refusal } from "../api.js" */
@@ -63,7 +64,7 @@ export function Drives({ studio }) {
     </form>
     ${
       drive &&
-      html`<p class="drive" role="status">${isDriving && connection.isLost ? words.stateUnknown : words.driveStates[drive.state](drive.run)}</p>
+      html`<p class="drive" role="status">${isDriving && connection.isLost ? words.stateUnknown : words.driveStates[drive.state]({ run: drive.run })}</p>
       ${drive.error && html`<p class="trouble" lang="en">${drive.error.message}</p>`}
       <div class="buttons">
         <button type="button" class="framed" onClick=${() => setOpen(true)}>${words.watchDrive}</button>

@@ -25,7 +25,7 @@ export function Exports({ studio }) {
     >${name}</a
   >`;
   return html` <section class="exports" aria-labelledby="export-title">
-    <h2 id="export-title">${words.exportTitle(`${run.number} ${titleOf(run)}`)}</h2>
+    <h2 id="export-title">${words.exportTitle({ title: `${run.number} ${titleOf(run)}` })}</h2>
     <div class="buttons">${Object.entries(words.forms).map(link)}</div>
     <details>
       <summary>${words.exportMore}</summary>

@@ -21,14 +21,14 @@ export const faultsOf = (run) => run?.figures?.faults ?? 0;
  * @param {number} count
  * @returns {string}
  */
-export const doNotRun = (count) => texts.doNotRun(count);
+export const doNotRun = (count) => texts.doNotRun({ count });
 
 /**
  * The same in few words: "2 faults".
  * @param {number} count
  * @returns {string}
  */
-export const inShort = (count) => texts.faults(count);
+export const inShort = (count) => texts.faults({ count });
 
 /** @param {Props} props */
 export function PlanFaults({ studio }) {
@@ -41,7 +41,7 @@ export function PlanFaults({ studio }) {
       <ol>${faults.slice(0, MOST).map((fault, index) => html`<li><${Press} studio=${studio} fault=${fault} index=${index} /></li>`)}</ol>
       ${
         faults.length > MOST &&
-        html`<details><summary>${words.moreFaults(faultCount - MOST)}</summary>
+        html`<details><summary>${words.moreFaults({ count: faultCount - MOST })}</summary>
         <ol start=${MOST + 1}>${faults.slice(MOST).map((fault, index) => html`<li><${Press} studio=${studio} fault=${fault} index=${MOST + index} /></li>`)}</ol></details>`
       }
     </section>`;
@@ -58,8 +58,8 @@ function Press({ studio, fault, index }) {
     clock.seek(fault.tick);
     choice.chooseFault(index);
   };
-  const when = plan.noPlan ? "" : `, ${texts.at(said.moment(fault.tick))}`;
+  const when = plan.noPlan ? "" : `, ${texts.at({ moment: said.moment(fault.tick) })}`;
   const isChosen = choice.fault === plan.faults[index];
-  return html`<button type="button" class="watch wrong" lang=${plan.phrases.languageOf(fault.reason)} aria-pressed=${String(isChosen)} onClick=${look}>
+  return html`<button type="button" class="watch wrong" aria-pressed=${String(isChosen)} onClick=${look}>
     ${plan.phrases.said(fault.reason)}${when}</button>`;
 }

@@ -2,7 +2,7 @@
 
 import { html, useState } from "../vendor/htm-preact.js";
 import { get } from "../api.js";
-import { said } from "../../../viz/page/assets/language/library.js";
+import { said } from "../../../viz/page/assets/language/language.js";
 import { present } from "../given.js";
 import { words } from "../words.js";
 /** @import { GroupRow, MovementGroups } from "../api_types.js" */
@@ -34,7 +34,7 @@ function Lists({ heading, times, rows, sums }) {
   return html`
     ${sums.map((sum) => html`<p>${said(sum)}</p>`)}
     <div class="sheet" tabindex="0" role="region" aria-label=${words.groups}><table>
-      <thead><tr><th scope="col">${words.groupHeading(heading)}</th>
+      <thead><tr><th scope="col">${words.groupHeading({ heading })}</th>
         ${times.map((time) => html`<th scope="col">${time}</th>`)}</tr></thead>
       <tbody>${rows.map(
         (row) => html`<tr><th scope="row">${row.robot} ${words.groupRows[row.kind]}</th>

@@ -3,9 +3,8 @@
 import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
 import { post } from "../api.js";
 import { changeRobots, robotsOf, stopsOf, withStops, writtenIn } from "../robots/fleet.js";
-import { figure } from "../../../viz/page/assets/language/language.js";
+import { figure, said as phraseText } from "../../../viz/page/assets/language/language.js";
 import { decimal, fraction, Quantities } from "../../../viz/page/assets/language/quantities.js";
-import { said as phraseText } from "../../../viz/page/assets/language/library.js";
 import { several } from "../../../viz/page/assets/language/words.js";
 import { words } from "../words.js";
 import { Circle } from "./circle.js";
@@ -116,8 +115,8 @@ export function Laps({ studio, report }) {
   const open = own?.period === null ? own : largest(groups.filter(({ period }) => period === null));
   const isAlone = groups.length === 1;
   return html`
-    ${open && html`<p class="open-group">${words.openGroup(several(open.robots), open.robots.length, phraseText(open.reason))}</p>`}
-    ${group && !isAlone && html`<p class="hint">${words.groupOf(several(group.robots), groups.length)}</p>`}
+    ${open && html`<p class="open-group">${words.openGroup({ names: several(open.robots), count: open.robots.length, why: phraseText(open.reason) })}</p>`}
+    ${group && !isAlone && html`<p class="hint">${words.groupOf({ names: several(group.robots), count: groups.length })}</p>`}
     ${group && group.period !== null && html`<${Pace} key=${`${studio.runs.shown} ${group.robots[0]}`} studio=${studio} report=${report} group=${group} chosen=${chosen} />`}`;
 }
 
@@ -186,16 +185,16 @@ function Pace({ studio, report, group, chosen }) {
   const about = anew && (other?.why || isLong) ? `${given}. ${anew}` : given;
   return html`
     <div class="pace">
-      <p class="figure"><output>${said.short(period)}</output><span>${isLong ? words.periodOf(laps, said.short(over(period, [BigInt(laps), 1n]))) : words.period}</span></p>
+      <p class="figure"><output>${said.short(period)}</output><span>${isLong ? words.periodOf({ laps, each: said.short(over(period, [BigInt(laps), 1n])) }) : words.period}</span></p>
       <${Table} said=${said} group=${group} at=${at} period=${moved && period} other=${other} />
-      <p class="unseen" role="status">${moved ? `${words.sameOrder(said.time(period), said.time(at))} ${anew}` : ""}</p>
+      <p class="unseen" role="status">${moved ? `${words.sameOrder({ period: said.time(period), before: said.time(at) })} ${anew}` : ""}</p>
       <p class="hint">${moved ? about : words.moveSlider}</p>
       <div class="buttons">
         <button type="button" class="framed" disabled=${!moved} onClick=${() => move(null, 0)}>${words.resetValue}</button>
         <button type="button" class="framed" disabled=${!moved || !robotsOf(studio.store.document) || !runs.isOf(studio.store.document)} onClick=${() => moved && value && take(studio, moved.curve, value)}>${words.takeValue}</button>
       </div>
     </div>
-    <h3>${robots.length ? words.setsThePace(several(robots)) : words.circleTooLong}</h3>
+    <h3>${robots.length ? words.setsThePace({ names: several(robots) }) : words.circleTooLong}</h3>
     <${Circle} studio=${studio} pieces=${pieces} short=${(/** @type {Fraction} */ time) => said.short(time)} isNow=${!moved} />
     <${Robots} said=${said} group=${group} studio=${studio} />
     <h3>${words.whatHelps}</h3>
@@ -228,7 +227,7 @@ function Robots({ said, group, studio }) {
         sums.set(other, plus(sums.get(other) ?? [0n, 1n], fraction(time)));
     }
     const [most] = [...sums].sort(([, one], [, other]) => compared(other, one));
-    return most ? words.behind(most[0], said.short(most[1])) : "";
+    return most ? words.behind({ name: most[0], time: said.short(most[1]) }) : "";
   };
   /**
    * @param {string} name
@@ -246,7 +245,7 @@ function Robots({ said, group, studio }) {
         <td>${group.laps_per_period[name]}</td><td>${mean === null ? words.never : said.short(fraction(mean))}</td>
         <td>${waits === null ? "" : `${(100 * number(fraction(waits))).toFixed(0)} %`}<small>${behind(name)}</small></td></tr>`;
     })}</tbody></table>
-    ${group.robots.length > shown.length && html`<button type="button" class="quiet" onClick=${() => setWhole(true)}>${words.moreRows(group.robots.length - shown.length)}</button>`}`;
+    ${group.robots.length > shown.length && html`<button type="button" class="quiet" onClick=${() => setWhole(true)}>${words.moreRows({ count: group.robots.length - shown.length })}</button>`}`;
 }
 
 /**
@@ -279,11 +278,15 @@ function answerOf(answer, { robots }) {
  */
 function newOrder(said, other, isLong) {
   if (!other || other.isAsked) return "";
-  if (other.why) return words.noNewOrder(other.why);
+  if (other.why) return words.noNewOrder({ why: other.why });
   const { period, laps } = other;
   if (!period || !laps) return "";
-  if (!isLong) return words.newOrder(said.time(period));
-  return words.newPattern(laps, said.short(period), said.short(over(period, [BigInt(laps), 1n])));
+  if (!isLong) return words.newOrder({ period: said.time(period) });
+  return words.newPattern({
+    laps,
+    period: said.short(period),
+    each: said.short(over(period, [BigInt(laps), 1n])),
+  });
 }
 
 /**
@@ -302,7 +305,7 @@ function Table({ said, group, at, period, other }) {
       <td>${isKnown ? said.short(found) : found}</td><td>${isKnown ? said.throughput(laps, found) : ""}</td></tr>`;
   };
   const waits = other?.isAsked ? "…" : "–";
-  return html`<table class="orders"><thead><tr><td></td><th scope="col">${words.period}</th><th scope="col">${words.throughput(Boolean(said.units.time))}</th></tr></thead>
+  return html`<table class="orders"><thead><tr><td></td><th scope="col">${words.period}</th><th scope="col">${words.throughput({ isTimed: Boolean(said.units.time) })}</th></tr></thead>
     <tbody>${row(words.orders.now, at, lapsIn(group))}${row(words.orders.same, period ?? "–", lapsIn(group))}${row(words.orders.anew, other?.period ?? waits, other?.laps ?? 0)}</tbody></table>`;
 }
 
@@ -369,7 +372,7 @@ function Slider({ curve, said, now, position, move, release, studio }) {
           ? html`<p class="hint">${words.noRoom}</p>`
           : html`<div class="track"><${Picture} curve=${curve} value=${value} now=${now} />
       <input type="range" id=${id} min=${curve.first} max=${curve.last} step="1" value=${position} style=${`--over: ${(100 * (position - curve.first)) / (curve.last - curve.first)}%`}
-        aria-valuetext=${words.valueAndPeriod(said.value(curve, value), said.time(period))} aria-describedby=${`${id}-says`}
+        aria-valuetext=${words.valueAndPeriod({ value: said.value(curve, value), period: said.time(period) })} aria-describedby=${`${id}-says`}
         onInput=${({ target }) => move(curve, Number(target.value))} onChange=${({ target }) => release(curve, Number(target.value))} /></div>
       <p class="hint" id=${`${id}-says`}>${effectOf(said, curve, value)}</p>`
       }
@@ -384,13 +387,13 @@ function Slider({ curve, said, now, position, move, release, studio }) {
 function nameOf(studio, { kind, robot, stop }) {
   if (kind === "headway") return words.parameters.headway;
   const name = robot ?? "";
-  if (kind === "speed") return words.parameters.speed(name);
+  if (kind === "speed") return words.parameters.speed({ name });
   const plan = studio.stage.isPlan ? studio.stage.plan : null;
   const stage = plan?.robots.find((each) => each.name === robot)?.stages[stop ?? 0];
-  return words.parameters.work(
+  return words.parameters.work({
     name,
-    stage ? studio.stage.words.where(stage.vertex) : (stop ?? 0) + 1,
-  );
+    place: stage ? studio.stage.words.where(stage.vertex) : (stop ?? 0) + 1,
+  });
 }
 
 /**
@@ -407,22 +410,23 @@ function effectOf(said, curve, value) {
   const to = next && said.value(curve, piece.to);
   if (curve.kind === "speed") {
     const from = index ? said.value(curve, piece.from) : "";
-    if (!piece.slope[0]) return words.fasterGainsNothing(from);
+    if (!piece.slope[0]) return words.fasterGainsNothing({ from });
     const faster = times(value, [11n, 10n]);
     const saved = minus(
       curve.period(value),
       curve.period(compared(faster, curve.most) > 0 ? curve.most : faster),
     );
-    return words.fasterSaves(said.time(saved), next && !next.slope[0] ? to : "");
+    return words.fasterSaves({ saved: said.time(saved), flat: next && !next.slope[0] ? to : "" });
   }
-  const unit = words.timeUnit(said.units.time);
+  const unit = words.timeUnit({ unit: said.units.time ?? "" });
   /**
    * @param {Fraction} slope
    * @returns {string}
    */
   const costs = (slope) => said.time(slope);
-  if (!piece.slope[0]) return next ? words.freeUpTo(to, unit, costs(next.slope)) : words.free;
-  return words.eachCosts(unit, costs(piece.slope), to, next && costs(next.slope));
+  if (!piece.slope[0])
+    return next ? words.freeUpTo({ to, unit, cost: costs(next.slope) }) : words.free;
+  return words.eachCosts({ unit, cost: costs(piece.slope), to, then: next && costs(next.slope) });
 }
 
 const [WIDTH, HEIGHT, SAMPLES] = [200, 30, 60];

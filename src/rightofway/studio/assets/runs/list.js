@@ -2,8 +2,11 @@
 
 import { html, useEffect, useState } from "../vendor/htm-preact.js";
 import { Field } from "../field.js";
-import { figure, language } from "../../../viz/page/assets/language/language.js";
-import { said as phraseText } from "../../../viz/page/assets/language/library.js";
+import {
+  figure,
+  language,
+  said as phraseText,
+} from "../../../viz/page/assets/language/language.js";
 import { Quantities } from "../../../viz/page/assets/language/quantities.js";
 import { words } from "../words.js";
 import { doNotRun, faultsOf, inShort } from "./faults.js";
@@ -99,7 +102,7 @@ export function RunList({ studio }) {
       ${
         left > 0 &&
         html`<button type="button" class="framed" onClick=${() => setListed(listed + MOST)}>
-          ${words.moreRows(left)}</button>`
+          ${words.moreRows({ count: left })}</button>`
       }
     </section>`;
 }
@@ -130,7 +133,7 @@ const withUnit = (title, unit) => (unit ? `${title} [${unit}]` : title);
 function Empty({ studio, runs, row }) {
   const [isOpen, setOpen] = useState(false);
   const numbers = runs.map(({ number }) => number);
-  const about = words.withoutPlan(runs.length);
+  const about = words.withoutPlan({ count: runs.length });
   return html`<tbody class="empty">
     <tr class="fold"><td colspan="6"><div>
       <button type="button" class="quiet" aria-expanded=${String(isOpen)} onClick=${() => setOpen(!isOpen)}>
@@ -154,8 +157,8 @@ function Files({ studio, file, setFile }) {
   );
   return html`<select aria-label=${words.whoseRuns} value=${file ?? ""}
       onChange=${({ target }) => setFile(target.value || null)}>
-    <option value="">${words.ownRuns(own)}</option>
-    <option value="*">${words.allRuns(all)}</option>
+    <option value="">${words.ownRuns({ count: own })}</option>
+    <option value="*">${words.allRuns({ count: all })}</option>
     ${others.map((each) => html`<option value=${each}>${each}</option>`)}</select>`;
 }
 
@@ -170,7 +173,7 @@ function Selection({ studio }) {
   const count = selected.length;
   const none = () => studio.attempt(() => runs.select([]));
   return html`<p class="selection">
-    <span role="status">${count === 1 ? words.selectMore : words.plansSelected(count)}</span>
+    <span role="status">${count === 1 ? words.selectMore : words.plansSelected({ count })}</span>
     <button type="button" class="framed" onClick=${() => forget(studio, selected)}>
       ${words.remove}</button>
     <button type="button" class="framed" onClick=${none}>${words.selectNone}</button></p>`;
@@ -185,9 +188,11 @@ function Selection({ studio }) {
  */
 function forget({ runs, notices }, numbers, about = "") {
   const text =
-    numbers.length === 1 ? words.runDeleted(numbers[0]) : words.runsDeleted(numbers.length);
+    numbers.length === 1
+      ? words.runDeleted({ number: numbers[0] })
+      : words.runsDeleted({ count: numbers.length });
   const undo = runs.forgetSoon(numbers);
-  notices.say(about ? words.deleted(about) : text, words.undo, undo);
+  notices.say(about ? words.deleted({ what: about }) : text, words.undo, undo);
 }
 
 /**

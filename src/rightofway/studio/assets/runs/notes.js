@@ -63,8 +63,13 @@ function between(before, run, edits) {
     (key) => before.request[key] !== undefined && run.request[key] !== undefined,
   )
     .filter((key) => before.request[key] !== run.request[key])
-    .map((key) => words.settingChanged[key](before.request[key] ?? "", run.request[key] ?? ""));
+    .map((key) =>
+      words.settingChanged[key]({
+        before: before.request[key] ?? "",
+        after: run.request[key] ?? "",
+      }),
+    );
   const found = [...edits, ...settings];
   const isSame = FIGURES.every((key) => before.figures?.[key] === run.figures?.[key]);
-  return isSame && !edits.length ? [...found, words.asGoodAs(before.number)] : found;
+  return isSame && !edits.length ? [...found, words.asGoodAs({ number: before.number })] : found;
 }

@@ -416,7 +416,8 @@ export class RunStore extends Observable {
    * @returns {Promise<void>}
    */
   async select(wanted) {
-    if (wanted.length > MOST_COMPARED) throw new Error(words.mostCompared(MOST_COMPARED));
+    if (wanted.length > MOST_COMPARED)
+      throw new Error(words.mostCompared({ count: MOST_COMPARED }));
     const numbers = wanted.toSorted((one, other) => one - other);
     this.selected = numbers;
     this.compared = null;

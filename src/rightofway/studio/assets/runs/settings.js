@@ -2,7 +2,8 @@
 
 import { html } from "../vendor/htm-preact.js";
 import { Field } from "../field.js";
-import { language, words } from "../words.js";
+import { words } from "../words.js";
+import { language } from "../../../viz/page/assets/language/language.js";
 /** @import { PlannerEntry, PlannerOption } from "../api_types.js" */
 /** @import { Props, SearchForm } from "../types.js" */
 
@@ -25,7 +26,7 @@ export function Settings({ studio }) {
       event.preventDefault();
       studio.plan();
     }}>
-      <details open=${!runs.payload && !runs.running}><summary>${words.planSummary(chosen, settings.time_limit)}</summary>
+      <details open=${!runs.payload && !runs.running}><summary>${words.planSummary({ planner: chosen, seconds: settings.time_limit })}</summary>
       <div class="fields">
         <label>${words.planner}<select id="planner" aria-describedby="planner-summary" value=${chosen} onChange=${({ target }) => set({ planner: target.value, options: {} })}>
           ${planners.planners.map(({ name, summary }) => html`<option value=${name} title=${summary} lang="en">${name}</option>`)}</select></label>

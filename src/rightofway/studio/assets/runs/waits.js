@@ -1,7 +1,7 @@
 /** Why robots wait: each wait in a sentence, the decisions behind it, and what if the other went first. */
 
 import { html } from "../vendor/htm-preact.js";
-import { said } from "../../../viz/page/assets/language/library.js";
+import { said } from "../../../viz/page/assets/language/language.js";
 import { words } from "../words.js";
 import { Groups } from "./groups.js";
 /** @import { Robot } from "../../../viz/page/assets/plan/robot.js" */
@@ -22,7 +22,7 @@ export function Waits({ studio }) {
   const hasGroups = stage.isPlan && WITH_GROUPS.has(stage.plan.planner?.name ?? "");
   if (chosen !== undefined && !found.length) return null; // the card says that it loses no time
   return html`
-    <section aria-labelledby="waits-title"><h2 id="waits-title">${chosen ? words.waitsOf(chosen) : words.waits}</h2>
+    <section aria-labelledby="waits-title"><h2 id="waits-title">${chosen ? words.waitsOf({ name: chosen }) : words.waits}</h2>
       ${
         found.length
           ? html`<ol class="waits">${found.slice(0, MOST).map(
@@ -32,12 +32,12 @@ export function Waits({ studio }) {
           ({ phrase, index }) => html`<p><small>${said(phrase)}</small></p>
           ${hasGroups && html`<${Groups} key=${`${runs.shown} ${index}`} studio=${studio} index=${index} />`}`,
         )}
-        ${loss.for && !isOnlyChoice(stage, loss) && html`<button type="button" class="framed" onClick=${() => studio.flip(loss)}>${words.letGoFirst(loss.robot)}</button>`}
+        ${loss.for && !isOnlyChoice(stage, loss) && html`<button type="button" class="framed" onClick=${() => studio.flip(loss)}>${words.letGoFirst({ name: loss.robot })}</button>`}
       </li>`,
             )}</ol>`
           : html`<p class="hint">${words.noWaits}</p>`
       }
-      ${found.length > MOST && html`<p class="hint">${words.moreWaits(found.length - MOST)}</p>`}
+      ${found.length > MOST && html`<p class="hint">${words.moreWaits({ count: found.length - MOST })}</p>`}
     </section>`;
 }
 

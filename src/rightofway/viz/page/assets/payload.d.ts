@@ -208,7 +208,6 @@ export type HoldRow = [number, number, "hold" | "off", boolean];
 /** Input of the page of an inspection. */
 export interface InspectionPayload {
   title: string;
-  translations: Record<string, Record<string, string>>;
   description: PhraseData;
   notes: PhraseData[];
   names: Record<string, PhraseData>;
@@ -294,7 +293,7 @@ export interface OtherPlan {
   map?: MapData;
 }
 
-/** Input of the page of a plan; translations are by language, then by English template. */
+/** Input of the page of a plan. */
 export interface Payload {
   title: string;
   phrases: PhraseEntry[];
@@ -319,7 +318,6 @@ export interface Payload {
   floor?: FloorData;
   noPlan?: true;
   places?: [number, number][];
-  translations: Record<string, Record<string, string>>;
   map: MapData;
   driven?: FeedData;
   others?: OtherPlan[];

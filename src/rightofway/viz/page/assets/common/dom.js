@@ -53,15 +53,6 @@ export function element(tag, properties = {}, ...children) {
 }
 
 /**
- * Words of the library that have no translation: marked, so that they are read out rightly.
- *
- * @param {string} text
- */
-export function english(text) {
-  return text ? element("span", { lang: "en" }, text) : "";
-}
-
-/**
  * A dot in a robot's colour.
  *
  * @param {Robot} robot

@@ -64,7 +64,7 @@ export function paintScaleBar(context, width, height, plan, { scale }, theme) {
   if (!usualLimit || width < LIMIT_NOTED) return;
   haloed(
     context,
-    texts.usualLimit(plan.quantities.speed(usualLimit)),
+    texts.usualLimit({ speed: plan.quantities.speed(usualLimit) }),
     right - wide - 20,
     bottom + 2,
     theme.muted,

@@ -93,7 +93,7 @@ export class ComparedRobots {
         const { title: other } = compared.plans[place];
         const isPressed =
           this.place === place || (compared.others.length === 1 && this.place === null);
-        return sorts(place, other, texts.compared.sortBy(other), isPressed);
+        return sorts(place, other, texts.compared.sortBy({ title: other }), isPressed);
       }),
     );
   }
@@ -159,6 +159,6 @@ export class ComparedRobots {
     if (Number.isNaN(by)) return texts.compared.isMissing;
     if (!by) return texts.same;
     const time = compared.time(Math.abs(by));
-    return by < 0 ? texts.isEarlier(time) : texts.isLater(time);
+    return by < 0 ? texts.isEarlier({ time }) : texts.isLater({ time });
   }
 }

@@ -1,11 +1,9 @@
 import { element } from "../common/dom.js";
-import { figure, texts } from "../language/language.js";
-import { said } from "../language/library.js";
+import { figure, said, texts } from "../language/language.js";
 import { joined } from "../language/words.js";
 
 /** @import { Compared, ComparedFigures } from "./compared.js" */
 /** @import { ChangeData } from "../payload.d.ts" */
-/** @import { Texts } from "../texts/en.js" */
 
 const MOST_CHANGES = 12; // that are listed of one plan
 const FEW_NAMES = 2; // robots with the same change
@@ -45,7 +43,7 @@ export class ComparedTable {
   #head() {
     this.heads = this.compared.plans.map(({ title }, place) => {
       const button = element("button", { type: "button", className: "name" }, title);
-      button.title = texts.compared.compareWith(title);
+      button.title = texts.compared.compareWith({ title });
       button.addEventListener("click", () => this.compared.setBase(place));
       return element("th", { scope: "col" }, button);
     });
@@ -54,13 +52,13 @@ export class ComparedTable {
 
   /** @param {number} count */
   #faults(count) {
-    return count ? element("b", { className: "wrong" }, texts.doNotRun(count)) : texts.none;
+    return count ? element("b", { className: "wrong" }, texts.doNotRun({ count })) : texts.none;
   }
 
   /**
    * A row of one figure; nothing where no plan has it.
    *
-   * @param {keyof Texts["compared"]["figures"]} key
+   * @param {keyof typeof texts["compared"]["figures"]} key
    * @param {(plan: ComparedFigures) => string | Node} valueOf
    */
   #row(key, valueOf) {
@@ -91,13 +89,13 @@ export class ComparedTable {
       .map(({ title, changes }) => {
         const shown = changes.slice(0, MOST_CHANGES).map(changeInWords);
         const left = changes.length - shown.length;
-        const list = [...shown, ...(left ? [texts.andMore(left)] : [])].map((text) =>
+        const list = [...shown, ...(left ? [texts.andMore({ count: left })] : [])].map((text) =>
           element("li", { className: "name" }, text),
         );
         const head = element(
           "h3",
           { className: "name" },
-          texts.compared.changes(title, first.title),
+          texts.compared.changes({ title, base: first.title }),
         );
         return element("div", { className: "compared-changes" }, head, element("ul", {}, ...list));
       });
@@ -120,7 +118,8 @@ export class ComparedTable {
 export function changeInWords({ subject, robots, key, before, after }) {
   /** @type {Record<"whats" | "keys", Partial<Record<string, string>>>} */
   const { whats, keys } = texts.compared;
-  const named = robots.length > FEW_NAMES ? texts.robots(robots.length) : joined(robots).join("");
+  const named =
+    robots.length > FEW_NAMES ? texts.robots({ count: robots.length }) : joined(robots).join("");
   const whose = named || (whats[said(subject)] ?? said(subject));
   const values = before || after ? `${said(before)} → ${said(after)}` : "";
   return `${whose}: ${[keys[key] ?? key, values].filter(Boolean).join(" ")}`;

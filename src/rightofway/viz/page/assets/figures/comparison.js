@@ -122,7 +122,7 @@ export class Comparison {
       if (before === null || after === null) return [plan.title, texts.compared.isMissing];
       const time = this.compared.time(Math.abs(after - before));
       if (after === before) return [plan.title, texts.same];
-      return [plan.title, after < before ? texts.isEarlier(time) : texts.isLater(time)];
+      return [plan.title, after < before ? texts.isEarlier({ time }) : texts.isLater({ time })];
     });
   }
 
@@ -144,7 +144,7 @@ export class Comparison {
     canvas.setAttribute("role", "img");
     const tip = element("div", { className: "hover", hidden: true });
     const section = element("section", { className: "map other" }, title, canvas, tip);
-    section.setAttribute("aria-label", texts.compared.mapOf(plan.title));
+    section.setAttribute("aria-label", texts.compared.mapOf({ title: plan.title }));
     this.maps.append(section);
     this.#title(title, plan);
     const ghosts = new Motion({ robots: plan.planned, roadmap: plan.roadmap });
@@ -254,8 +254,12 @@ export class Comparison {
     const { title, metrics, endsAtHome, faultCount } = plan;
     const words = new Words(plan);
     const outcome = faultCount
-      ? element("span", { className: "wrong" }, texts.faults(faultCount))
-      : element("span", {}, texts.allArrived(endsAtHome, words.time(metrics.makespan)));
+      ? element("span", { className: "wrong" }, texts.faults({ count: faultCount }))
+      : element(
+          "span",
+          {},
+          texts.allArrived({ isHome: endsAtHome, time: words.time(metrics.makespan) }),
+        );
     heading.hidden = false;
     heading.replaceChildren(element("b", { className: "name" }, title), outcome);
   }

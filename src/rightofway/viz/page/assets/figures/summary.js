@@ -1,6 +1,5 @@
-import { element, english, facts, link } from "../common/dom.js";
-import { texts } from "../language/language.js";
-import { said, spoken } from "../language/library.js";
+import { element, facts, link } from "../common/dom.js";
+import { said, texts } from "../language/language.js";
 import { DONE, WAIT } from "../plan/phases.js";
 import { several, upperFirst } from "../language/words.js";
 
@@ -30,7 +29,7 @@ export class Summary {
     this.choice = choice;
     this.words = words;
     this.comparison = comparison;
-    const robots = texts.robots(plan.robots.length);
+    const robots = texts.robots({ count: plan.robots.length });
     const outcome = this.#outcome();
     const titles = [plan, ...plan.others].map(({ title }) => title);
     if (comparison && !root.isPart) document.title = titles.join(", ");
@@ -68,7 +67,7 @@ export class Summary {
   #names(titles, robots) {
     /** @param {string} text */
     const name = (text) => element("b", { className: "name" }, text);
-    if (titles.length > 2) return [name(texts.compared.plans(titles.length))];
+    if (titles.length > 2) return [name(texts.compared.plans({ count: titles.length }))];
     const [first, other] = titles;
     return [name(first || robots), ...(other ? [element("span", {}, "→"), name(other)] : [])];
   }
@@ -78,13 +77,13 @@ export class Summary {
     const { faultCount, noPlan, happened, steady, planned: robots } = this.plan;
     if (noPlan) return texts.noPlan;
     if (this.comparison) return this.#comparedOutcome();
-    if (faultCount) return texts.doNotRun(faultCount);
+    if (faultCount) return texts.doNotRun({ count: faultCount });
     if (happened && !this.plan.driven) {
       const failed = happened.filter(({ ending }) => ending !== DONE).length;
-      return failed ? texts.neverArrived(failed, this.plan.endsAtHome) : "";
+      return failed ? texts.neverArrived({ count: failed, isHome: this.plan.endsAtHome }) : "";
     }
     const stuck = robots.filter(({ ending }) => ending === WAIT).length;
-    if (stuck) return texts.stuckForEver(stuck);
+    if (stuck) return texts.stuckForEver({ count: stuck });
     return steady ? this.#repetition(steady) : "";
   }
 
@@ -95,15 +94,15 @@ export class Summary {
   /** Which of the plans have faults. */
   #comparedOutcome() {
     return this.#faulty
-      .map(({ title, faultCount }) => texts.doNotRunOther(title, faultCount))
+      .map(({ title, faultCount }) => texts.doNotRunOther({ title, count: faultCount }))
       .join(", ");
   }
 
   /** @param {Steady} options */
   #repetition({ groups, groupOf }) {
     const robots = groupOf.filter(Boolean).length;
-    if (robots < groupOf.length) return texts.someRepeat(robots);
-    return groups.length > 1 ? texts.groupsRepeat(groups.length) : "";
+    if (robots < groupOf.length) return texts.someRepeat({ count: robots });
+    return groups.length > 1 ? texts.groupsRepeat({ count: groups.length }) : "";
   }
 
   /**
@@ -137,8 +136,16 @@ export class Summary {
     const latest = mostOf(robots, ({ completion }) => completion);
     const loser = mostOf(robots, ({ delay }) => delay);
     return [
-      [texts.allAt(endsAtHome), this.words.time(metrics.makespan), texts.allAtLength(endsAtHome)],
-      [texts.latest, latest ? this.#robot(latest) : "", texts.latestAtLength(endsAtHome)],
+      [
+        texts.allAt({ isHome: endsAtHome }),
+        this.words.time(metrics.makespan),
+        texts.allAtLength({ isHome: endsAtHome }),
+      ],
+      [
+        texts.latest,
+        latest ? this.#robot(latest) : "",
+        texts.latestAtLength({ isHome: endsAtHome }),
+      ],
       [texts.timeLost, this.#timeLost(robots), texts.timeLostAtLength],
       [
         texts.losesMost,
@@ -189,7 +196,7 @@ export class Summary {
     if (compared.plans.length > 2) {
       /** @type {["makespan" | "flowtime", string, string][]} */
       const rows = [
-        ["makespan", texts.allAt(endsAtHome), texts.compared.firstAllAtLength],
+        ["makespan", texts.allAt({ isHome: endsAtHome }), texts.compared.firstAllAtLength],
         ["flowtime", texts.compared.least, texts.compared.leastAtLength],
       ];
       return rows
@@ -209,13 +216,13 @@ export class Summary {
     const { title } = compared.plans[1];
     return [
       [
-        texts.allAt(endsAtHome),
+        texts.allAt({ isHome: endsAtHome }),
         both(({ makespan }) => makespan),
-        texts.allBothAtLength(endsAtHome),
+        texts.allBothAtLength({ isHome: endsAtHome }),
       ],
       [texts.timeLost, both(({ flowtime, alone }) => flowtime - alone), texts.timeLostAtLength],
-      [texts.earlier, String(earlier), texts.earlierAtLength(title)],
-      [texts.later, String(later), texts.laterAtLength(title)],
+      [texts.earlier, String(earlier), texts.earlierAtLength({ title })],
+      [texts.later, String(later), texts.laterAtLength({ title })],
     ];
   }
 
@@ -227,7 +234,7 @@ export class Summary {
     const laps = largest.robots.reduce((sum, index) => sum + steady.lapsInPeriod(index), 0);
     return [
       [
-        texts.repeatsEvery(groups.length > 1),
+        texts.repeatsEvery({ isLargest: groups.length > 1 }),
         this.words.time(largest.period),
         texts.repeatsEveryAtLength,
       ],
@@ -245,11 +252,11 @@ export class Summary {
     const latest = mostOf(done, ({ delayInAll }) => delayInAll);
     return [
       [
-        texts.allAt(endsAtHome),
+        texts.allAt({ isHome: endsAtHome }),
         done.length === happened.length ? this.#insteadOf(metrics.makespan) : "",
-        texts.allWasAtLength(endsAtHome),
+        texts.allWasAtLength({ isHome: endsAtHome }),
       ],
-      [texts.late, texts.lateOf(late.length, happened.length), texts.lateAtLength],
+      [texts.late, texts.lateOf({ count: late.length, all: happened.length }), texts.lateAtLength],
       [
         texts.latestBy,
         latest && latest.delayInAll > 0
@@ -269,8 +276,8 @@ export class Summary {
     const planned = this.words.time(makespan);
     const last = Math.max(...(this.plan.happened ?? []).map(({ completion }) => completion));
     return last === makespan
-      ? texts.asPlanned(planned)
-      : texts.insteadOf(this.words.time(last), planned);
+      ? texts.asPlanned({ time: planned })
+      : texts.insteadOf({ time: this.words.time(last), planned });
   }
 
   /** @param {Robot} robot */
@@ -289,8 +296,8 @@ export class Summary {
     const isUnit = tick.numerator === tick.denominator;
     /** @type {[string, string | Node][]} */
     const origin = [
-      [texts.planner, english(planner.name)],
-      [texts.method, spoken(planner.method)],
+      [texts.planner, planner.name && element("span", { translate: false }, planner.name)],
+      [texts.method, said(planner.method)],
     ];
     if (this.plan.faultCount) return origin; // its times are worth nothing
     return [
@@ -307,7 +314,7 @@ export class Summary {
           .map((part) => (typeof part === "string" ? part : part.textContent))
           .join(""),
       ],
-      [texts.tick, isUnit ? "" : texts.tickAtLength(this.words.duration(1))],
+      [texts.tick, isUnit ? "" : texts.tickAtLength({ time: this.words.duration(1) })],
     ];
   }
 

@@ -1,34 +1,100 @@
 import { all, isEmbedded } from "../common/dom.js";
-import { GERMAN } from "../texts/de.js";
-import { ENGLISH } from "../texts/en.js";
+import { chosen, filled, labelsOf } from "./templates.js";
 
-/** @import { Texts } from "../texts/en.js" */
+/** @import { PhraseData } from "../payload.d.ts" */
+/** @import { Template, Value, Values } from "./templates.js" */
+/** @import { PageTexts, StudioTexts } from "./texts.d.ts" */
+
+/** @typedef {{ name: string, facts: Record<string, Template>, page: object, studio?: object }} Texts A file of texts. */
+/** @typedef {{ texts: Record<string, Texts> }} WithTexts The data of a page, with its texts by language. */
 
 /**
- * Each language by its code: its own name, and its texts.
+ * Each language by its code: its own name, its templates of facts, and its labels.
  *
- * @type {Record<string, { name: string, texts: Texts }>}
+ * @type {Record<string, Texts>}
  */
-export const LANGUAGES = {
-  en: { name: "English", texts: ENGLISH },
-  de: { name: "Deutsch", texts: GERMAN },
-};
+export const LANGUAGES = {};
 
-/** The language that is spoken, and its texts; all modules read them here at the time of writing. */
+/** The language that is spoken, and its labels; all modules read them here at the time of writing. */
 export let language = "en";
-/** @type {Texts} */
-export let texts = ENGLISH;
+export let texts = /** @type {PageTexts} */ ({});
+export let studioTexts = /** @type {StudioTexts} */ ({});
+
+/** @type {Record<string, Template>} */
+let templates = {};
+let numbers = new Intl.NumberFormat("en");
 
 /**
- * Speak a language, English where it is not known; texts that it lacks are English.
+ * Learn what is said in each language: a page of a file brings what it says, the studio all.
+ *
+ * @param {Record<string, Texts>} known
+ */
+export function learn(known) {
+  Object.assign(LANGUAGES, known);
+}
+
+/**
+ * Speak a language, English where it is not known.
  *
  * @param {string} code
  * @param {HTMLElement} [top] what is written in it
  */
 export function setLanguage(code, top = document.documentElement) {
   language = Object.hasOwn(LANGUAGES, code) ? code : "en";
-  texts = completed(LANGUAGES[language].texts, ENGLISH);
+  const { facts, page, studio = {} } = LANGUAGES[language];
+  templates = facts;
+  numbers = new Intl.NumberFormat(language, { useGrouping: false, maximumFractionDigits: 20 });
+  texts = labelsOf(page, fill);
+  studioTexts = labelsOf(studio, fill);
   top.lang = language;
+}
+
+/**
+ * The template of a kind of fact in the language that is spoken; text that is no kind stays.
+ *
+ * @param {string} kind
+ * @returns {Template}
+ */
+export function templateOf(kind) {
+  return templates[kind] ?? kind;
+}
+
+/**
+ * A template with its values in their places, in the language that is spoken.
+ *
+ * @param {Template} template
+ * @param {Values} values
+ * @returns {string}
+ */
+export function fill(template, values) {
+  return filled(chosen(template, values), (name, form) => written(values[name], form));
+}
+
+/**
+ * A value as text. A form that begins with `n_` is the kind of a template of a number; the language
+ * chooses it, for example by the case of a noun.
+ *
+ * @param {Value} value
+ * @param {string} form
+ * @returns {string}
+ */
+function written(value, form) {
+  const isKind = form.startsWith("n_");
+  if (Array.isArray(value)) return said(isKind ? [form, value[1]] : value);
+  if (isKind) return fill(templates[form], { number: value });
+  return typeof value === "number" ? numbers.format(value) : String(value ?? "");
+}
+
+/**
+ * A phrase, as phrases.py hands it over: its kind and its values, or plain text.
+ *
+ * @param {PhraseData} phrase
+ * @returns {string}
+ */
+export function said(phrase) {
+  if (typeof phrase === "string") return phrase;
+  const [kind, values] = phrase;
+  return kind === "figure" ? figure(String(values.figure)) : fill(templateOf(kind), values);
 }
 
 /**
@@ -39,33 +105,6 @@ export function setLanguage(code, top = document.documentElement) {
 export function askedLanguage(isPart = false) {
   const asked = new URLSearchParams(isPart ? "" : location.search).get("lang");
   return asked ?? navigator.language.slice(0, 2);
-}
-
-/**
- * Some of the texts of a table, and of the tables in it.
- *
- * @template T
- * @typedef {{ [K in keyof T]?: T[K] extends Record<string, unknown> ? Some<T[K]> : T[K] }} Some
- */
-
-/**
- * Texts, with those of another language where there are none.
- *
- * @template {object} T
- * @param {Some<T>} own
- * @param {T} other
- * @returns {T}
- */
-export function completed(own, other) {
-  /** @type {Record<string, unknown>} */
-  const known = { ...own };
-  const both = Object.entries(other).map(([key, value]) => [
-    key,
-    typeof value === "object" && !Array.isArray(value)
-      ? completed(known[key] ?? {}, value)
-      : (known[key] ?? value),
-  ]);
-  return { ...own, ...Object.fromEntries(both) };
 }
 
 /**
@@ -97,9 +136,9 @@ export function writeMarkup(within = document) {
  * @param {string} text with numbers as English has them
  */
 export function figure(text) {
-  return texts.point === "."
-    ? text
-    : text.replace(/(\d)\.(?=\d)/g, `$1${texts.point}`).replace(/(\d)%/g, "$1 %");
+  if (language === "en") return text;
+  const point = numbers.format(0.5)[1];
+  return text.replace(/(\d)\.(?=\d)/g, `$1${point}`).replace(/(\d)%/g, "$1 %");
 }
 
 /**

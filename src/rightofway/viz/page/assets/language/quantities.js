@@ -101,7 +101,7 @@ export class Quantities {
     const time = this.#time(ticks);
     return this.seconds
       ? figure(this.#clock(product(time, this.seconds)))
-      : texts.timeUnits(figure(decimal(time)));
+      : texts.timeUnits({ number: figure(decimal(time)) });
   }
 
   /**
@@ -110,7 +110,7 @@ export class Quantities {
    * @param {number | string} ticks
    */
   moment(ticks) {
-    return this.seconds ? this.duration(ticks) : texts.moment(this.cell(ticks));
+    return this.seconds ? this.duration(ticks) : texts.moment({ number: this.cell(ticks) });
   }
 
   /**
@@ -152,7 +152,7 @@ export class Quantities {
   length(value) {
     const { length } = this.units;
     const number = figure(decimal(fraction(value)));
-    return length ? `${number} ${length}` : texts.lengthUnits(number);
+    return length ? `${number} ${length}` : texts.lengthUnits({ number });
   }
 
   /**

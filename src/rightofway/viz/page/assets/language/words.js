@@ -10,7 +10,8 @@ import { BROKEN } from "../plan/phases.js";
  * @param {string[]} names
  */
 export function several(names) {
-  const few = names.length > 4 ? [...names.slice(0, 3), texts.more(names.length - 3)] : names;
+  const few =
+    names.length > 4 ? [...names.slice(0, 3), texts.more({ count: names.length - 3 })] : names;
   return joined(few).join("");
 }
 
@@ -143,7 +144,10 @@ export class Words {
    */
   apart({ distance, room }) {
     const { quantities } = this.plan;
-    return texts.apart(quantities.length(rounded(distance)), quantities.length(rounded(room)));
+    return texts.apart({
+      distance: quantities.length(rounded(distance)),
+      needed: quantities.length(rounded(room)),
+    });
   }
 
   /**
@@ -152,7 +156,9 @@ export class Words {
    * @param {Robot | null} behind
    */
   stuck(behind) {
-    return behind ? texts.stuckBehind(behind.name, behind.ending === BROKEN) : texts.never;
+    return behind
+      ? texts.stuckBehind({ name: behind.name, isBroken: behind.ending === BROKEN })
+      : texts.never;
   }
 
   /**
@@ -164,6 +170,6 @@ export class Words {
     const { elsewhere, onTime, late, early } = texts.lateness;
     if (ticks === null) return elsewhere;
     if (!ticks) return onTime;
-    return ticks > 0 ? late(this.time(ticks)) : early(this.time(-ticks));
+    return ticks > 0 ? late({ time: this.time(ticks) }) : early({ time: this.time(-ticks) });
   }
 }

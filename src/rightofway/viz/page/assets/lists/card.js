@@ -1,7 +1,6 @@
 import { element, facts, goTo, link, swatch } from "../common/dom.js";
 import { FloorRobot } from "../plan/floor.js";
-import { texts, withKey } from "../language/language.js";
-import { spoken } from "../language/library.js";
+import { said, texts, withKey } from "../language/language.js";
 import { BROKEN, WAIT } from "../plan/phases.js";
 import { chooseAt } from "./two_line_list.js";
 import { joined, upperFirst } from "../language/words.js";
@@ -95,8 +94,8 @@ export class Card {
 
   /** @param {...Node | string} title */
   #header(...title) {
-    const said = { ariaLabel: texts.chooseNothing, title: withKey(texts.chooseNothing, "Esc") };
-    const close = element("button", { type: "button", className: "quiet", ...said }, "✕");
+    const label = { ariaLabel: texts.chooseNothing, title: withKey(texts.chooseNothing, "Esc") };
+    const close = element("button", { type: "button", className: "quiet", ...label }, "✕");
     close.addEventListener("click", () => this.choice.chooseNothing());
     return element("header", {}, ...title, close);
   }
@@ -107,7 +106,7 @@ export class Card {
     const rerouted = this.plan.reroutes.find((reroute) => reroute.robot === robot.index);
     /** @type {Term[]} */
     const changes = (this.comparison?.changesOf(robot) ?? []).map(([title, change]) => [
-      texts.inPlan(title),
+      texts.inPlan({ title }),
       change,
     ]);
     return [
@@ -120,7 +119,7 @@ export class Card {
         [texts.speed, this.plan.quantities.speed(robot.speed)],
         [texts.radius, robot.radius ? this.plan.quantities.length(robot.radius) : ""],
         [texts.home, words.where(robot.home)],
-        [texts.anotherWay, spoken(rerouted?.because ?? "")],
+        [texts.anotherWay, said(rerouted?.because ?? "")],
       ]),
       element("h3", {}, texts.trip),
       this.#lines(robot.stages, (stage) => this.#stage(robot, stage)),
@@ -175,7 +174,7 @@ export class Card {
         element("th", { scope: "row" }, term),
         element("td", {}, this.words.time(ticks)),
       );
-    const end = texts.doneAt(this.plan.endsAtHome);
+    const end = texts.doneAt({ isHome: this.plan.endsAtHome });
     const table = element(
       "table",
       { className: "sum" },
@@ -209,16 +208,16 @@ export class Card {
     /** @type {Term[]} */
     const planned = [
       [texts.planned, words.time(robot.planned.completion)],
-      [texts.heldUp, robot.held ? texts.inAll(words.time(robot.held)) : ""],
-      [texts.waits, waited ? texts.inAll(words.time(waited)) : texts.never],
+      [texts.heldUp, robot.held ? texts.inAll({ time: words.time(robot.held) }) : ""],
+      [texts.waits, waited ? texts.inAll({ time: words.time(waited) }) : texts.never],
     ];
     if (robot.ending === BROKEN)
-      return [[texts.breaksDown, texts.at(words.time(robot.broken))], ...planned];
+      return [[texts.breaksDown, texts.at({ moment: words.time(robot.broken) })], ...planned];
     if (robot.ending === WAIT)
       return [[texts.done, words.stuck(robot.stuckBehind(this.plan.happened ?? []))], ...planned];
     return [
       [
-        texts.doneAt(false),
+        texts.doneAt({ isHome: false }),
         `${words.time(robot.completion)} (${words.lateness(robot.delayInAll)})`,
       ],
       ...planned,
@@ -237,7 +236,7 @@ export class Card {
     if (!steady || !group?.whole) return [[texts.repeats, texts.notShown]];
     const laps = steady.lapsInPeriod(robot.index);
     const [period, start] = [group.period, group.start].map((ticks) => this.words.time(ticks));
-    return [[texts.repeats, texts.lapsEvery(laps, period, start)]];
+    return [[texts.repeats, texts.lapsEvery({ laps, period, start })]];
   }
 
   /**
@@ -246,9 +245,9 @@ export class Card {
    */
   #stage(robot, stage) {
     const dwell = [];
-    if (stage.work) dwell.push(texts.works(this.words.duration(stage.work)));
+    if (stage.work) dwell.push(texts.works({ time: this.words.duration(stage.work) }));
     if (stage.turn && stage.visit + 1 < robot.vertices.length)
-      dwell.push(texts.turns(this.words.duration(stage.turn)));
+      dwell.push(texts.turns({ time: this.words.duration(stage.turn) }));
     const text = [this.words.where(stage.vertex), ...dwell].join(", ");
     if (stage.visit < 0) return goTo(this.live ? texts.driven.notYet : texts.never, text, () => {});
     return this.#moment(robot.enter[stage.visit], text);
@@ -292,7 +291,7 @@ export class Card {
     return [
       this.#header(...robots.map(swatch), element("h2", {}, ...joined(names))),
       element("p", { className: "name" }, texts.whyNoneIsBetter),
-      element("p", { lang: phrases.languageOf(loss.text) }, phrases.said(loss.text)),
+      element("p", {}, phrases.said(loss.text)),
       element("ol", {}, this.#moment(loss.tick, texts.inThisPlan, loss.vertices)),
     ];
   }
@@ -305,7 +304,7 @@ export class Card {
   #lines(items, make) {
     const list = element("ol", {}, ...items.slice(0, MOST_LINES).map(make));
     if (items.length > MOST_LINES)
-      list.append(element("li", {}, texts.andMore(items.length - MOST_LINES)));
+      list.append(element("li", {}, texts.andMore({ count: items.length - MOST_LINES })));
     return list;
   }
 
@@ -331,17 +330,17 @@ export class Card {
     const title = element("h2", {}, ...joined(names));
     return [
       this.#header(...robots.slice(0, 3).map(swatch), title),
-      element(
-        "p",
-        { className: "name wrong", lang: phrases.languageOf(fault.reason) },
-        `${phrases.said(fault.reason)}.`,
-      ),
-      ...(remedy
-        ? [element("p", { lang: phrases.languageOf(fault.remedy) }, upperFirst(`${remedy}.`))]
-        : []),
+      element("p", { className: "name wrong" }, `${phrases.said(fault.reason)}.`),
+      ...(remedy ? [element("p", {}, upperFirst(`${remedy}.`))] : []),
       ...(this.plan.noPlan
         ? []
-        : [element("ol", {}, this.#moment(fault.tick, texts.theFault(phrases.said(fault.name))))]),
+        : [
+            element(
+              "ol",
+              {},
+              this.#moment(fault.tick, texts.theFault({ kind: phrases.said(fault.name) })),
+            ),
+          ]),
     ];
   }
 

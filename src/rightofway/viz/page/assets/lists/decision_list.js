@@ -1,5 +1,4 @@
-import { texts } from "../language/language.js";
-import { languageOf, said } from "../language/library.js";
+import { said, texts } from "../language/language.js";
 import { TwoLineList, chooseAt } from "./two_line_list.js";
 
 /** @import { Root } from "../common/root.js" */
@@ -23,9 +22,8 @@ export function makeDecisionList(root, plan, clock, choice, words) {
   const { phrases } = plan;
   /** @type {TwoLines[]} */
   const reroutes = plan.reroutes.map(({ robot, because }) => ({
-    head: texts.rerouted(words.robot(robot)),
+    head: texts.rerouted({ name: words.robot(robot) }),
     detail: said(because),
-    isEnglish: languageOf(because) === "en",
     isChosen: () => !choice.decision && choice.robotIndex === robot,
     choose: () => choice.chooseRobot(robot),
   }));

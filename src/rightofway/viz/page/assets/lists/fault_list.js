@@ -26,11 +26,10 @@ export function makeFaultList(root, plan, clock, choice, words) {
       phrases.said(text),
     );
     return {
-      isEnglish: phrases.languageOf(fault.reason) === "en",
       head: reason,
       detail: noPlan
         ? remedy && upperFirst(`${remedy}.`)
-        : `${texts.at(words.moment(fault.tick))} · ${name}`,
+        : `${texts.at({ moment: words.moment(fault.tick) })} · ${name}`,
       isChosen: () => choice.faultIndex === index,
       choose: () => chooseAt(clock, fault.tick, () => choice.chooseFault(index)),
     };
@@ -40,6 +39,6 @@ export function makeFaultList(root, plan, clock, choice, words) {
     isLong: items.some(({ head, detail }) => Math.max(head.length, detail.length) > LINE),
   });
   if (plan.faultCount > plan.faults.length)
-    list.find.placeholder = texts.findAmong(plan.faults.length);
+    list.find.placeholder = texts.findAmong({ count: plan.faults.length });
   return list;
 }

@@ -133,7 +133,7 @@ export class RobotList {
     late.append(element("span", {}, this.words.time(robot.completion)), " ");
     if (robot.delay > 0) late.append(element("small", {}, `+${this.words.time(robot.delay)}`));
     const [done, alone] = [robot.completion, robot.alone].map((tick) => this.words.moment(tick));
-    late.title = texts.doneAloneAt(this.plan.endsAtHome, done, alone);
+    late.title = texts.doneAloneAt({ isHome: this.plan.endsAtHome, moment: done, alone });
   }
 
   /**
@@ -158,7 +158,7 @@ export class RobotList {
     if (!steady) return null;
     const { loop, tick, running } = this.clock;
     const made = loop ? steady.lapsForEver(index, running) : steady.laps(index, tick);
-    return texts.lap(made + 1);
+    return texts.lap({ number: made + 1 });
   }
 }
 

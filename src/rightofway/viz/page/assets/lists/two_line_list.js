@@ -1,13 +1,12 @@
 import { element } from "../common/dom.js";
 import { connectFind, matches } from "./find.js";
-import { language } from "../language/language.js";
 import { VirtualList } from "./virtual_list.js";
 
 /** @import { Choice } from "../player/choice.js" */
 /** @import { Clock } from "../player/clock.js" */
 /** @import { Root } from "../common/root.js" */
 
-/** @typedef {{ head: string, detail: string, isEnglish?: boolean, isAlarm?: boolean, isChosen: () => boolean, choose: () => void }} TwoLines An item of a list. */
+/** @typedef {{ head: string, detail: string, isAlarm?: boolean, isChosen: () => boolean, choose: () => void }} TwoLines An item of a list. */
 
 /** A list with a search field, of items with a head and a detail. */
 export class TwoLineList {
@@ -76,9 +75,8 @@ function fillTwoLines(row, item) {
   row.filled = item;
   row.title = `${item.head}\n${item.detail}`;
   const lines = [item.head, item.detail].map((text) =>
-    element("span", { className: "text name", lang: item.isEnglish ? "en" : language }, text),
+    element("span", { className: "text name" }, text),
   );
-  row.lang = lines[0].lang; // of its title
   lines[0].classList.toggle("wrong", Boolean(item.isAlarm));
   row.replaceChildren(...lines);
 }

@@ -1,8 +1,7 @@
 import { Orders } from "./orders.js";
 import { element, goTo } from "../common/dom.js";
 import { listenToFeed } from "./feed.js";
-import { language, texts } from "../language/language.js";
-import { languageOf, said } from "../language/library.js";
+import { said, texts } from "../language/language.js";
 import { TwoLineList, chooseAt } from "../lists/two_line_list.js";
 
 /** @import { Choice } from "../player/choice.js" */
@@ -145,7 +144,6 @@ export class Live {
           const line = goTo(this.words.time(from), said(text), () =>
             chooseAt(this.clock, from, () => this.choice.chooseRobot(robot)),
           );
-          line.lang = languageOf(text);
           return line;
         }),
     );
@@ -170,7 +168,6 @@ export class Live {
     return {
       head: said(text),
       detail: this.words.time(tick),
-      isEnglish: languageOf(text) !== language,
       isAlarm: kind === "alarm",
       isChosen: () => false,
       choose: () => chooseAt(this.clock, tick, () => robot >= 0 && this.choice.chooseRobot(robot)),
@@ -192,7 +189,7 @@ export class Live {
     if (alarms.length) return texts.driven.alarmed;
     const wait = driven.waitAt(robot, tick);
     const names = wait?.others.map((other) => words.robot(other)).join(", ");
-    if (names) return texts.driven.waitsFor(names);
+    if (names) return texts.driven.waitsFor({ names });
     return driven.isHeld(robot, tick) ? texts.driven.held : "";
   }
 
@@ -230,7 +227,7 @@ export class Live {
     };
     /** @type {[string, string | Node][]} */
     const terms = [
-      [own.waiting, wait ? element("span", { lang: languageOf(wait.text) }, said(wait.text)) : ""],
+      [own.waiting, wait ? said(wait.text) : ""],
       [own.since, wait ? words.moment(wait.since) : ""],
       [own.releasedTerm, base.length > 1 ? places(base.slice(1)) : own.nothing],
       [own.horizon, horizon.length > 1 ? places(horizon.slice(1)) : own.nothing],
@@ -238,10 +235,7 @@ export class Live {
     ];
     for (const { text, robot: other } of driven.alarmsAt(clock.tick))
       if (other === robot)
-        terms.push([
-          own.alarm,
-          element("span", { className: "wrong", lang: languageOf(text) }, said(text)),
-        ]);
+        terms.push([own.alarm, element("span", { className: "wrong" }, said(text))]);
     return terms;
   }
 }

@@ -1,6 +1,5 @@
 import { sendOrder } from "./feed.js";
-import { texts } from "../language/language.js";
-import { said } from "../language/library.js";
+import { said, texts } from "../language/language.js";
 
 /** @import { Choice } from "../player/choice.js" */
 /** @import { Driven } from "./driven.js" */
@@ -32,13 +31,13 @@ export class Orders {
     root.part("go-all").addEventListener("click", () => this.#confirm(own.goAllAsked, "go"));
     this.one.addEventListener("click", () => this.#send(this.#isHeld ? "go" : "hold", this.#name));
     this.clear.addEventListener("click", () =>
-      this.#confirm(own.clearAsked(this.#name), "clear", this.#name),
+      this.#confirm(own.clearAsked({ name: this.#name }), "clear", this.#name),
     );
     this.remove.addEventListener("click", () =>
-      this.#confirm(own.removeAsked(this.#name), "remove", this.#name),
+      this.#confirm(own.removeAsked({ name: this.#name }), "remove", this.#name),
     );
     this.place.addEventListener("click", () =>
-      this.#confirm(own.placeAsked(this.#name), "place", this.#name),
+      this.#confirm(own.placeAsked({ name: this.#name }), "place", this.#name),
     );
     root.part("order-yes").addEventListener("click", () => this.#asked());
   }
@@ -74,10 +73,13 @@ export class Orders {
     this.place.hidden = robot === null || !this.driven.isOff(robot.index, Infinity);
     if (!robot) return;
     const { driven: own } = texts;
-    this.#write(this.one, this.#isHeld ? own.goOne(robot.name) : own.holdOne(robot.name));
-    this.#write(this.clear, own.clearOne(robot.name));
-    this.#write(this.remove, own.removeOne(robot.name));
-    this.#write(this.place, own.placeOne(robot.name));
+    this.#write(
+      this.one,
+      this.#isHeld ? own.goOne({ name: robot.name }) : own.holdOne({ name: robot.name }),
+    );
+    this.#write(this.clear, own.clearOne({ name: robot.name }));
+    this.#write(this.remove, own.removeOne({ name: robot.name }));
+    this.#write(this.place, own.placeOne({ name: robot.name }));
   }
 
   /**
@@ -113,6 +115,6 @@ export class Orders {
     const { done, text } = await sendOrder(this.address, { kind, name, at });
     const { driven: own } = texts;
     const reason = text ? said(text) : own.disconnected;
-    this.answer.textContent = done ? own.carriedOut : own.refused(reason);
+    this.answer.textContent = done ? own.carriedOut : own.refused({ reason });
   }
 }

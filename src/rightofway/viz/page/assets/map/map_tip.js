@@ -1,7 +1,6 @@
 import { nearest } from "../common/arrays.js";
 import { all, element, swatch } from "../common/dom.js";
-import { figure, texts } from "../language/language.js";
-import { said } from "../language/library.js";
+import { figure, said, texts } from "../language/language.js";
 import { DRIVE } from "../plan/phases.js";
 import { several } from "../language/words.js";
 
@@ -122,13 +121,16 @@ export class MapTip {
     const here = words.vertex(robot.vertices[visit[phase]]);
     const does =
       activity === DRIVE
-        ? texts.doesTo(texts.activities[DRIVE], words.vertex(robot.vertices[visit[phase] + 1]))
-        : texts.doesIn(texts.activities[activity], here);
+        ? texts.doesTo({
+            activity: texts.activities[DRIVE],
+            place: words.vertex(robot.vertices[visit[phase] + 1]),
+          })
+        : texts.doesIn({ activity: texts.activities[activity], place: here });
     const end = robot.phases.end(phase);
     const times =
       end === Infinity
-        ? texts.since(words.moment(begin[phase]))
-        : texts.fromTo(words.moment(begin[phase]), words.moment(end));
+        ? texts.since({ moment: words.moment(begin[phase]) })
+        : texts.fromTo({ from: words.moment(begin[phase]), to: words.moment(end) });
     return [{ text: robot.name, robot, kind: "title" }, { text: `${does}, ${times}` }];
   }
 
@@ -144,7 +146,10 @@ export class MapTip {
     return zones.map((zone) => {
       const { name } = this.plan.roadmap.zones[zone];
       const robot = holders.get(zone);
-      return { text: robot ? texts.zoneHeldBy(name, robot.name) : texts.zone(name), robot };
+      return {
+        text: robot ? texts.zoneHeldBy({ name, robot: robot.name }) : texts.zone({ name }),
+        robot,
+      };
     });
   }
 
@@ -170,16 +175,19 @@ export class MapTip {
     if (here && here[0].index !== named) {
       const leave = here[0].leave(here[1]);
       const [{ name }] = here;
-      const text = leave === Infinity ? texts.stays(name) : texts.until(name, words.moment(leave));
+      const text =
+        leave === Infinity
+          ? texts.stays({ name })
+          : texts.until({ name, moment: words.moment(leave) });
       lines.push({ text, robot: here[0] });
     }
     if (next)
       lines.push({
-        text: texts.next(next[0].name, words.moment(next[0].enter[next[1]])),
+        text: texts.next({ name: next[0].name, moment: words.moment(next[0].enter[next[1]]) }),
         robot: next[0],
       });
     if (this.choice.heat)
-      lines.push({ text: texts.heldFor(words.duration(this.use.held[vertex])) });
+      lines.push({ text: texts.heldFor({ time: words.duration(this.use.held[vertex]) }) });
     return lines;
   }
 
@@ -194,8 +202,8 @@ export class MapTip {
       .map(({ name }) => name);
     const stops = (this.plan.stops.get(vertex) ?? []).map(({ name }) => name);
     const uses = [
-      homes.length ? texts.homeOf(several(homes)) : "",
-      stops.length ? texts.stopOf(several(stops)) : "",
+      homes.length ? texts.homeOf({ names: several(homes) }) : "",
+      stops.length ? texts.stopOf({ names: several(stops) }) : "",
     ];
     const { roadmap } = this.plan;
     const name = roadmap.isMeasured ? roadmap.name(vertex) : ""; // as files and tables call it

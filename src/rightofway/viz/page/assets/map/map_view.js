@@ -111,7 +111,9 @@ export class MapView {
     const { length } = plan.robots;
     canvas.setAttribute(
       "aria-label",
-      length ? texts.mapOf(texts.robots(length)) : texts.mapOf(texts.vertices(plan.roadmap.size)),
+      length
+        ? texts.mapOf({ what: texts.robots({ count: length }) })
+        : texts.mapOf({ what: texts.vertices({ count: plan.roadmap.size }) }),
     );
     this.viewport.on("click", () => this.#click());
     this.viewport.on("hover", () => this.tip.show(this.viewport, this.sizes));
@@ -238,8 +240,8 @@ export class MapView {
     legend.hidden = !closest;
     if (!closest) return;
     const { robot, other, tick } = closest;
-    const who = texts.twoTitles(robot.name, other.name);
-    const text = `${who}, ${this.words.apart(closest)}, ${texts.at(this.words.moment(tick))}`;
+    const who = texts.twoTitles({ one: robot.name, other: other.name });
+    const text = `${who}, ${this.words.apart(closest)}, ${texts.at({ moment: this.words.moment(tick) })}`;
     legend.replaceChildren(
       texts.closestOfAll,
       link(text, () => {

@@ -1,5 +1,5 @@
 import { onTheFloor } from "./floor.js";
-import { Phrases } from "../language/library.js";
+import { Phrases } from "../language/phrases.js";
 import { giveLosses } from "./robot.js";
 import { Site } from "./site.js";
 import { Steady } from "./steady.js";
@@ -10,7 +10,7 @@ import { Steady } from "./steady.js";
 
 /** All that the page knows of a plan, as payload.py wrote it. */
 export class Plan extends Site {
-  /** @param {Omit<Payload, "translations">} raw */
+  /** @param {Payload} raw */
   constructor(raw) {
     super(raw);
     this.phrases = new Phrases(raw.phrases);

@@ -110,7 +110,7 @@ export class Roadmap {
     if (!this.isMeasured) return this.name(vertex);
     const middle = this.toSite(this.x[vertex], this.y[vertex]);
     const [x, y] = middle.map((at) => figure(decimal(fraction(Number(at.toFixed(5))), PLACES)));
-    return `(${texts.pair(x, y)})`;
+    return `(${texts.pair({ x, y })})`;
   }
 
   /**
@@ -133,7 +133,7 @@ export class Roadmap {
   uses(vertex) {
     return [
       ...(this.stations.get(vertex) ?? []).map((name) =>
-        name === this.name(vertex) ? texts.station : texts.stationNamed(name),
+        name === this.name(vertex) ? texts.station : texts.stationNamed({ name }),
       ),
       ...(this.parking.has(vertex) ? [texts.parking] : []),
       ...(this.charging.has(vertex) ? [texts.charging] : []),

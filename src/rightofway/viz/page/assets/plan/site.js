@@ -1,4 +1,4 @@
-import { Phrases } from "../language/library.js";
+import { Phrases } from "../language/phrases.js";
 import { Quantities } from "../language/quantities.js";
 import { Roadmap } from "./roadmap.js";
 import { Robot } from "./robot.js";

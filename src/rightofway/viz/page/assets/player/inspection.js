@@ -4,13 +4,14 @@ import { connectFind, matches } from "../lists/find.js";
 import { bindKeys } from "./keys.js";
 import {
   askedLanguage,
+  learn,
   offerLanguages,
+  said,
   setLanguage,
   texts,
   withKey,
   writeMarkup,
 } from "../language/language.js";
-import { languageOf, learn, said } from "../language/library.js";
 import { MapView } from "../map/map_view.js";
 import { INSPECTION } from "./markup.js";
 import { Root } from "../common/root.js";
@@ -19,6 +20,7 @@ import { Theme } from "../drawing/theme.js";
 import { VirtualList } from "../lists/virtual_list.js";
 import { upperFirst } from "../language/words.js";
 
+/** @import { WithTexts } from "../language/language.js" */
 /** @import { PlayerHandle } from "./player.js" */
 /** @import { FindingData, InspectionPayload, PhraseData } from "../payload.d.ts" */
 
@@ -29,14 +31,14 @@ const FEW_NOTES = 3; // of the reader, which stand open
  * Show an inspection in an element, which it fills.
  *
  * @param {HTMLElement} box `document.body` where the inspection is the page
- * @param {InspectionPayload} payload
+ * @param {InspectionPayload & WithTexts} payload
  * @returns {PlayerHandle}
  */
 export function createInspection(box, payload) {
   const root = new Root(box);
   root.fill(INSPECTION);
   box.classList.add("inspect");
-  learn(payload.translations);
+  learn(payload.texts);
   setLanguage(askedLanguage(root.isPart), root.top);
   writeMarkup(box);
   offerLanguages(root.part("language", HTMLSelectElement));
@@ -130,7 +132,7 @@ class InspectPage {
       .part("headline")
       .replaceChildren(
         element("b", { className: "name" }, title),
-        inLanguage("span", {}, description),
+        element("span", {}, said(description)),
       );
     this.root.part("level-choice").hidden = levels.length < 2;
     this.root
@@ -142,9 +144,9 @@ class InspectPage {
     box.hidden = !notes.length;
     box.open = notes.length <= FEW_NOTES;
     for (const summary of all("summary", HTMLElement, box))
-      summary.textContent = texts.readerNotes(notes.length);
+      summary.textContent = texts.readerNotes({ count: notes.length });
     for (const list of all("ul", HTMLElement, box))
-      list.replaceChildren(...notes.map((note) => inLanguage("li", {}, note)));
+      list.replaceChildren(...notes.map((note) => element("li", {}, said(note))));
   }
 
   /** The findings of each severity, the worst first. */
@@ -183,8 +185,8 @@ class InspectPage {
     row.title = `${said(finding.fact)} (${said(finding.remedy)})`;
     row.replaceChildren(
       severitySign(finding.severity),
-      inLanguage("span", { className: "text name" }, finding.fact),
-      inLanguage("span", { className: "text name" }, finding.remedy),
+      element("span", { className: "text name" }, said(finding.fact)),
+      element("span", { className: "text name" }, said(finding.remedy)),
     );
   }
 
@@ -215,8 +217,8 @@ class InspectPage {
         element("h2", {}, `${upperFirst(texts.severities[severity])}: ${kinds[kind] ?? kind}`),
         close,
       ),
-      inLanguage("p", { className: "name" }, fact, `${said(fact)}.`),
-      inLanguage("p", { className: "name" }, remedy, `${upperFirst(said(remedy))}.`),
+      element("p", { className: "name" }, `${said(fact)}.`),
+      element("p", { className: "name" }, `${upperFirst(said(remedy))}.`),
     );
     box.scrollTop = 0;
   }
@@ -292,7 +294,7 @@ class InspectPage {
               "ul",
               {},
               ...found.map(({ fact, remedy }) =>
-                inLanguage("li", {}, fact, `${said(fact)} (${said(remedy)})`),
+                element("li", {}, `${said(fact)} (${said(remedy)})`),
               ),
             ),
           ]),
@@ -316,18 +318,6 @@ class InspectPage {
     this.#isAsked = false;
     this.view.paint();
   }
-}
-
-/**
- * An element with a phrase of the library, or a text made of it, and the language that it is in.
- *
- * @param {"span" | "li" | "p"} tag
- * @param {{ className?: string }} properties
- * @param {PhraseData} phrase
- * @param {string} [text]
- */
-function inLanguage(tag, properties, phrase, text = said(phrase)) {
-  return element(tag, { ...properties, lang: languageOf(phrase) }, text);
 }
 
 /**

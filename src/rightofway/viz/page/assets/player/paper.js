@@ -44,17 +44,17 @@ export class Paper {
     this.theme.refresh();
     this.repaint();
     if (!onPaper) return;
-    this.root.part("paper-moment").textContent = texts.mapAt(
-      this.words.moment(this.clock.tick),
-      this.words.time(this.clock.end),
-    );
+    this.root.part("paper-moment").textContent = texts.mapAt({
+      moment: this.words.moment(this.clock.tick),
+      end: this.words.time(this.clock.end),
+    });
     this.root
       .part("paper-robots")
       .replaceChildren(...(this.comparison ? this.#comparedTable(this.comparison) : this.#table()));
   }
 
   get #end() {
-    return texts.doneAt(this.plan.endsAtHome);
+    return texts.doneAt({ isHome: this.plan.endsAtHome });
   }
 
   /** @param {number} ticks */
@@ -93,8 +93,8 @@ export class Paper {
     const { compared, plans } = comparison;
     const head = [
       texts.robot,
-      ...plans.map(({ title }) => texts.headOf(this.#end, title)),
-      ...plans.slice(1).map(({ title }) => texts.inPlan(title)),
+      ...plans.map(({ title }) => texts.headOf({ term: this.#end, title })),
+      ...plans.slice(1).map(({ title }) => texts.inPlan({ title })),
     ];
     const found = new Map(compared.robots.map((robot) => [robot.name, robot]));
     return this.#rows(
@@ -139,7 +139,7 @@ export class Paper {
     return [
       row("th", head),
       ...rows,
-      ...(left ? [row("td", [texts.andMoreThat(left, less)])] : []),
+      ...(left ? [row("td", [texts.andMoreThat({ count: left, what: less })])] : []),
     ];
   }
 }

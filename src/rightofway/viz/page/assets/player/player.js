@@ -9,8 +9,13 @@ import { Diagram } from "../timetable/diagram.js";
 import { makeFaultList } from "../lists/fault_list.js";
 import { FrameLoop } from "./frame_loop.js";
 import { listenToKeys } from "./keys.js";
-import { askedLanguage, offerLanguages, setLanguage, writeMarkup } from "../language/language.js";
-import { learn } from "../language/library.js";
+import {
+  askedLanguage,
+  learn,
+  offerLanguages,
+  setLanguage,
+  writeMarkup,
+} from "../language/language.js";
 import { Loop } from "./loop.js";
 import { MapView } from "../map/map_view.js";
 import { ModeSwitch } from "./mode_switch.js";
@@ -29,6 +34,7 @@ import { Transport } from "./transport.js";
 import { Use } from "../plan/use.js";
 import { Words } from "../language/words.js";
 
+/** @import { WithTexts } from "../language/language.js" */
 /** @import { Payload } from "../payload.d.ts" */
 
 /** @typedef {{ destroy(): void }} PlayerHandle Ends a player, and takes away all that it has made. */
@@ -37,14 +43,14 @@ import { Words } from "../language/words.js";
  * Play a plan in an element, which the player fills; any number of them in a page.
  *
  * @param {HTMLElement} element `document.body` where the player is the page
- * @param {Payload} payload what `make_payload` returns
+ * @param {Payload & WithTexts} payload what `make_payload` returns, and texts
  * @param {typeof import("../live/watching.js").WATCHING | null} [watching] for a fleet that is driven
  * @returns {PlayerHandle}
  */
 export function createPlayer(element, payload, watching = null) {
   const root = new Root(element);
   root.fill(MARKUP);
-  learn(payload.translations);
+  learn(payload.texts);
   setLanguage(askedLanguage(root.isPart), root.top);
   writeMarkup(element);
   offerLanguages(root.part("language", HTMLSelectElement));

@@ -64,7 +64,7 @@ export class Share {
       const title = this.#titles.map((each) => each.replace(/\.[^.]*$/, "")).join(", ");
       element("a", {
         href: address,
-        download: `${texts.pictureName(title, this.words.time(this.clock.tick))}.png`,
+        download: `${texts.pictureName({ title, time: this.words.time(this.clock.tick) })}.png`,
       }).click();
       setTimeout(() => URL.revokeObjectURL(address), SAID_FOR);
     });

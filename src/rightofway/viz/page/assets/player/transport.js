@@ -33,7 +33,7 @@ export class Transport {
     this.speed.append(
       ...RATES.map((rate) => element("option", { value: String(rate) }, label(rate))),
     );
-    this.speed.title = texts.rate(plan.quantities.units.time ?? texts.timeUnit);
+    this.speed.title = texts.rate({ unit: plan.quantities.units.time ?? texts.timeUnit });
     this.#listen();
     this.#showPlaying();
   }
@@ -46,7 +46,7 @@ export class Transport {
     const now = playing ? this.plan.quantities.running(tick, this.digits) : this.words.time(tick);
     if (now === this.#written) return;
     this.#written = now;
-    const [moment, ofAll] = texts.of(now, this.words.time(end));
+    const [moment, ofAll] = texts.of({ time: now, all: this.words.time(end) });
     this.readout.replaceChildren(element("b", {}, moment), element("span", {}, ofAll));
     if (!playing) this.slider.setAttribute("aria-valuetext", `${moment}${ofAll}`);
   }

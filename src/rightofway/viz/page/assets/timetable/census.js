@@ -31,8 +31,8 @@ export class Census {
   }
 
   get title() {
-    const what = texts.census(this.plan.robots.length);
-    return this.choice.beside ? texts.censusBeside(what) : what;
+    const what = texts.census({ count: this.plan.robots.length });
+    return this.choice.beside ? texts.censusBeside({ title: what }) : what;
   }
 
   /**
@@ -156,7 +156,7 @@ export class Census {
     context.textAlign = "left";
     context.textBaseline = "middle";
     context.fillStyle = this.theme.muted;
-    context.fillText(texts.robots(this.plan.robots.length), 28, area.top + 4);
+    context.fillText(texts.robots({ count: this.plan.robots.length }), 28, area.top + 4);
     this.#stack.forEach((activity, place) => {
       const y = area.bottom - 12 - place * 22;
       context.fillStyle = colours[activity];

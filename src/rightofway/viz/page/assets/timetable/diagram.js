@@ -81,7 +81,7 @@ export class Diagram {
     const { picked } = this.choice;
     if (!picked) return this.view.title;
     if (!picked.length) return texts.corridorBegins;
-    return texts.corridorEnds(this.words.vertex(picked[0]));
+    return texts.corridorEnds({ place: this.words.vertex(picked[0]) });
   }
 
   /**

@@ -34,7 +34,7 @@ export class RobotRows {
 
   get title() {
     const { mode, beside } = this.choice;
-    const planned = beside ? texts.rows.grey(!this.#hasGhosts) : "";
+    const planned = beside ? texts.rows.grey({ isEndOnly: !this.#hasGhosts }) : "";
     return mode === "plan" ? texts.rows.title : texts.rows.floor + planned;
   }
 

@@ -67,10 +67,13 @@ export class SpaceTime {
     if (!vertices) return texts.placeOverTime;
     const { roadmap, quantities } = this.plan;
     if (!corridor)
-      return texts.routeOf(robot?.name ?? "", quantities.length(this.#rounded(this.#driven)));
+      return texts.routeOf({
+        name: robot?.name ?? "",
+        length: quantities.length(this.#rounded(this.#driven)),
+      });
     const length = quantities.length(this.#rounded(new Corridor(roadmap, vertices).length));
     const [from, to] = [corridor[0], lastOf(corridor)].map((end) => this.words.vertex(end));
-    return texts.wayBetween(from, to, length);
+    return texts.wayBetween({ from, to, length });
   }
 
   /** How far the chosen robot drives, each way as often as it takes it [length unit]. */
@@ -89,7 +92,8 @@ export class SpaceTime {
 
   get #signs() {
     const { decision } = this.choice;
-    if (decision) return texts.signs.decision(several(this.#drawn().map(({ name }) => name)));
+    if (decision)
+      return texts.signs.decision({ names: several(this.#drawn().map(({ name }) => name)) });
     return this.#route ? texts.signs.route : texts.signs.fleet;
   }
 

@@ -56,7 +56,15 @@ export class SteadyBand {
     context.globalAlpha = 1;
     this.#part(context, area, top, 0, start, [texts.transient], 0);
     if (apart < NARROWEST_PERIOD)
-      this.#part(context, area, top, start, until, [texts.every(this.words.time(period))], 0.12);
+      this.#part(
+        context,
+        area,
+        top,
+        start,
+        until,
+        [texts.every({ time: this.words.time(period) })],
+        0.12,
+      );
     else borders.forEach((tick, index) => this.#period(context, area, group, top, tick, index));
   }
 
@@ -73,7 +81,7 @@ export class SteadyBand {
     const looped = this.clock.loop?.from === tick;
     const every = 10 ** Math.max(Math.ceil(Math.log10(26 / (area.x(period) - area.x(0)))), 0);
     const number = (index + 1) % every === 0 ? String(index + 1) : "";
-    const labels = index ? [number] : texts.period(this.words.time(period));
+    const labels = index ? [number] : texts.period({ time: this.words.time(period) });
     this.#part(context, area, top, tick, end, labels, looped ? 0.3 : index % 2 ? 0.07 : 0.13);
     context.strokeStyle = this.theme.muted;
     context.lineWidth = 1;

@@ -1,0 +1,48 @@
+"""The texts that a page brings along: its labels, and the templates of the facts that it shows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+from rightofway.languages import LANGUAGES, VALUE, read_texts
+
+
+def find_texts(payload: object, *, is_whole: bool = False) -> dict[str, Any]:
+    """Return the texts of a page in each language: labels, and templates of the kinds in its data.
+
+    A whole set has the templates of all kinds, for a page that gets facts later.
+    """
+    return {
+        language: {
+            "name": texts["name"],
+            "page": texts["page"],
+            "facts": texts["facts"] if is_whole else _choose_facts(texts, payload),
+        }
+        for language, texts in zip(LANGUAGES, map(read_texts, LANGUAGES), strict=True)
+    }
+
+
+def _choose_facts(texts: Mapping[str, Any], payload: object) -> dict[str, Any]:
+    """Return the templates of the kinds in a payload, and those that these or labels refer to."""
+    facts = texts["facts"]
+    chosen, kinds = dict[str, Any](), {*_list_strings(payload), *_list_forms(texts["page"])}
+    while kinds := {kind for kind in kinds if kind in facts and kind not in chosen}:
+        chosen |= {kind: facts[kind] for kind in sorted(kinds)}
+        kinds = set(_list_forms([facts[kind] for kind in kinds]))
+    return chosen
+
+
+def _list_forms(texts: object) -> Iterable[str]:
+    return (form for text in _list_strings(texts) for _, form in VALUE.findall(text))
+
+
+def _list_strings(data: object) -> Iterator[str]:
+    if isinstance(data, str):
+        yield data
+    elif isinstance(data, Mapping):
+        for value in data.values():
+            yield from _list_strings(value)
+    elif isinstance(data, list | tuple):
+        for value in data:
+            yield from _list_strings(value)
