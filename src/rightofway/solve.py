@@ -44,12 +44,6 @@ from rightofway.planners import (
 )
 from rightofway.planners.features import refuse_unknown
 from rightofway.planners.registry import name_able
-from rightofway.repair.objectives import (
-    compute_value,
-    find_objective,
-    list_weights,
-    measure_worth,
-)
 
 __all__ = ["improve", "solve"]
 
@@ -223,7 +217,6 @@ def _run(
     refuse_unknown(
         task.scenario.problem, spec.features, planner, lambda needed: f"choose {name_able(needed)}"
     )
-    find_objective(task)  # refuses what the roadmap has no value for
     began, deadline = time.perf_counter(), Deadline.after(time_limit)
     with_plan: list[float] = []  # how long planning took until there was a plan [s]
 
@@ -281,10 +274,10 @@ def _outcome(
     spec: PlannerSpec, task: Task, draft: Draft, plan: Plan, *, keeps_rules: bool
 ) -> Outcome:
     """Return the proof of a plan: by its planner, and by the robots alone."""
-    alone, objective = plan.lower_bound, find_objective(task)
+    alone, objective = plan.lower_bound, task.objective
     if objective.has_makespan:
-        weights = list_weights(plan.scenario)
-        alone = Tick(compute_value(objective, weights, plan.run.alone or ())[0])
+        weights = plan.scenario.problem.weights
+        alone = Tick(objective.compute_values(weights, plan.run.alone or ())[0])
     else:
         objective = Objective.FLOWTIME
     proof = draft.proof or Proof(bound=alone, objective=objective)
@@ -345,7 +338,7 @@ def _handing_over(
     def hand_over(tracks: Callable[[], Sequence[Track]]) -> None:
         driven = wait_before_chains(task.scenario.problem, tracks())
         plan = Plan(scenario=task.scenario, tracks=driven, run=run)
-        rating = measure_worth(task, plan.tracks)
+        rating = task.measure_worth(plan.tracks)
         if not least or rating < least[-1]:
             least.append(rating)
             on_plan(plan)

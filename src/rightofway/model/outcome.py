@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
 
+import numpy as np
+
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.kinds.arguments import checks_arguments
 from rightofway.kinds.table import require_one_for_each
@@ -65,9 +67,18 @@ class Objective(StrEnum):
         latest = max(completions)
         if self is Objective.MAKESPAN:
             return latest
-        weights = [itinerary.weight for itinerary in scenario.problem.itineraries]
-        both = zip(weights, completions, strict=True)
+        both = zip(scenario.problem.weights, completions, strict=True)
         return Tick(sum(weight * (latest + completion) for weight, completion in both))
+
+    def compute_values(self, weights: Sequence[int], completions: Sequence[int]) -> tuple[int, int]:
+        """Return the value and the cost of some robots by their completions, without surcharges."""
+        latest, cost = max(completions), int(np.dot(weights, completions))
+        match self:
+            case Objective.MAKESPAN:
+                return latest, cost
+            case Objective.BOTH:
+                return sum(weights) * latest + cost, cost
+        return cost, cost
 
     @property
     def has_makespan(self) -> bool:

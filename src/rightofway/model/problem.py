@@ -197,6 +197,11 @@ class Problem:
         """Whether a change of heading takes time for some robot."""
         return any(itinerary.turning is not None for itinerary in self.itineraries)
 
+    @property
+    def weights(self) -> list[int]:
+        """The weight of each robot: how often a tick of it counts."""
+        return [itinerary.weight for itinerary in self.itineraries]
+
     def as_steps(self) -> Problem:
         """Return the problem in steps of a tick: in a step, a robot drives along an edge or stays.
 

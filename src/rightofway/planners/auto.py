@@ -23,7 +23,6 @@ from rightofway.repair.bounds import compute_price_bound, finish_optimum
 from rightofway.repair.fleet_search import make_fleet_search
 from rightofway.repair.impossible import refuse_blocked
 from rightofway.repair.makespan import MakespanSearch, measure_alone
-from rightofway.repair.objectives import find_objective, list_weights, measure_worth
 from rightofway.repair.task import Draft, Task
 from rightofway.search import ConflictBasedSearch
 
@@ -96,7 +95,7 @@ def _explained(task: Task) -> Draft | None:
     task.has_plan()
     task.better(lambda: explained.tracks)
     is_given = task.start is not None and explained.tracks != task.start
-    if is_given and measure_worth(task, task.start or ()) <= measure_worth(task, explained.tracks):
+    if is_given and task.measure_worth(task.start or ()) <= task.measure_worth(explained.tracks):
         return None
     status = Status("by planner", planner="two-level", status=explained.status)
     return replace(explained, status=status)
@@ -113,7 +112,7 @@ def _improved(task: Task, first: Draft | None) -> Draft:
             better = replace(lns(replace(task, start=first.tracks)), proof=first.proof)
     except GaveUp:
         return first
-    if measure_worth(task, better.tracks) < measure_worth(task, first.tracks):
+    if task.measure_worth(better.tracks) < task.measure_worth(first.tracks):
         return better
     return replace(first, status=better.status, improvement=better.improvement)
 
@@ -128,10 +127,10 @@ class _Prover:
 
     def prove(self, draft: Draft, nodes: int, share: float = 1.0) -> Draft:
         """Return a plan with its proof, or the optimum."""
-        task, objective = self._task, find_objective(self._task)
+        task, objective = self._task, self._task.objective
         if objective.has_makespan:
             return self._prove_with_makespan(draft, nodes, share)
-        search = self._run(nodes, share, upper=measure_worth(task, draft.tracks)[0])
+        search = self._run(nodes, share, upper=task.measure_worth(draft.tracks)[0])
         if search is None or search.bound is None:
             return draft
         proof = Proof(bound=search.bound, objective=objective)
@@ -156,7 +155,7 @@ class _Prover:
             nodes=nodes,
         )
         search.run()
-        proof = Proof(bound=Tick(search.bound), objective=find_objective(task))
+        proof = Proof(bound=Tick(search.bound), objective=task.objective)
         if search.value == search.bound:
             status = Status("proven by search", nodes=search.n_nodes, status=draft.status)
             if search.tracks is not draft.tracks:
@@ -171,12 +170,12 @@ class _Prover:
         task = self._task
         if not self._has_time():
             return draft
-        objective = find_objective(task)
+        objective = task.objective
         if objective is Objective.MAKESPAN:
             return draft  # prices add up what robots lose
         least = compute_price_bound(task.scenario, task.deadline, task.options["nodes"])
         if objective is Objective.BOTH:
-            weight = sum(list_weights(task.scenario))
+            weight = sum(task.scenario.problem.weights)
             least = Tick(least + weight * max(measure_alone(task)))
         if draft.proof is not None and draft.proof.bound >= least:
             return draft
@@ -197,7 +196,7 @@ class _Prover:
         if search.tracks is not None:
             task.has_plan()
             status = Status("optimum found by search", nodes=search.n_nodes)
-            objective = find_objective(task)
+            objective = task.objective
             if objective.has_makespan:
                 status = Status("found by search", nodes=search.n_nodes)
                 draft = Draft(tracks=search.tracks, status=status)
@@ -233,4 +232,4 @@ class _Prover:
 
 def _is_optimal(task: Task, draft: Draft) -> bool:
     """Return whether a plan is proven to be optimal."""
-    return draft.proof is not None and measure_worth(task, draft.tracks)[0] == draft.proof.bound
+    return draft.proof is not None and task.measure_worth(draft.tracks)[0] == draft.proof.bound

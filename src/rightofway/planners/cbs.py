@@ -44,7 +44,6 @@ from rightofway.repair.bounds import finish_optimum
 from rightofway.repair.fleet_search import make_fleet_search
 from rightofway.repair.impossible import refuse_blocked
 from rightofway.repair.makespan import MakespanSearch, measure_alone
-from rightofway.repair.objectives import compute_value, find_objective, list_weights
 from rightofway.repair.task import Draft, Task
 from rightofway.search import ConflictBasedSearch
 
@@ -67,7 +66,7 @@ factor above 1: the first turns gain most, and take about as long as the plan an
 
 def cbs(task: Task) -> Draft:
     """Plan a fleet with least flowtime and surcharges, or makespan; options: `CbsOptions`."""
-    if find_objective(task).has_makespan:
+    if task.objective.has_makespan:
         first = _first_plan(task, partial(_is_within, task))
         draft = _with_makespan(task, first or _Tree(task).finish(None))
     else:
@@ -163,7 +162,7 @@ class _Tree:
 
 def _with_makespan(task: Task, first: Draft) -> Draft:
     """Return the best plan by its makespan, or its makespan and flowtime, with its proof."""
-    objective, factor = find_objective(task), Fraction(task.options["suboptimality"])
+    objective, factor = task.objective, Fraction(task.options["suboptimality"])
     search = MakespanSearch(
         task=task,
         trees=lambda latest: _search(task, latest=latest),
@@ -188,7 +187,7 @@ def _with_makespan(task: Task, first: Draft) -> Draft:
 def _is_within(task: Task, value: Tick, _: Deadline) -> bool:
     """Return whether a makespan is within the factor, which is above 1, as robots alone prove."""
     factor = Fraction(task.options["suboptimality"])
-    alone = compute_value(find_objective(task), list_weights(task.scenario), measure_alone(task))
+    alone = task.objective.compute_values(task.scenario.problem.weights, measure_alone(task))
     return factor > 1 and value <= factor * alone[0]
 
 

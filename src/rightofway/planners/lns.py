@@ -18,7 +18,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import partial
 
 from rightofway.errors import GaveUp
 from rightofway.facts import Fact
@@ -27,12 +26,6 @@ from rightofway.planners.lacam import plan_by_instants, plan_fleet
 from rightofway.planners.prioritized import MOST_ROBOTS, plan_in_turn
 from rightofway.precedence import build_graph_of_plan
 from rightofway.repair.fleet_search import make_fleet_search
-from rightofway.repair.objectives import (
-    compute_value,
-    find_objective,
-    list_weights,
-    measure_worth,
-)
 from rightofway.repair.task import Draft, Task
 from rightofway.search import FleetSearch
 
@@ -105,7 +98,7 @@ def improve_best(
         plans = [together] if together is not None else []
     if not plans:
         raise GaveUp(Fact("time over without a plan"))
-    best = min(plans, key=lambda plan: measure_worth(task, plan.tracks))
+    best = min(plans, key=lambda plan: task.measure_worth(plan.tracks))
     proof = None if first is None else first.proof
     return _improve(task, search, replace(best, proof=proof), is_enough)
 
@@ -167,9 +160,9 @@ def _improve(
     is_open = task.scenario.problem.closures is None
     retiming = RETIMING if is_open else RETIMING_AMONG_CLOSURES
     deadline = task.deadline.bring_forward(retiming * sum(map(len, spaced)))
-    objective = find_objective(task)
-    weights, fastest = list_weights(task.scenario), search.compute_alone().tolist()
-    alone, least_cost = compute_value(objective, weights, fastest)
+    objective = task.objective
+    weights, fastest = task.scenario.problem.weights, search.compute_alone().tolist()
+    alone, least_cost = objective.compute_values(weights, fastest)
     bound = alone if first.proof is None else max(alone, first.proof.bound)
     # Plans of one makespan may differ in flowtime.
     goal = (bound, least_cost if objective is Objective.MAKESPAN else None)
@@ -201,7 +194,7 @@ def _improve(
             raise
         is_interrupted = True
     tracks = _found(task, search, tuple(spaced), is_better=(search.value, search.cost) < before)
-    rated = partial(measure_worth, task)
+    rated = task.measure_worth
     status = Status("as fast as alone", status=first.status)
     if rated(tracks)[1] != least_cost:
         is_better = rated(tracks) != before
@@ -226,7 +219,7 @@ def _is_over(search: FleetSearch, goal: tuple[int, int | None], is_enough: IsEno
 
 def _describe_progress(task: Task, cost: int, bound: int, rate: float) -> Fact:
     """Return the value that the search has reached, its gap, and its attempts per second."""
-    values = {"objective": find_objective(task).value, "value": cost, "rate": round(rate)}
+    values = {"objective": task.objective.value, "value": cost, "rate": round(rate)}
     if not bound:
         return Fact("value reached", task.scenario, **values)
     return Fact("value and gap reached", task.scenario, **values, gap=cost / bound - 1)

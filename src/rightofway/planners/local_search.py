@@ -6,7 +6,6 @@ from rightofway.model import Improvement, Status, Tick
 from rightofway.planners.two_level import two_level
 from rightofway.precedence import build_graph_of_plan
 from rightofway.repair.local_search import LocalSearch
-from rightofway.repair.objectives import find_objective
 from rightofway.repair.task import Draft, Task
 
 
@@ -25,7 +24,7 @@ def local_search(task: Task) -> Draft:
     new = search.measure()
     status = Status(
         "reversals",
-        objective=find_objective(task).value,
+        objective=task.objective.value,
         before=int(old[0]),
         after=int(new[0]),
     )

@@ -46,14 +46,13 @@ from rightofway.repair.conflict_resolution import (
     Rule,
     list_rights_if_waits,
 )
-from rightofway.repair.objectives import find_objective, measure_worth
 from rightofway.repair.routing import choose_routes
 from rightofway.repair.task import Draft, Task
 
 TRYING = Fact("trying orders of robots")
 
 Worth = tuple[Tick, Tick]
-"""The value of a plan, and its cost, as `measure_worth` returns them [ticks]."""
+"""The value of a plan, and its cost, as `Task.measure_worth` returns them [ticks]."""
 
 Order = Sequence[int]
 """The robots, that of highest priority first."""
@@ -142,12 +141,12 @@ def _best_of(
         nonlocal tried, best, least
         task.deadline.check(TRYING)
         draft = plan_by_rule(task, distances, routes, plan_by_priority(order))
-        reached = measure_worth(task, draft.tracks)
+        reached = task.measure_worth(draft.tracks)
         tried += 1
         if best is None or reached < least:
             best, least = draft, reached
             task.better(lambda: draft.tracks)
-            values = {"order": tried, "objective": find_objective(task).value}
+            values = {"order": tried, "objective": task.objective.value}
             task.report(Fact("value of order", task.scenario, **values, value=reached[0]))
         return reached
 

@@ -40,7 +40,6 @@ from rightofway.repair.conflict_resolution import (
     Right,
     list_rights_if_waits,
 )
-from rightofway.repair.objectives import compute_value, find_objective
 from rightofway.repair.routing import choose_routes
 from rightofway.repair.task import Draft, Task
 from rightofway.search import Distances
@@ -211,7 +210,7 @@ def _follow(plan: PartialPlan, i: int, j: int, *, on_tie: int) -> _MovementGroup
     return _MovementGroup(
         resolution=Resolution(decisions=tuple(decisions), rights=tuple(rights)),
         completion_sum=sum(completions),
-        value=compute_value(find_objective(plan.task), weights, completions),
+        value=plan.task.objective.compute_values(weights, completions),
     )
 
 

@@ -30,7 +30,6 @@ from rightofway.model import (
 )
 from rightofway.model.outcome import choose_objective
 from rightofway.repair.makespan import measure_alone
-from rightofway.repair.objectives import find_objective, measure_worth
 from rightofway.repair.task import Draft, Task
 from rightofway.search import ConflictBasedSearch, PriceAscent, find_fewest_actions
 
@@ -79,9 +78,9 @@ def finish_optimum(task: Task, draft: Draft) -> Draft:
 
 
 def _act_less(task: Task, draft: Draft) -> Draft:
-    objective, scenario = find_objective(task), task.scenario
+    objective, scenario = task.objective, task.scenario
     states = task.options.get("joint_states", STATES_OF_ACTIONS)
-    is_optimal = draft.proof and measure_worth(task, draft.tracks)[0] == draft.proof.bound
+    is_optimal = draft.proof and task.measure_worth(draft.tracks)[0] == draft.proof.bound
     if not is_optimal or draft.decisions or states == 0:
         return draft
     latest = None

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from rightofway.repair.impossible import refuse_stranded
-from rightofway.repair.objectives import find_objective
 from rightofway.repair.task import Task
 from rightofway.search import FleetSearch
 
@@ -17,7 +16,7 @@ def make_fleet_search(task: Task) -> FleetSearch:
         scenario.problem,
         seed=task.seed,
         alone=task.alone,
-        objective=find_objective(task),
+        objective=task.objective,
     )
     refuse_stranded(scenario, np.flatnonzero(search.compute_alone() < 0).tolist())
     return search

@@ -31,7 +31,6 @@ from rightofway.facts import Fact
 from rightofway.model import Objective
 from rightofway.precedence import Meeting, PrecedenceGraph, find_rotation
 from rightofway.repair.conflict_resolution import list_rights_if_waits
-from rightofway.repair.objectives import compute_value, find_objective, list_weights
 from rightofway.repair.task import Task
 
 REVERSING = Fact("reversing rights of way")
@@ -71,7 +70,7 @@ class LocalSearch:
         self.may_wait = may_wait
         self.draw = random.Random(task.seed)  # noqa: S311 (no secret depends on it)
         self.alone = [sum(map(route.compute_least, range(len(route)))) for route in graph.routes]
-        self._objective, self._weights = find_objective(task), list_weights(task.scenario)
+        self._objective, self._weights = task.objective, task.scenario.problem.weights
 
     def measure(self) -> Value:
         """Return how good the plan is: less is better. More rights of way never make it less."""
@@ -79,7 +78,7 @@ class LocalSearch:
             flowtime = self.graph.compute_flowtime()
             return flowtime, flowtime
         ends = [self.graph.get_completion(robot) for robot in range(len(self.alone))]
-        return compute_value(self._objective, self._weights, ends)
+        return self._objective.compute_values(self._weights, ends)
 
     def run(self, rounds: int) -> None:
         """Descend, then change some robots' luck and descend again, until no robot is late."""

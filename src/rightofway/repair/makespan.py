@@ -11,12 +11,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from rightofway.model import Objective, Tick, Track, compute_completions
-from rightofway.repair.objectives import (
-    compute_value,
-    find_objective,
-    list_weights,
-    measure_worth,
-)
 from rightofway.repair.task import Task
 from rightofway.search import ConflictBasedSearch, compute_least_completions
 
@@ -59,16 +53,16 @@ class MakespanSearch:
 
     def __post_init__(self) -> None:
         alone = measure_alone(self.task)
-        self._objective = find_objective(self.task)
-        self._weights = list_weights(self.task.scenario)
+        self._objective = self.task.objective
+        self._weights = self.task.scenario.problem.weights
         self._longest = max(alone)
-        self.bound = compute_value(self._objective, self._weights, alone)[0]
+        self.bound = self._objective.compute_values(self._weights, alone)[0]
         self._left = self.nodes or None
 
     @property
     def value(self) -> Tick:
         """The value of the plan [ticks]."""
-        return measure_worth(self.task, self.tracks)[0]
+        return self.task.measure_worth(self.tracks)[0]
 
     def run(self) -> None:
         """Search until the plan is proven, or time or nodes are used up."""
@@ -138,6 +132,6 @@ class MakespanSearch:
 
     def _take(self, tracks: tuple[Track, ...]) -> None:
         """Keep a plan where it is better."""
-        if measure_worth(self.task, tracks) < measure_worth(self.task, self.tracks):
+        if self.task.measure_worth(tracks) < self.task.measure_worth(self.tracks):
             self.tracks = tracks
             self.task.better(lambda: tracks)

@@ -10,17 +10,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.deadline import NO_DEADLINE, Deadline
+from rightofway.errors import InputError
 from rightofway.facts import Fact
 from rightofway.model import (
     Decision,
     ForcedLoss,
     Improvement,
+    Objective,
     Proof,
     Reroute,
     Scenario,
     Status,
+    Tick,
     Track,
+    compute_cost,
 )
+from rightofway.model.outcome import choose_objective
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,6 +57,13 @@ class Task:
         plan so far, whenever there may be a better one.
     keep_best
         Whether an interrupt ends the planner with the best plan so far, where there is one.
+    objective
+        The one that the option ``objective`` asks for; flowtime for planners without that option.
+
+    Raises
+    ------
+    InputError
+        If the objective has a makespan, and the roadmap has surcharges.
     """
 
     scenario: Scenario
@@ -64,6 +76,25 @@ class Task:
     start: tuple[Track, ...] | None = None
     alone: NDArray[np.int64] | None = None
     keep_best: bool = False
+    objective: Objective = field(init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "objective", self._choose_objective())
+
+    def _choose_objective(self) -> Objective:
+        name = self.options.get("objective", "flowtime")
+        if name == "flowtime":
+            return choose_objective(self.scenario)
+        if self.scenario.roadmap.has_surcharges:
+            message = f"{name} leaves out the surcharges of the roadmap (minimize the flowtime)"
+            raise InputError.at(("options", "objective"), message)
+        return Objective.MAKESPAN if name == "makespan" else Objective.BOTH
+
+    def measure_worth(self, tracks: Sequence[Track]) -> tuple[Tick, Tick]:
+        """Return the value of a plan, and its cost, which decides between plans of equal value."""
+        scenario, objective = self.scenario, self.objective
+        cost = compute_cost(scenario, tracks)
+        return objective.compute_cost(scenario, tracks) if objective.has_makespan else cost, cost
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
