@@ -9,7 +9,7 @@ from typing import Any
 
 from rightofway.errors import InputError, quote
 from rightofway.kinds.numbers import Number
-from rightofway.kinds.table import POSITIVE, list_of
+from rightofway.kinds.table import POSITIVE, tuple_of
 from rightofway.model import Rules
 from rightofway.model.resources import circumscribe
 from rightofway.site.places import is_cell
@@ -48,7 +48,7 @@ def read_radius(radius: Number | None, size: tuple[Number, Number] | None) -> Fr
     """Return the radius of a robot, or of the circle around its sides [length unit]."""
     if size is None:
         return Fraction(0) if radius is None else radius  # type: ignore[return-value]
-    long, wide = list_of(POSITIVE).read_at("size", size)
+    long, wide = tuple_of(POSITIVE, "length", "width").read_at("size", size)
     return circumscribe(long, wide)
 
 
