@@ -20,13 +20,12 @@ ALL = sorted(SPECS)
 STRICT = [name for name in ALL if Feature.LEAVES_SWAPS not in SPECS[name].features]
 """Planners whose plans keep all rules; the paper's method leaves swaps."""
 
+STEPS = {"iterations": 10, "nodes": 30, "rounds": 3, "restarts": 2}
+"""A few steps, by the names of the options that bound a planner by steps."""
+
 QUICK = {
-    "auto": {"iterations": 10, "nodes": 20},
-    "cbs": {"nodes": 50},
-    "lns": {"iterations": 10},
-    "local-search": {"rounds": 3},
-    "priority-search": {"rounds": 3, "restarts": 1},
-    "random-priority": {"restarts": 3},
+    name: {option.name: STEPS[option.name] for option in spec.options if option.name in STEPS}
+    for name, spec in SPECS.items()
 }
 """Options that bound a planner by steps."""
 

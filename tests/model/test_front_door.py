@@ -13,7 +13,8 @@ import numpy as np
 import pytest
 
 import rightofway
-from rightofway import FleetBuilder, InputError, LnsOptions, Robot, Rules, Scenario, Stop
+from rightofway import FleetBuilder, InputError, Robot, Rules, Scenario, Stop
+from rightofway.planners import LnsOptions
 from rightofway.site import Edge, make_grid_roadmap
 
 DOOR = ["...", "@.@", "..."]

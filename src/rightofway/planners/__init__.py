@@ -1,21 +1,9 @@
 """Ways to choose routes and right of way; each planner is one module and one registry line."""
 
 from rightofway.deadline import Deadline
+from rightofway.planners import options
 from rightofway.planners.features import ANY_FLEET, Feature
-from rightofway.planners.options import (
-    AutoOptions,
-    CbsOptions,
-    LacamOptions,
-    LnsOptions,
-    LocalSearchOptions,
-    Option,
-    PlannerOptions,
-    PrioritizedOptions,
-    PriorityOptions,
-    PrioritySearchOptions,
-    RandomPriorityOptions,
-    TwoLevelOptions,
-)
+from rightofway.planners.options import *  # noqa: F403
 from rightofway.planners.registry import DEFAULT_PLANNER, IMPROVER, PlannerSpec, find, find_all
 from rightofway.repair.task import (
     Draft,
@@ -27,24 +15,13 @@ __all__ = [
     "ANY_FLEET",
     "DEFAULT_PLANNER",
     "IMPROVER",
-    "AutoOptions",
-    "CbsOptions",
     "Deadline",
     "Draft",
     "Feature",
-    "LacamOptions",
-    "LnsOptions",
-    "LocalSearchOptions",
-    "Option",
     "Planner",
-    "PlannerOptions",
     "PlannerSpec",
-    "PrioritizedOptions",
-    "PriorityOptions",
-    "PrioritySearchOptions",
-    "RandomPriorityOptions",
     "Task",
-    "TwoLevelOptions",
     "find",
     "find_all",
 ]
+__all__ += options.__all__

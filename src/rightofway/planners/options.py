@@ -16,6 +16,22 @@ from rightofway.errors import InputError, find_nearest
 from rightofway.kinds.numbers import parse_digits
 from rightofway.kinds.table import COUNT, NOT_NEGATIVE, Kind, make_number, make_whole, make_words
 
+__all__ = [
+    "AutoOptions",
+    "CbsOptions",
+    "LacamOptions",
+    "LnsOptions",
+    "LocalSearchOptions",
+    "Option",
+    "PlannerOptions",
+    "PrioritizedOptions",
+    "PriorityOptions",
+    "PrioritySearchOptions",
+    "RandomPriorityOptions",
+    "TwoLevelOptions",
+]
+"""The names that `rightofway.planners` exports."""
+
 Value = str | int | Fraction
 """The value of an option."""
 
