@@ -208,7 +208,7 @@ def _run(
 ) -> Plan:
     """Plan and judge; ``old`` is a plan of the scenario before it was changed."""
     # These load the native core: not for help.
-    from rightofway.repair.impossible import refuse_closed_ways, refuse_stranded
+    from rightofway.repair.impossible import refuse_stranded
     from rightofway.resume.warm_start import compare_with_start
     from rightofway.search import compute_least_completions
 
@@ -228,8 +228,6 @@ def _run(
         if alone is None:
             raise GaveUp(Fact("time over", doing=Fact("measuring distances")))
         refuse_stranded(task.scenario, np.flatnonzero(alone < 0).tolist())
-        if old is None:  # else it takes longer than a first plan from the old one
-            refuse_closed_ways(task.scenario, deadline)
         least_visits = _least_visits(task.scenario, alone.tolist())
         task = replace(
             task,
@@ -242,7 +240,7 @@ def _run(
         if task.start is not None:
             keep()
         try:
-            draft = spec.load()(task) if old is None else _going_on(spec, task, old)
+            draft = _make_draft(spec, task, old)
         except GaveUp as error:
             error.lower_bound = max(int(alone.sum()), error.lower_bound or 0)
             raise
@@ -261,13 +259,18 @@ def _run(
         start=None if old is None else compare_with_start(old, task.scenario, draft.tracks),
         alone=tuple(alone.tolist()),
     )
-    tracks = wait_before_chains(task.scenario.problem, draft.tracks)
-    plan = Plan(scenario=task.scenario, tracks=tracks, run=run)
+    plan = _make_plan(task, draft.tracks, run)
     report = check(plan)
     if any(kind != "swap conflict" or not draft.keeps_swaps for kind in report.counts):
         raise InvalidPlan(f"{spec.name} made a plan with {report}")
     outcome = _outcome(spec, task, draft, plan, keeps_rules=report.ok)
     return replace(plan, run=replace(run, outcome=outcome))
+
+
+def _make_plan(task: Task, tracks: Sequence[Track], run: PlannerRun) -> Plan:
+    """Return the plan of a planner's tracks: robots wait before chains, not on them."""
+    driven = wait_before_chains(task.scenario.problem, tracks)
+    return Plan(scenario=task.scenario, tracks=driven, run=run)
 
 
 def _outcome(
@@ -299,14 +302,16 @@ def _written_options(task: Task) -> dict[str, Any]:
     }
 
 
-def _going_on(spec: PlannerSpec, task: Task, old: Plan) -> Draft:
-    """Return the draft of a planner that starts from an old plan, or from nothing if it must."""
+def _make_draft(spec: PlannerSpec, task: Task, old: Plan | None) -> Draft:
+    """Return the draft of a planner, from an old plan where there is one that helps."""
+    # Both load the native core: not for help.
     from rightofway.repair.impossible import refuse_closed_ways
     from rightofway.resume.warm_start import make_first_plan
 
-    tracks = make_first_plan(task, old)
+    tracks = None if old is None else make_first_plan(task, old)
     if tracks is None:
-        task.report(Fact("planning from nothing"))
+        if old is not None:
+            task.report(Fact("planning from nothing"))
         refuse_closed_ways(task.scenario, task.deadline)
         return spec.load()(task)
     task.has_plan()
@@ -336,8 +341,7 @@ def _handing_over(
     least: list[tuple[Tick, Tick]] = []
 
     def hand_over(tracks: Callable[[], Sequence[Track]]) -> None:
-        driven = wait_before_chains(task.scenario.problem, tracks())
-        plan = Plan(scenario=task.scenario, tracks=driven, run=run)
+        plan = _make_plan(task, tracks(), run)
         rating = task.measure_worth(plan.tracks)
         if not least or rating < least[-1]:
             least.append(rating)

@@ -63,7 +63,6 @@ def lay_out_visits(plan: Plan) -> Visits:
     roadmap = plan.scenario.roadmap
     edge = _find_edges(roadmap, vertex, np.where(last, -1, np.roll(vertex, -1)))
     drive = _measure_drives(plan, robot, edge, enter.dtype)
-    angle, turn = compute_turns(plan, robot, vertex, edge)
     known = (vertex >= 0) & (vertex < roadmap.n_vertices)
     passed = np.zeros(len(vertex), bool)
     if roadmap.passing is not None:
@@ -72,6 +71,7 @@ def lay_out_visits(plan: Plan) -> Visits:
     leave = np.where(last, enter.max() + 1, np.roll(enter, -1))
     drive, barred = np.maximum(drive, 0), np.array(drive < 0, bool)
     bookings = _book(plan, enter=enter, leave=leave, drive=drive, last=last, passed=passed)
+    angle, turn = compute_turns(plan, robot, vertex, edge)
     return Visits(
         plan=plan,
         robot=robot,

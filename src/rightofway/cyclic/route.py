@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from rightofway.deadline import limit_loop, make_check
 from rightofway.errors import InputError, InputFault
 from rightofway.model import BookingRules, Lap, Robot, Route, Scenario, Tick, make_lap
-from rightofway.model.problem import refuse_jobs
 from rightofway.native import BookedRows, list_excluded
 from rightofway.precedence import CyclicSchedule, TimedEventGraph
 from rightofway.precedence.rotations import FEWEST
@@ -271,7 +270,9 @@ def take_out_closed_places(scenario: Scenario) -> Scenario:
         in each lap. For closures that close different places to robots of different sizes. For
         jobs.
     """
-    refuse_jobs(scenario.problem, "repeated work", "take them out, or plan them once")
+    if scenario.problem.work is not None:
+        remedy = "take them out, or plan them once"
+        raise InputError.at("", f"repeated work does not know jobs ({remedy})")
     closed = scenario.problem.closures
     if closed is None:
         return scenario

@@ -220,43 +220,6 @@ class Problem:
         )
 
 
-def refuse_jobs(problem: Problem, method: str, remedy: str) -> None:
-    """Refuse a scenario with jobs.
-
-    Raises
-    ------
-    InputError
-        If there is work, even without a job.
-    """
-    if problem.work is not None:
-        raise InputError.at("", f"{method} does not know jobs ({remedy})")
-
-
-def refuse_closures(problem: Problem, method: str, remedy: str) -> None:
-    """Refuse a fleet for which something is closed for a while.
-
-    Raises
-    ------
-    InputError
-        If there is a closure.
-    """
-    if problem.closures is not None:
-        raise InputError.at("", f"{method} does not know closures ({remedy})")
-
-
-def refuse_turn_rates(problem: Problem, method: str, remedy: str) -> None:
-    """Refuse a fleet in which a robot needs time to turn on the spot.
-
-    Raises
-    ------
-    InputError
-        If a robot has a turn rate.
-    """
-    if problem.turns:
-        message = f"{method} does not know robots with a turn_rate ({remedy}, or leave it out)"
-        raise InputError.at("", message)
-
-
 def compute_least_dwell(stages: Sequence[Stage], *, leaves: bool) -> Tick:
     """Return how long a visit lasts at least that serves these stages, without the edge after it.
 

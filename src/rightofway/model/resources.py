@@ -61,22 +61,6 @@ Exact = NDArray[Any]
 """Integers of 64 bits where they fit, else Python integers of any size."""
 
 
-def refuse_sizes(resources: Resources, method: str, remedy: str) -> None:
-    """Refuse a fleet in which a robot has a size, or whose roadmap has zones or passed vertices.
-
-    Raises
-    ------
-    InputError
-        If a robot has a size, or there is a zone or a passed vertex.
-    """
-    if resources.roadmap.passing is not None:
-        message = f"{method} does not know vertices with pass ({remedy})"
-        raise InputError.at("", message)
-    if not resources.are_points:
-        message = f"{method} does not know robots with a size or zones ({remedy})"
-        raise InputError.at("", message)
-
-
 def circumscribe(length: Fraction, width: Fraction) -> Fraction:
     """Return the radius of the circle around a rectangle, rounded up to `RADIUS_STEP`.
 

@@ -204,7 +204,7 @@ class _Prover:
             proof = Proof(bound=search.bound or Tick(0), objective=objective)
             return Draft(tracks=search.tracks, status=status, proof=proof)
         if search.is_proven:
-            refuse_blocked(task.scenario, seed=task.seed, deadline=task.deadline)
+            refuse_blocked(task)
         return None
 
     def _run(self, nodes: int, share: float, upper: int | None) -> ConflictBasedSearch | None:

@@ -146,7 +146,7 @@ class _Tree:
             if self._is_over(upper):
                 status = Status("proven", claim=claim, nodes=nodes, status=first.status)
         elif search.is_proven:
-            refuse_blocked(scenario, seed=task.seed, deadline=task.deadline)
+            refuse_blocked(task)
         else:
             error = GaveUp(Fact("time over for an optimal plan", nodes=nodes))
             if choose_objective(scenario) is Objective.FLOWTIME:  # the message has a bound of that

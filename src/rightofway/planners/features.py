@@ -7,8 +7,6 @@ from enum import StrEnum
 
 from rightofway.errors import InputError
 from rightofway.model import Problem
-from rightofway.model.problem import refuse_closures, refuse_jobs, refuse_turn_rates
-from rightofway.model.resources import refuse_sizes
 
 
 class Feature(StrEnum):
@@ -59,21 +57,23 @@ def refuse_unknown(
         For jobs, robots with a size, zones, passed vertices, turn rates, closures or barred edges,
         with the first that is found.
     """
-    if problem.work is not None and Feature.JOBS not in features:
-        refuse_jobs(problem, method, remedy(Feature.JOBS))
-    if not problem.resources.are_points and Feature.SIZES not in features:
-        has_passed = problem.roadmap.passing is not None
-        if Feature.LEAVES_SWAPS in features and not has_passed:
-            why = "it leaves swaps, and robots with a size collide in them"
-            raise InputError.at("", f"{method} is for points: {why} ({remedy(Feature.SIZES)})")
-        refuse_sizes(problem.resources, method, remedy(Feature.SIZES))
-    if problem.turns and Feature.TURN_RATES not in features:
-        refuse_turn_rates(problem, method, remedy(Feature.TURN_RATES))
-    if problem.closures is not None and Feature.CLOSURES not in features:
-        refuse_closures(problem, method, remedy(Feature.CLOSURES))
-    if problem.is_barred and Feature.BARRED_EDGES not in features:
-        message = f"{method} does not know edges that are barred for some robots"
-        raise InputError.at("", f"{message} ({remedy(Feature.BARRED_EDGES)})")
+    needs = (
+        (Feature.JOBS, problem.work is not None, "jobs"),
+        (Feature.SIZES, problem.roadmap.passing is not None, "vertices with pass"),
+        (Feature.SIZES, not problem.resources.are_points, "robots with a size or zones"),
+        (Feature.TURN_RATES, problem.turns, "robots with a turn_rate"),
+        (Feature.CLOSURES, problem.closures is not None, "closures"),
+        (Feature.BARRED_EDGES, problem.is_barred, "edges that are barred for some robots"),
+    )
+    for feature, is_needed, needed in needs:
+        if is_needed and feature not in features:
+            fault, hint = f"{method} does not know {needed}", remedy(feature)
+            if needed == "robots with a size or zones" and Feature.LEAVES_SWAPS in features:
+                fault = f"{method} is for points: it leaves swaps, and robots with a size collide"
+                fault += " in them"
+            elif feature is Feature.TURN_RATES:
+                hint += ", or leave it out"
+            raise InputError.at("", f"{fault} ({hint})")
 
 
 def refuse_with_swaps_left(problem: Problem) -> None:

@@ -19,8 +19,6 @@ long as nine tenths of the time limit are enough for the search by instants. Not
 
 from __future__ import annotations
 
-from typing import NoReturn
-
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.facts import Fact
 from rightofway.model import Status
@@ -67,7 +65,7 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
         return plan_by_moves(task, search)
     if problem.is_open:
         task.report(Fact("planning moves without clocks"))
-        refuse_blocked_parts(scenario, seed=task.seed, deadline=task.deadline)
+        refuse_blocked_parts(task)
     try:
         tracks = plan_by_lacam(
             problem.as_steps(),
@@ -76,7 +74,7 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
             spreads=spreads and problem.is_open,
         )
     except NoPlanExists:
-        _refuse_blocked(task)
+        refuse_blocked(task)
     if not problem.is_open:
         raise GaveUp(Fact("no plan in turn among barred edges"))
     if tracks is None:
@@ -85,12 +83,6 @@ def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
     assert in_time is not None, "what took place in some order can take place in it again"
     task.has_plan()
     return Draft(tracks=tuple(in_time), status=Status("moves"))
-
-
-def _refuse_blocked(task: Task) -> NoReturn:
-    """Raise for a fleet that is proven to have no plan: which robots block each other."""
-    task.report(Fact("looking for blockages"))
-    refuse_blocked(task.scenario, seed=task.seed, deadline=task.deadline)
 
 
 def plan_by_instants(
@@ -110,8 +102,8 @@ def plan_by_instants(
         )
     except NoPlanExists:
         refuse_the_impossible(scenario, Distances(scenario.roadmap))
-        refuse_blocked_parts(scenario, seed=task.seed, deadline=task.deadline)
-        _refuse_blocked(task)
+        refuse_blocked_parts(task)
+        refuse_blocked(task)
     if tracks is None:
         return None
     task.has_plan()

@@ -27,6 +27,7 @@ from rightofway.model import Outcome, OutcomeKind, Plan, PlannerRun, Scenario, S
 from rightofway.model.closures import Closure
 from rightofway.model.resources import measure_distance
 from rightofway.native import find_clashes
+from rightofway.repair.task import Task
 from rightofway.search import (
     Bookings,
     Distances,
@@ -187,7 +188,7 @@ def _describe_closure(scenario: Scenario, closure: Closure) -> Fact:
     return Fact("closed between", way=place, begin=begin, end=clock.count_ticks(closure.until))
 
 
-def refuse_blocked_parts(scenario: Scenario, *, seed: int, deadline: Deadline) -> None:
+def refuse_blocked_parts(task: Task) -> None:
     """Raise if robots in one of several parts of a map, which no edge joins, have no plan.
 
     A search over the whole fleet tries each move of the robots of one part with all moves of the
@@ -199,18 +200,17 @@ def refuse_blocked_parts(scenario: Scenario, *, seed: int, deadline: Deadline) -
     NoPlanExists
         With a small set of robots that block each other.
     """
+    scenario = task.scenario
     parts, groups = RoadmapParts(scenario.roadmap), defaultdict[frozenset[int], list[int]](list)
     for robot, itinerary in enumerate(scenario.problem.itineraries):
         groups[parts.find_part(itinerary.home)].append(robot)
     for robots in sorted(groups.values(), key=len) if len(groups) > 1 else ():
         effort = EFFORT // len(groups)
-        if _is_blocked(scenario, robots, seed=seed, effort=effort, deadline=deadline):
-            refuse_blocked(scenario, robots, seed=seed, deadline=deadline)
+        if _is_blocked(task, robots, effort):
+            refuse_blocked(task, robots)
 
 
-def refuse_blocked(
-    scenario: Scenario, robots: Iterable[int] | None = None, *, seed: int, deadline: Deadline
-) -> NoReturn:
+def refuse_blocked(task: Task, robots: Iterable[int] | None = None) -> NoReturn:
     """Raise for robots that are proven to have no plan, by default all: with a small set of them.
 
     Raises
@@ -223,12 +223,14 @@ def refuse_blocked(
     Deterministic, as long as there is time. That the set has no plan is proven. It is minimal where
     no trial without one of its robots ended undecided.
     """
+    scenario = task.scenario
     everybody = list(range(len(scenario.robots)) if robots is None else robots)
     effort = EFFORT // min(len(everybody), MOST_TRIALS)
 
     def is_blocked(fewer: Sequence[int]) -> bool:
-        return _is_blocked(scenario, fewer, seed=seed, effort=effort, deadline=deadline)
+        return _is_blocked(task, fewer, effort)
 
+    task.report(Fact("looking for blockages"))
     blocked = find_smallest_set(everybody, is_blocked)
     raise NoPlanExists([_describe_blocked(scenario, blocked)], scenario)
 
@@ -267,14 +269,25 @@ def make_fleet_of(scenario: Scenario, robots: Iterable[int]) -> Scenario:
     return replace(scenario, robots=fleet, rules=rules, clock=scenario.problem.clock)
 
 
-def refuse_without_room(scenario: Scenario, robots: Sequence[int]) -> NoReturn:
-    """Raise `NoPlanExists` for robots that are proven to have no plan together."""
+def refuse_without_room(
+    scenario: Scenario, is_blocked: Callable[[Sequence[int]], bool] | None = None
+) -> NoReturn:
+    """Raise for a fleet that is proven to have no plan.
+
+    Raises
+    ------
+    NoPlanExists
+        With a small set of robots of which ``is_blocked`` proves it; without that, with all.
+    """
+    robots: Sequence[int] = range(len(scenario.robots))
+    if is_blocked is not None:
+        robots = find_smallest_set(robots, is_blocked)
     has_others = len(robots) < len(scenario.robots)
     blocked = Fact("these robots", robots=tuple(robots))
     if len(robots) > LARGEST_SET:
         blocked = Fact("some robots" if has_others else "all robots", number=len(robots))
     is_open = scenario.problem.closures is None
-    reason = Fact("no room" if is_open else "no room among closures", robots=blocked)
+    reason = Fact("no room" if is_open else "no room among closures", blocked=blocked)
     if has_others:
         reason = Fact("whatever others do", fact=reason)
     blockage = Blockage(reason, tuple(robots), remedy=Fact("give room or places"))
@@ -297,18 +310,16 @@ def put_fleet_at_home(scenario: Scenario) -> Plan:
     )
 
 
-def _is_blocked(
-    scenario: Scenario, robots: Sequence[int], *, seed: int, effort: int, deadline: Deadline
-) -> bool:
+def _is_blocked(task: Task, robots: Sequence[int], effort: int) -> bool:
     """Return whether it is proven that some robots of a fleet have no plan."""
     if len(robots) < 2:  # noqa: PLR2004 (a robot alone is never blocked)
         return False
-    left = deadline.measure_seconds_left()
-    fleet = make_fleet_of(scenario, robots)
+    left = task.deadline.measure_seconds_left()
+    fleet = make_fleet_of(task.scenario, robots)
     try:
         plan_by_lacam(
             fleet.problem.as_steps(),
-            seed=seed,
+            seed=task.seed,
             most_effort=effort,
             time_limit=left,
             spreads=False,

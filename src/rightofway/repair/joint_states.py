@@ -27,7 +27,7 @@ from typing import TYPE_CHECKING
 from rightofway.errors import GaveUp
 from rightofway.facts import Fact
 from rightofway.model import Status
-from rightofway.repair.impossible import find_smallest_set, refuse_without_room
+from rightofway.repair.impossible import refuse_without_room
 from rightofway.repair.task import Draft, Task
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ def plan_by_joint_states(task: Task) -> Draft | None:
 
     plan = search(everybody)
     if plan.has_ended and plan.tracks is None:
-        refuse_without_room(scenario, find_smallest_set(everybody, is_blocked))
+        refuse_without_room(scenario, is_blocked)
     if plan.tracks is None:
         return None
     task.has_plan()

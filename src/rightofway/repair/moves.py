@@ -34,7 +34,7 @@ from rightofway.errors import GaveUp
 from rightofway.facts import Fact
 from rightofway.model import Scenario, Status, Tick, Track, compute_least_dwell
 from rightofway.native import list_excluded
-from rightofway.repair.impossible import find_smallest_set, make_fleet_of, refuse_without_room
+from rightofway.repair.impossible import make_fleet_of, refuse_without_room
 from rightofway.repair.task import Draft, Task
 from rightofway.search import Distances, FleetSearch
 from rightofway.site import VertexId
@@ -118,9 +118,7 @@ def _refuse_without_order(task: Task, floor: SingleMoves) -> NoReturn:
         fleet = make_fleet_of(task.scenario, robots)
         return _search(SingleMoves(fleet), MOST_STATES_OF_FEWER, task.deadline) is None
 
-    everybody = range(len(task.scenario.robots))
-    blocked = everybody if floor.ends_anywhere else find_smallest_set(everybody, is_blocked)
-    refuse_without_room(task.scenario, blocked)
+    refuse_without_room(task.scenario, None if floor.ends_anywhere else is_blocked)
 
 
 def _search(floor: SingleMoves, most_states: int, deadline: Deadline) -> list[Move] | None:

@@ -6,6 +6,7 @@ from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator
 from functools import cached_property
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -46,22 +47,22 @@ def find_missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[B
             continue
         distances = distances or Distances(scenario.roadmap)
         for tail, head in _find_legs_without_a_way(itinerary, distances):
+            values: dict[str, Any] = {}
+            kind, remedy = "one-way edges", "drive more both ways"
             if distances.to(head, _open_all_edges(itinerary))[tail] >= 0:
-                why, remedy = _describe_barred(scenario, robot, tail, head)
+                kind, values, remedy = _describe_barred(scenario, robot, tail, head)
             elif opening := parts.find_opening(tail, head):
-                first, last = opening
-                why = Fact("one-way edge", first=first, last=last)
-                remedy = Fact("drive both ways")
-            else:
-                why, remedy = Fact("one-way edges"), Fact("drive more both ways")
+                values = {"first": opening[0], "last": opening[1]}
+                kind, remedy = "one-way edge", "drive both ways"
+            why = Fact(kind, **values)
             reason = Fact("no way of robot", robot=robot, tail=tail, head=head, why=why)
-            yield Blockage(reason, (robot,), (tail, head), remedy)
+            yield Blockage(reason, (robot,), (tail, head), Fact(remedy))
 
 
 def _describe_barred(
     scenario: Scenario, robot: int, tail: VertexId, head: VertexId
-) -> tuple[Fact, Fact]:
-    """Return why a robot has no way where others have one, and a remedy.
+) -> tuple[str, dict[str, Any], str]:
+    """Return why a robot has no way where others have one, as a kind with values, and a remedy.
 
     On a grid edges are barred by the width of robots only, elsewhere by their types.
     """
@@ -69,10 +70,10 @@ def _describe_barred(
     has_walls = scenario.roadmap.grid is not None
     narrowest = find_narrowest(scenario.roadmap, tail, head) if has_walls else None
     if narrowest is None:
-        return Fact("edges barred for type", type=barred.type), Fact("open an edge")
+        return "edges barred for type", {"type": barred.type}, "open an edge"
     room, place = narrowest
-    why = Fact("walls too near", radius=barred.radius, room=room, place=place)
-    return why, Fact("widen the way of robot")
+    values = {"radius": barred.radius, "room": room, "place": place}
+    return "walls too near", values, "widen the way of robot"
 
 
 def _open_all_edges(itinerary: Itinerary) -> tuple[Tick, ...]:
