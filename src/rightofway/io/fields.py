@@ -18,6 +18,7 @@ from pydantic import (
 )
 
 from rightofway.kinds.table import (
+    AMOUNT,
     COUNT,
     LINE,
     NAME,
@@ -30,6 +31,7 @@ from rightofway.kinds.table import (
     TEXT,
     TICK_LENGTH,
     TICKS,
+    WHOLE,
     Schema,
     allow_words,
     tuple_of,
@@ -108,6 +110,8 @@ Share = Annotated[Fraction, SHARE]
 Angle = Annotated[Fraction, NUMBER]
 TickLength = Annotated[Fraction, TICK_LENGTH]
 Count = Annotated[int, COUNT]
+Amount = Annotated[int, AMOUNT]
+Whole = Annotated[int, WHOLE]
 Ticks = Annotated[int, TICKS]
 Seed = Annotated[int, SEED]
 Name = Annotated[str, NAME]

@@ -9,10 +9,11 @@ from rightofway.kinds.table import make_words
 
 SCENARIO_FORMAT = "rightofway-scenario/1"
 PLAN_FORMAT = "rightofway-plan/1"
+PLAN_OF_JOBS_FORMAT = "rightofway-plan/2"
 SUITE_FORMAT = "rightofway-suite/1"
 
 
-def check_format(document: Any, known: str) -> dict[str, Any]:
+def check_format(document: Any, known: str, *others: str) -> dict[str, Any]:
     """Return a document of a known format; InputError, and no other fault, for one that is not.
 
     A document whose key ``format`` is misspelt counts as one of the known format.
@@ -30,13 +31,13 @@ def check_format(document: Any, known: str) -> dict[str, Any]:
             raise InputError.at("", message)
         raise InputError.at("format", f"is missing (put {line} at the top)")
     name = document["format"]
-    if name != known:
+    if name not in {known, *others}:
         raise InputError.at("format", f"{quote(name)} is {_not_wanted(name, known)}")
     return document
 
 
 def _not_wanted(value: object, known: str) -> str:
-    if value == PLAN_FORMAT and known == SCENARIO_FORMAT:
+    if value in {PLAN_FORMAT, PLAN_OF_JOBS_FORMAT} and known == SCENARIO_FORMAT:
         return "a plan, not a scenario (its scenario is in it; check or show it as it is)"
     if value == SCENARIO_FORMAT and known == PLAN_FORMAT:
         return "a scenario, not a plan (plan it first)"

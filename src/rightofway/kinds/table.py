@@ -363,6 +363,7 @@ PATH = make_kind("a path", (str, os.PathLike), "is no path")
 FUNCTION = make_kind("a function", callable, "is no function")
 
 COUNT = make_whole(1)
+AMOUNT = make_whole(0)
 WHOLE = make_whole(-(2**63) + 1, 2**63 - 1, "a whole number")
 """Whole numbers that an array can contain."""
 SEED = make_whole(0, 2**32 - 1)

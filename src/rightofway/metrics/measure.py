@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict, dataclass
+from itertools import chain
 from typing import Any
 
 from rightofway.kinds.arguments import checks_arguments
@@ -35,7 +36,13 @@ class Metrics:
     completions
         Completion time of each robot [ticks].
     alone
-        Its shortest completion time without the others [ticks].
+        Its shortest completion time without the others [ticks]; with jobs, that of its tour.
+    service_time
+        With jobs: the sum over the served ones of completion - `earliest` [ticks]; else None.
+    lateness
+        With jobs: the sum over the served ones of the time after `due` [ticks]; else None.
+    unserved
+        With jobs: the number of those that no robot does; else None.
     """
 
     flowtime: Tick
@@ -45,6 +52,9 @@ class Metrics:
     moves: int
     completions: tuple[Tick, ...]
     alone: tuple[Tick, ...]
+    service_time: Tick | None = None
+    lateness: Tick | None = None
+    unserved: int | None = None
 
     @property
     def gap(self) -> float:
@@ -68,6 +78,7 @@ class Metrics:
         return {
             name: list(value) if isinstance(value, tuple) else value
             for name, value in asdict(self).items()
+            if value is not None
         }
 
 
@@ -108,7 +119,9 @@ def _measure_plan(plan: Plan) -> Metrics:
     stays = plan.stays
     completions = tuple(stay.completion for stay in stays)
     alone = plan.run.alone or compute_alone_completions(plan.scenario)
-    outcome, bound = get_own_outcome(plan), Tick(sum(alone))
+    outcome, bound, work = get_own_outcome(plan), Tick(sum(alone)), plan.scenario.problem.work
+    if work is not None:  # in another plan, other robots have the tours
+        bound = Tick(sum(robot.ready for robot in work.robots))
     if outcome and outcome.objective is Objective.FLOWTIME and outcome.bound is not None:
         bound = max(bound, outcome.bound)
     return Metrics(
@@ -119,4 +132,22 @@ def _measure_plan(plan: Plan) -> Metrics:
         moves=sum(len(track) - 1 for track in plan.tracks),
         completions=completions,
         alone=alone,
+        **measure_service(plan),
     )
+
+
+def measure_service(plan: Plan) -> dict[str, Any]:
+    """Return the figures of the jobs of a plan by name; empty without jobs."""
+    work = plan.scenario.problem.work
+    if work is None or plan.tours is None:
+        return {}
+    ends = dict[int, int]()
+    for item in chain.from_iterable(plan.tours):
+        if item.job is not None:
+            ends[item.job] = max(item.end, ends.get(item.job, item.end))
+    jobs = [(work.jobs[job], end) for job, end in ends.items()]
+    return {
+        "service_time": Tick(sum(end - job.earliest for job, end in jobs)),
+        "lateness": Tick(sum(max(0, end - job.due) for job, end in jobs if job.due is not None)),
+        "unserved": len({job for job, _ in plan.unserved}),
+    }

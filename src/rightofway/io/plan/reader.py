@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from rightofway.errors import InputError, Where, find_nearest, locate_faults, name_file, quote
 from rightofway.io.faults import Faults, validate
-from rightofway.io.formats import PLAN_FORMAT, check_format
+from rightofway.io.formats import PLAN_FORMAT, PLAN_OF_JOBS_FORMAT, check_format
+from rightofway.io.plan.work import ReadRobot, read_work_of_plan
 from rightofway.io.scenario.loaded_map import LoadedMap
 from rightofway.io.scenario.reader import Loaded, read_scenario
 from rightofway.model import (
@@ -69,13 +70,18 @@ def parse_plan(document: Any, source: str = "", pictures: Path | None = None) ->
     from rightofway.io.plan.shape import PlanFrame
 
     with name_file(source):
-        document = check_format(document, PLAN_FORMAT)
+        document = check_format(document, PLAN_FORMAT, PLAN_OF_JOBS_FORMAT)
         faults = Faults()
         frame = faults.attempt("", validate, PlanFrame, document)
         loaded = faults.read_part(document, "scenario", _planned, pictures)
         names = _Names.of(loaded.scenario) if loaded else None
         run = faults.read_part(document, "planner", _run, names)
         tracks = faults.read_part(document, "robots", _tracks, names)
+        work = (
+            faults.attempt("", read_work_of_plan, document, loaded.scenario, tracks or ())
+            if loaded
+            else {}
+        )
         steady = faults.read_part(document, "steady", _steady, names) or ()
         tick = loaded and loaded.scenario.problem.clock.tick
         if frame and tick and frame.tick != tick:
@@ -84,7 +90,14 @@ def parse_plan(document: Any, source: str = "", pictures: Path | None = None) ->
         faults.stop(document)
     assert loaded is not None, "or there was a fault"
     assert tracks is not None, "or there was a fault"
-    return Plan(scenario=loaded.scenario, tracks=tracks, run=run or PlannerRun(), steady=steady)
+    with name_file(source):
+        return Plan(
+            scenario=loaded.scenario,
+            tracks=tuple(robot.track for robot in tracks),
+            run=run or PlannerRun(),
+            steady=steady,
+            **work or {},
+        )
 
 
 def _planned(data: Any, pictures: Path | None) -> Loaded:
@@ -143,11 +156,11 @@ def _each(
     return [part for part in parts if part is not None]
 
 
-def _tracks(data: Any, names: _Names | None) -> tuple[Track, ...]:
-    """Return the tracks in the scenario's order."""
+def _tracks(data: Any, names: _Names | None) -> tuple[ReadRobot, ...]:
+    """Return the tracks and tours in the scenario's order."""
     from rightofway.io.plan.shape import TrackDocument
 
-    tracks = dict[int, Track]()
+    tracks = dict[int, ReadRobot]()
 
     def read(document: TrackDocument, names: _Names) -> None:
         robot = names.find_robot("name", document.name)
@@ -160,7 +173,8 @@ def _tracks(data: Any, names: _Names | None) -> tuple[Track, ...]:
             else names.find_vertex(("vertices", index), name)
             for index, name in enumerate(document.vertices)
         ]
-        tracks[robot] = Track.of(vertices, document.enter)
+        track = Track.of(vertices, document.enter)
+        tracks[robot] = ReadRobot(name=document.name, track=track, tour=document.tour)
 
     _each(data, TrackDocument, read, names, "track for each robot")
     missing = [name for name, robot in names.robots.items() if robot not in tracks] if names else []

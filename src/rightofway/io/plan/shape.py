@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self, get_args
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from rightofway.io.fields import (
+    Amount,
     Document,
     Name,
     NotNegative,
@@ -15,9 +16,12 @@ from rightofway.io.fields import (
     make_optional,
 )
 from rightofway.io.scenario.shape import ScenarioDocument
+from rightofway.kinds.table import make_words
+from rightofway.model import UnservedReason
 
 PairOfNames = Annotated[list[Name], Field(min_length=2, max_length=2)]
 PairOfCounts = Annotated[list[Ticks | None], Field(min_length=2, max_length=2)]
+UNSERVED_REASON = make_words(*get_args(UnservedReason))
 
 
 class DecisionDocument(Document):
@@ -142,6 +146,34 @@ class PlannerDocument(Document):
     )
 
 
+class TourItemDocument(Document):
+    """Work at a stop of a job, or a charge."""
+
+    visit: Amount = Field(description="the visit of the robot, from 0")
+    job: Name = make_optional("the name of the job; none for a charge")
+    stop: Amount = make_optional("which of the stops of the job, from 0")
+    charge: Literal[True] = make_optional("true for a charge")
+    begin: Ticks = Field(description="when it begins, a whole number of ticks")
+    end: Ticks = Field(description="when it ends, a whole number of ticks")
+
+    @model_validator(mode="after")
+    def _check_kind(self) -> Self:
+        if self.charge and (self.job is not None or self.stop is not None):
+            raise ValueError("is a charge with a job or stop (take one out)")
+        if not self.charge and (self.job is None or self.stop is None):
+            raise ValueError("has not both job and stop (give both, or charge: true)")
+        return self
+
+
+class UnservedDocument(Document):
+    """A job that no robot does."""
+
+    job: Name = Field(description="the name of the job")
+    reason: Annotated[str, UNSERVED_REASON] = Field(
+        description="robot, way, battery, latest, after or not found"
+    )
+
+
 class TrackDocument(Document):
     """Where one robot is, when. A visit's leave is the next one's enter."""
 
@@ -149,6 +181,9 @@ class TrackDocument(Document):
     vertices: list[str] = Field(min_length=1, description="names of vertices, at least one")
     enter: list[Ticks] = Field(
         min_length=1, description="for each vertex when its visit begins, whole numbers of ticks"
+    )
+    tour: list[TourItemDocument] = make_optional(
+        "a list of {visit, job, stop, begin, end} or {visit, charge, begin, end}, for jobs"
     )
 
 
@@ -174,7 +209,9 @@ class SteadyDocument(Document):
 class PlanFrame(Document):
     """The keys of a plan; their values are read one by one, so that faults add up."""
 
-    format: Literal["rightofway-plan/1"] = Field(description="rightofway-plan/1")
+    format: Literal["rightofway-plan/1", "rightofway-plan/2"] = Field(
+        description="rightofway-plan/1, or rightofway-plan/2 for a scenario with jobs"
+    )
     scenario: Any = Field(description="a scenario, its map inlined")
     tick: TickLength = Field(description="how long a tick is [time unit]")
     planner: Any = make_optional("{name, options, seed, status, seconds}")
@@ -182,6 +219,7 @@ class PlanFrame(Document):
         default={}, description="a mapping of numbers, for readers; they are not read back"
     )
     robots: Any = Field(description="for each robot {name, vertices, enter}")
+    unserved: Any = make_optional("a list of {job, reason}, for jobs")
     steady: Any = Field(default=[], description="a list of {robots, start, period, critical}")
 
 
@@ -191,6 +229,9 @@ class PlanDocument(PlanFrame):
     scenario: ScenarioDocument = Field(description="the problem, its map inlined")
     planner: PlannerDocument = make_optional("how the plan came about; unknown by default")
     robots: list[TrackDocument] = Field(description="one for each robot of the scenario")
+    unserved: list[UnservedDocument] = make_optional(
+        "a list of {job, reason}: jobs that no robot does"
+    )
     steady: list[SteadyDocument] = Field(
         default=[], description="robots whose visits repeat; only the page reads it"
     )

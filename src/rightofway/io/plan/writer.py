@@ -9,8 +9,9 @@ from typing import Any
 
 from rightofway.errors import InputError, NoPlanExists
 from rightofway.files import write_whole
-from rightofway.io.formats import PLAN_FORMAT
+from rightofway.io.formats import PLAN_FORMAT, PLAN_OF_JOBS_FORMAT
 from rightofway.io.json_text import format_json
+from rightofway.io.plan.work import dump_tours, dump_unserved
 from rightofway.io.scenario.writer import dump_scenario
 from rightofway.kinds.arguments import checks_arguments
 from rightofway.kinds.numbers import format_number
@@ -49,7 +50,7 @@ def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:
             raise InputError.at(("robots", index, "vertices"), message)
     names = [scenario.roadmap.name(vertex) for vertex in range(n_vertices)]
     document = {
-        "format": PLAN_FORMAT,
+        "format": PLAN_FORMAT if plan.tours is None else PLAN_OF_JOBS_FORMAT,
         "scenario": dump_scenario(scenario),
         "tick": format_number(scenario.problem.clock.tick),
         "planner": _planner(plan.run, scenario, seconds=seconds),
@@ -59,9 +60,13 @@ def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:
                 "name": robot.name,
                 "vertices": [names[vertex] for vertex in track.vertices.tolist()],
                 "enter": track.enter.tolist(),
+                **tour,
             }
-            for robot, track in zip(scenario.robots, plan.tracks, strict=True)
+            for robot, track, tour in zip(
+                scenario.robots, plan.tracks, dump_tours(plan), strict=True
+            )
         ],
+        **dump_unserved(plan),
     }
     if plan.steady:
         document["steady"] = [_steady(group, scenario) for group in plan.steady]

@@ -29,6 +29,7 @@ from rightofway.io.faults import Faults, list_keys, validate
 from rightofway.io.movingai import ScenRow, load_scen
 from rightofway.io.scenario.loaded_map import FleetTraits, LoadedMap
 from rightofway.io.scenario.maps import find_file_beside
+from rightofway.io.scenario.work import read_state
 from rightofway.model import Robot, Stop
 from rightofway.model.robot import ROBOT_ATTRIBUTES
 from rightofway.site import VertexId
@@ -127,17 +128,23 @@ class ListedRobot:
         for index, stop in enumerate(stops if isinstance(stops, list) else ()):
             if isinstance(stop, dict) and "at" in stop:
                 written["stops", index, "at"] = stop["at"]
+        start, charging = self.data.get("start"), self.data.get("charging")
+        if isinstance(start, dict) and "at" in start:
+            written["start", "at"] = start["at"]
+        for index, place in enumerate(charging if isinstance(charging, list) else ()):
+            written["charging", index] = place
         find: Callable[[Any], Any] = on.find if on else as_place
         places = {key: faults.attempt(key, find, place) for key, place in written.items()}
         return {key: vertex for key, vertex in places.items() if on and vertex is not None}
 
 
-def read_robot(index: int, data: Any) -> ListedRobot:
+def read_robot(index: int, data: Any, *, has_jobs: bool) -> ListedRobot:
     """Return a robot of a list; of one with faults the attributes that have none."""
     from rightofway.io.scenario.shape import RobotAttributes, RobotDocument
 
     try:
         document = validate(RobotDocument, data)
+        _check_trip(document, has_jobs=has_jobs)
     except InputError as error:
         faults, own = error.faults, dict[str, Any]()
         for attribute in ROBOT_ATTRIBUTES:
@@ -150,6 +157,18 @@ def read_robot(index: int, data: Any) -> ListedRobot:
     return ListedRobot(
         index=index, data=data, document=document, own=document.get_own_attributes(Robot)
     )
+
+
+def _check_trip(document: RobotDocument, *, has_jobs: bool) -> None:
+    """Refuse a robot without a trip; with jobs, one that has a trip."""
+    from rightofway.io.scenario.shape import OF_TRIPS
+
+    trip = [key for key in OF_TRIPS if key in document.model_fields_set]
+    if has_jobs and trip:
+        remedy = f"take it out; a fixed trip is a job with robot: {document.name}"
+        raise InputError(InputFault(key, f"is given beside jobs ({remedy})") for key in trip)
+    if not has_jobs and not trip:
+        raise InputError.at("", "has nowhere to go (give target, or stops)")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -184,7 +203,7 @@ class PlacedRobot:
     aliases: Mapping[Steps, Steps]
 
 
-def read_robots(data: Any, base: Path | None) -> ListedFleet | FleetRows:
+def read_robots(data: Any, base: Path | None, *, has_jobs: bool = False) -> ListedFleet | FleetRows:
     """Return robots with their places as written, or the rows of a file that they stand on."""
     from rightofway.io.scenario.shape import FLEETS, FleetDocument
 
@@ -192,7 +211,10 @@ def read_robots(data: Any, base: Path | None) -> ListedFleet | FleetRows:
         raise InputError.at("", f"is empty (give {FLEETS})")
     if isinstance(data, list):
         return ListedFleet(
-            robots=[read_robot(index, robot_data) for index, robot_data in enumerate(data)]
+            robots=[
+                read_robot(index, robot_data, has_jobs=has_jobs)
+                for index, robot_data in enumerate(data)
+            ]
         )
     if not isinstance(data, dict):
         raise InputError.at("", f"{quote(data)} is no fleet (give {FLEETS})")
@@ -268,8 +290,10 @@ def _place_robot(robot: ListedRobot, on: LoadedMap | None) -> PlacedRobot | None
     faults.stop(list_keys(RobotDocument))
     if document is None or on is None:
         return None
-    trip: list[tuple[Steps, Fraction | None]] = [(("target",), document.work)]
-    if document.stops is not None:
+    trip: list[tuple[Steps, Fraction | None]] = []
+    if document.target is not None:
+        trip = [(("target",), document.work)]
+    elif document.stops is not None:
         trip = [(("stops", k, "at"), stop.work) for k, stop in enumerate(document.stops)]
     stops = tuple(Stop(at=places[at], work=work or NO_WORK) for at, work in trip)
     home = places.get(("home",), HOMELESS)
@@ -278,7 +302,18 @@ def _place_robot(robot: ListedRobot, on: LoadedMap | None) -> PlacedRobot | None
         aliases["turn_rate",] = ("rules", "turn_rate")
     if document.target is not None:
         aliases["stops", 0, "at"] = (*place, "target")
-    resolved = Robot(name=document.name, home=home, stops=stops, **robot.own)
+    charging = None
+    if document.charging is not None:
+        charging = tuple(places["charging", k] for k in range(len(document.charging)))
+    resolved = Robot(
+        name=document.name,
+        home=home,
+        stops=stops,
+        start=read_state(document.start, places, home),
+        charging=charging,
+        **document.get_given("capacity", "battery"),
+        **robot.own,
+    )
     return PlacedRobot(robot=resolved, place=place, aliases=aliases)
 
 

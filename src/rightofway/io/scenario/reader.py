@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +34,7 @@ from rightofway.io.scenario.fleet import (
 from rightofway.io.scenario.loaded_map import LoadedMap, note_on_hidden_stations, note_on_rounding
 from rightofway.io.scenario.maps import map_of, map_of_file
 from rightofway.io.scenario.picture import add_picture
+from rightofway.io.scenario.work import ReadWork, read_work
 from rightofway.model import Rules, Scenario
 from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
@@ -119,7 +121,8 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
     faults.attempt("", validate, ScenarioFrame, document)
     rules = faults.read_part(document, "rules", _rules_of) or Rules()
     units = faults.read_part(document, "units", _units_of) or Units()
-    robots = faults.read_part(document, "robots", read_robots, base) or ListedFleet()
+    read_fleet = partial(read_robots, has_jobs="jobs" in document)
+    robots = faults.read_part(document, "robots", read_fleet, base) or ListedFleet()
     deals = document.get("homes") == "parking"
     loaded = faults.read_part(document, "map", loaded_map_of)
     if loaded:
@@ -129,12 +132,13 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
         faults.note(("rules", "walls"), f"'strict' is for grids and floors ({remedy})")
     placed = place_robots(robots, loaded, faults, deals=deals)
     closures = faults.read_part(document, "closures", _closures, loaded) or []
+    work = read_work(document, loaded, faults)
     scenario, notes = None, list[Fact]()
     if loaded and placed and deals:
         placed = faults.attempt("", _deal_homes, placed, loaded.roadmap, rules, notes) or ()
     if loaded and placed:
         others = {"rules": rules, "units": loaded.units, "closures": tuple(closures)}
-        scenario = _assemble(loaded.roadmap, placed, others, faults)
+        scenario = _assemble(loaded.roadmap, placed, others, faults, work)
     faults.stop(document)
     assert loaded is not None, "or there was a fault"
     assert scenario is not None, "or there was a fault"
@@ -157,7 +161,7 @@ def read_classic(path: Path, count: int | None) -> Loaded:
     placed = place_robots(fleet, loaded, faults, deals=False)
     faults.stop()
     others = {"rules": CLASSIC, "units": loaded.units, "closures": ()}
-    scenario = _assemble(loaded.roadmap, placed, others, faults)
+    scenario = _assemble(loaded.roadmap, placed, others, faults, ReadWork())
     faults.stop()
     assert scenario is not None, "or there was a fault"
     return Loaded(scenario=scenario, notes=tuple(_notes(loaded, scenario)))
@@ -189,7 +193,9 @@ def _rules_of(data: Any) -> Rules:
     if isinstance(data, str):
         remedy = "give classic, or a mapping like {headway: 1}"
         raise InputError.at("", f"{quote(data)} is no name of rules ({remedy})")
-    return Rules(**validate(RulesDocument, data).get_own_attributes(Rules))
+    document = validate(RulesDocument, data)
+    own = document.get_own_attributes(Rules) | document.get_given("objective", "late")
+    return Rules(**own)
 
 
 def _units_of(data: Any) -> Units:
@@ -235,24 +241,33 @@ def _deal_homes(
 
 
 def _assemble(
-    roadmap: Roadmap, placed: Sequence[PlacedRobot], others: dict[str, Any], faults: Faults
+    roadmap: Roadmap,
+    placed: Sequence[PlacedRobot],
+    others: dict[str, Any],
+    faults: Faults,
+    work: ReadWork,
 ) -> Scenario | None:
     """Return the scenario, or None after noting the faults that the model finds."""
     robots = tuple(placed_robot.robot for placed_robot in placed)
     try:
-        scenario = Scenario(roadmap=roadmap, robots=robots, **others)
+        return Scenario(
+            roadmap=roadmap,
+            robots=robots,
+            jobs=work.jobs,
+            batteries=work.batteries,
+            charging=work.charging,
+            **others,
+        )
     except InputError as error:
-        starts = dict[Steps, Where]()
-        for index, placed_robot in enumerate(
-            placed
-        ):  # the model numbers those robots that have no faults
+        starts = dict[Steps, Where](work.starts)
+        for index, placed_robot in enumerate(placed):  # the model numbers robots without faults
             starts["robots", index] = placed_robot.place
             starts |= {
                 ("robots", index, *steps): place for steps, place in placed_robot.aliases.items()
             }
-        faults.add(fault.relocate(starts) for fault in error.faults)
+        wrong = [fault.relocate(starts) for fault in error.faults]
+        faults.add(work.drop_followers(wrong) if faults.found else wrong)
         return None
-    return scenario
 
 
 def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[Fact]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any, Literal, Self
+from typing import Annotated, Any, Literal, Self, get_args
 
 from pydantic import ConfigDict, Field, GetJsonSchemaHandler, field_validator, model_validator
 from pydantic_core import CoreSchema
@@ -11,6 +11,7 @@ from pydantic_core import CoreSchema
 from rightofway.deadline import READING, check_work
 from rightofway.errors import quote
 from rightofway.io.fields import (
+    Amount,
     Angle,
     CellSize,
     Count,
@@ -32,8 +33,9 @@ from rightofway.io.fields import (
     finish_schema,
     make_optional,
 )
-from rightofway.kinds.table import POSITION
-from rightofway.model import Robot, Rules
+from rightofway.io.scenario.work_shape import BatteryDocument, JobDocument, StateDocument
+from rightofway.kinds.table import POSITION, make_words
+from rightofway.model import Robot, Rules, WorkObjective
 from rightofway.model.resources import circumscribe
 from rightofway.site.places import list_kinds_of_places
 from rightofway.units import LengthUnit, TimeUnit
@@ -43,6 +45,7 @@ BARRED = "a list of types of robots that may not use it"
 WORK = "work time there [time unit], 0 by default"
 
 YAxis = Literal["down", "up"]
+Objective = Annotated[str, make_words(*get_args(WorkObjective))]
 
 MAX_CELLS_ALLOWED = 10_000_000
 """The limit on cells of a floor can be raised to this."""
@@ -339,15 +342,23 @@ class RobotAttributes(Document):
     """What a robot has beside its name and its trip."""
 
 
+OF_TRIPS = ("target", "work", "stops")
+"""Keys of a robot for its trip."""
+
+OF_JOBS = ("start", "capacity", "battery", "charging")
+"""Keys of a robot in a scenario with jobs."""
+
+
 @add_attributes(Robot)
 class RobotDocument(Document):
-    """A robot and its trip: target and work, or stops."""
+    """A robot and its trip: target and work, or stops; in a scenario with jobs without a trip."""
 
     model_config = ConfigDict(
         json_schema_extra=finish_schema(
             oneOf=[
                 {"required": ["target"]},
                 {"required": ["stops"], "not": {"required": ["work"]}},
+                {"not": {"anyOf": [{"required": [key]} for key in OF_TRIPS]}},
             ]
         )
     )
@@ -360,10 +371,20 @@ class RobotDocument(Document):
     size: RobotSize = make_optional(
         "[length, width] instead of a radius: the circle around it [length unit]"
     )
+    start: StateDocument = make_optional(
+        "{at, ready, heading, soc, begun} where it begins, for jobs; at home by default"
+    )
+    capacity: Amount = make_optional(
+        "its largest load, a whole number of 0 or more, for jobs; 1 by default"
+    )
+    battery: Name = make_optional("the name of its battery, for jobs; no limit by default")
+    charging: list[Place] = make_optional(
+        "a list of places where it may charge, for jobs; all charging places by default"
+    )
 
     @model_validator(mode="after")
     def _check_one_trip(self) -> Self:
-        if self.target is None and self.stops is None:
+        if self.work is not None and self.target is None and self.stops is None:
             raise ValueError("has nowhere to go (give target, or stops)")
         if self.target is not None and self.stops is not None:
             raise ValueError("has both target and stops (give one of them)")
@@ -406,6 +427,11 @@ class RobotTableDocument(Document):
 @add_attributes(Rules)
 class RulesDocument(Document):
     """What holds for the whole fleet."""
+
+    objective: Objective = make_optional(
+        "service, flowtime, makespan or both: what plans minimize, for jobs; service by default"
+    )
+    late: NotNegative = make_optional("the cost of a time unit after due, for jobs; 10 by default")
 
 
 class ClosureDocument(Document):
@@ -455,6 +481,13 @@ class ScenarioFrame(Document):
     robots: Any = Field(description=FLEETS)
     rules: Any = make_optional("classic, or rules for the whole fleet")
     closures: Any = make_optional("a list of {at or edge, from, until, radius}")
+    batteries: Any = make_optional(
+        "for each battery its name and {drive, on, work, charge, reserve}, for jobs"
+    )
+    charging: Any = make_optional(
+        "with jobs: a list of places to charge at beside those of the map"
+    )
+    jobs: Any = make_optional("a list of {name, at or pickup and dropoff or stops, …}")
 
 
 class ScenarioDocument(ScenarioFrame):
@@ -469,3 +502,8 @@ class ScenarioDocument(ScenarioFrame):
         "classic (no turning, no way back), or rules for the whole fleet"
     )
     closures: list[ClosureDocument] = make_optional("what nobody may use for a while")
+    batteries: dict[Name, BatteryDocument] = make_optional(
+        "for each battery its name and its shares"
+    )
+    charging: list[Place] = make_optional("a list of places to charge at, with those of the map")
+    jobs: list[JobDocument] = make_optional("a list of jobs, instead of trips of robots")

@@ -12,6 +12,7 @@ from rightofway.errors import InputError
 from rightofway.files import as_path, write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.json_text import format_json
+from rightofway.io.scenario.work_writer import dump_robot_of_jobs, dump_rules_of_jobs, dump_work
 from rightofway.kinds.arguments import checks_arguments
 from rightofway.kinds.numbers import format_number
 from rightofway.model import Robot, Scenario
@@ -39,9 +40,10 @@ def dump_scenario(scenario: Scenario) -> dict[str, Any]:
         "format": SCENARIO_FORMAT,
         "map": _map(roadmap) | _spacing(scenario),
         **_units(scenario.units),
-        "robots": [_robot(robot, roadmap) for robot in scenario.robots],
-        "rules": list_plain_attributes(scenario.rules),
+        "robots": [_robot(robot, scenario) for robot in scenario.robots],
+        "rules": list_plain_attributes(scenario.rules) | dump_rules_of_jobs(scenario.rules),
         **_closures(scenario),
+        **dump_work(scenario),
     }
 
 
@@ -277,15 +279,16 @@ def _closures(scenario: Scenario) -> dict[str, Any]:
     return {"closures": lanes} if lanes else {}
 
 
-def _robot(robot: Robot, roadmap: Roadmap) -> dict[str, Any]:
+def _robot(robot: Robot, scenario: Scenario) -> dict[str, Any]:
+    roadmap = scenario.roadmap
     stops = [
         {"at": roadmap.name(stop.at), "work": format_number(stop.work)} for stop in robot.stops
     ]
-    trip = (
-        {"target": stops[0]["at"], "work": stops[0]["work"]}
-        if len(stops) == 1
-        else {"stops": stops}
-    )
+    trip: dict[str, Any] = {"stops": stops}
+    if scenario.jobs is not None:
+        trip = dump_robot_of_jobs(robot, roadmap)
+    elif len(stops) == 1:
+        trip = {"target": stops[0]["at"], "work": stops[0]["work"]}
     return {
         "name": robot.name,
         "home": roadmap.name(robot.home),

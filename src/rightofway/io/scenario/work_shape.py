@@ -1,0 +1,130 @@
+"""The shape of jobs, batteries and states in a scenario document."""
+
+from __future__ import annotations
+
+from typing import Any, Self
+
+from pydantic import ConfigDict, Field, model_validator
+
+from rightofway.io.fields import (
+    Amount,
+    Angle,
+    Count,
+    Document,
+    Name,
+    NotNegative,
+    Place,
+    Positive,
+    Share,
+    Whole,
+    finish_schema,
+    make_optional,
+)
+from rightofway.site.places import list_kinds_of_places
+
+PLACES = list_kinds_of_places(None)
+WORK = "work time there [time unit], 0 by default"
+EARLIEST = "when the work begins at the earliest [time unit]; 0 by default"
+LATEST = "when the work ends at the latest [time unit]; none by default"
+
+
+class JobStopDocument(Document):
+    """A stop of a job."""
+
+    at: Place = Field(description=f"a place: {PLACES}")
+    work: NotNegative = make_optional(WORK)
+    load: Whole = make_optional("by how much the load changes there, 0 by default")
+    earliest: NotNegative = make_optional(EARLIEST)
+    latest: NotNegative = make_optional(LATEST)
+
+
+FORMS: dict[str, tuple[str, ...]] = {
+    "at": ("at", "work"),
+    "pickup": ("pickup", "dropoff", "pickup_work", "dropoff_work", "load"),
+    "stops": ("stops",),
+}
+"""The keys of each form of a job, by the key that it has at least."""
+
+
+def _refuse_others(kind: str) -> dict[str, Any]:
+    others = {key for other, keys in FORMS.items() if other != kind for key in keys}
+    return {"anyOf": [{"required": [key]} for key in sorted(others)]}
+
+
+class JobDocument(Document):
+    """Work of one robot: a place, a pickup and a dropoff, or stops in a fixed order."""
+
+    model_config = ConfigDict(
+        json_schema_extra=finish_schema(
+            oneOf=[
+                {"required": [kind, *required], "not": _refuse_others(kind)}
+                for kind, required in (("at", ()), ("pickup", ("dropoff",)), ("stops", ()))
+            ]
+        )
+    )
+
+    name: Name = Field(description="a name of its own")
+    at: Place = make_optional(f"the place to work at: {PLACES}")
+    work: NotNegative = make_optional(WORK)
+    pickup: Place = make_optional(f"the place where a load is picked up: {PLACES}")
+    dropoff: Place = make_optional(f"the place where it is dropped off: {PLACES}")
+    pickup_work: NotNegative = make_optional("work time at the pickup [time unit], 0 by default")
+    dropoff_work: NotNegative = make_optional("work time at the dropoff [time unit], 0 by default")
+    load: Amount = make_optional("the load that is picked up, a whole number, 1 by default")
+    stops: list[JobStopDocument] = make_optional(
+        "one or more {at, work, load, earliest, latest}, in order", min_length=1
+    )
+    earliest: NotNegative = make_optional(
+        "when the work of the first stop begins at the earliest [time unit]; 0 by default"
+    )
+    latest: NotNegative = make_optional(
+        "when the work of the last stop ends at the latest [time unit]; none by default"
+    )
+    due: NotNegative = make_optional(
+        "completion after this time costs more [time unit]; none by default"
+    )
+    weight: Positive = make_optional("how much it counts compared with other jobs, above 0")
+    types: list[Name] = make_optional("a list of types of the robots that may do it")
+    robot: Name = make_optional("the name of the only robot that may do it")
+    after: list[Name] = make_optional("a list of names of jobs that end before it begins")
+
+    @model_validator(mode="after")
+    def _check_one_form(self) -> Self:
+        given, forms = self.model_fields_set, "give at, pickup and dropoff, or stops"
+        kinds = [kind for kind, keys in FORMS.items() if given.intersection(keys)]
+        if not kinds:
+            raise ValueError(f"has no place to work at ({forms})")
+        if len(kinds) > 1:
+            first, other = (next(key for key in FORMS[kind] if key in given) for kind in kinds[:2])
+            raise ValueError(f"has both {first} and {other} ({forms})")
+        for key in ("pickup", "dropoff") if kinds == ["pickup"] else kinds:
+            if key not in given:
+                raise ValueError(f"has no {key} ({forms})")
+        for key, place, which in (("earliest", 0, "first"), ("latest", -1, "last")):
+            if self.stops and key in given and key in self.stops[place].model_fields_set:
+                raise ValueError(f"has {key}, and its {which} stop, too (give one of them)")
+        return self
+
+
+class BatteryDocument(Document):
+    """How robots use and charge a battery; shares are of a full one."""
+
+    drive: NotNegative = make_optional("share for each length unit of a drive, 0 by default")
+    on: NotNegative = make_optional("share for each time unit until the robot rests, 0 by default")
+    work: NotNegative = make_optional("share for each time unit of work, 0 by default")
+    charge: NotNegative = make_optional(
+        "share gained in each time unit of a charge, net, 0 by default"
+    )
+    reserve: Share = make_optional("the least state of charge, from 0 to 1, 0 by default")
+
+
+class StateDocument(Document):
+    """Where a robot begins, and what it has done."""
+
+    at: Place = make_optional(f"the place where it begins: {PLACES}; its home by default")
+    ready: NotNegative = make_optional("until then it stays there [time unit]; 0 by default")
+    heading: Angle = make_optional("angle from the site's x axis to its y axis [degrees]")
+    soc: Share = make_optional("state of charge, from 0 to 1, 1 by default")
+    begun: dict[Name, Count] = make_optional(
+        "a mapping of jobs to the number of their stops that are done"
+    )
