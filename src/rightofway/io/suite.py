@@ -18,7 +18,7 @@ from rightofway.io.fields import (
     finish_schema,
     make_optional,
 )
-from rightofway.io.scenario.shape import RulesDocument
+from rightofway.io.scenario.shape import RuleAttributes
 from rightofway.kinds.numbers import read_exact
 from rightofway.kinds.table import SEED, Kind, make_kind
 
@@ -120,7 +120,7 @@ class MapCasesDocument(Document):
         return self
 
 
-class SuiteFleetDocument(RulesDocument):
+class SuiteFleetDocument(RuleAttributes):
     """What the robots of a fleet are like, and their rules."""
 
     name: Name = Field(description="a name of its own in results")

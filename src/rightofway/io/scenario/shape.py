@@ -425,7 +425,11 @@ class RobotTableDocument(Document):
 
 
 @add_attributes(Rules)
-class RulesDocument(Document):
+class RuleAttributes(Document):
+    """What holds for a fleet, with or without jobs."""
+
+
+class RulesDocument(RuleAttributes):
     """What holds for the whole fleet."""
 
     objective: Objective = make_optional(
