@@ -107,6 +107,7 @@ GOOD: dict[str, Callable[[], tuple[Callable[..., Any], dict[str, Any]]]] = {
     ),
     "Plan.compute_once": lambda: (plan().compute_once, {"figure": "of a test", "compute": list}),
     "Plan.to_dataframe": lambda: (plan().to_dataframe, {"library": "pandas"}),
+    "Quantities.of": lambda: (rw.Quantities.of, {"scenario": DOOR}),
     "Quantities.format_cell": lambda: (QUANTITIES.format_cell, {"ticks": 1}),
     "Quantities.format_duration": lambda: (QUANTITIES.format_duration, {"ticks": 1}),
     "Quantities.format_length": lambda: (QUANTITIES.format_length, {"value": 1}),

@@ -16,7 +16,7 @@ import pytest
 from rightofway.errors import join_names
 from rightofway.languages import LANGUAGES, VALUE, list_names, read_texts
 from rightofway.model import Objective
-from rightofway.phrases import Phrase, join_items, to_parts
+from rightofway.report.phrases import Phrase, join_items, to_parts
 from tests.builders.languages import say, translate
 from tests.builders.sources import SOURCES, parse_modules
 

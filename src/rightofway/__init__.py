@@ -81,7 +81,7 @@ if _TYPE_CHECKING:
     from rightofway.planners import (
         PlannerOptions,
     )
-    from rightofway.quantities import (
+    from rightofway.report.quantities import (
         Quantities,
     )
     from rightofway.site import (
@@ -164,7 +164,7 @@ _ROOMS = {
         "Wait",
     ),
     "planners": ("PlannerOptions",),
-    "quantities": ("Quantities",),
+    "report.quantities": ("Quantities",),
     "site": ("Roadmap",),
     "site.layout": ("Layout",),
     "solve": (

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from rightofway.languages import VALUE, choose_text, list_values, read_texts
-from rightofway.phrases import Phrase
+from rightofway.report.phrases import Phrase
 
 if TYPE_CHECKING:
     from tests.builders.browsers import Viewer

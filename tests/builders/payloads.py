@@ -18,7 +18,7 @@ import numpy as np
 import rightofway
 from rightofway.io import parse_scenario
 from rightofway.model import ExecutionTrace, Plan, PlannerRun, Status, Tick, Track
-from rightofway.quantities import Quantities
+from rightofway.report.quantities import Quantities
 from rightofway.solve import solve
 from rightofway.units import Units
 from rightofway.viz.motion import make_trips

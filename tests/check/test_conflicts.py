@@ -12,6 +12,7 @@ import pytest
 from rightofway.check import Report, check
 from rightofway.model import Plan, PlannerRun, Robot, Rules, Scenario, Stop, Track
 from rightofway.report.judgement import write_fault
+from rightofway.report.quantities import Quantities
 from rightofway.site import Edge, VertexId, make_roadmap
 from rightofway.units import Units
 from tests.builders.fleets import grid_fleet
@@ -320,7 +321,7 @@ def test_faults_are_in_the_units_of_the_scenario_or_in_ticks_on_request() -> Non
     plan = Plan(scenario=scenario, tracks=tracks, run=PlannerRun())
     fault = check(plan).faults[0]
     assert str(fault).startswith("1 s: vertex conflict: R1 books N1 from 0.5 s to 1.5 s and R2")
-    ticks = replace(scenario.quantities, in_ticks=True)
+    ticks = replace(Quantities.of(scenario), in_ticks=True)
     assert write_fault(fault, ticks).startswith(
         "tick 2: vertex conflict: R1 books N1 from tick 1 to 3 and R2"
     )

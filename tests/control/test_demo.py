@@ -27,6 +27,7 @@ from rightofway.facts import Fact
 from rightofway.io import parse_scenario
 from rightofway.model import Tick
 from rightofway.report.driving import report_drive
+from rightofway.report.quantities import Quantities
 from tests.builders.chaos import chaotic_plan, laps_plan
 from tests.builders.plans import door, door_shifted
 from tests.builders.schemas import validator
@@ -158,7 +159,7 @@ def test_laps_with_work_at_several_stops_are_driven_to_their_end(planner: str) -
 
 def test_the_report_names_jobs_and_messages() -> None:
     result, _ = story_of()
-    assert report_drive(result, result.plan.scenario.quantities).splitlines() == [
+    assert report_drive(result, Quantities.of(result.plan.scenario)).splitlines() == [
         "jobs      2 done",
         "makespan  12 time units; planned 10 time units",
         "messages  12 orders, 2 instant actions, 50 states",
@@ -179,7 +180,7 @@ def test_laps_are_driven_until_each_robot_has_made_as_many_as_wanted() -> None:
     assert result.as_dict()["ticks"] == result.now
     assert [robot["laps"] for robot in result.as_dict()["robots"]] == list(result.laps)
     assert 19 * 14 < result.now <= 21 * 14
-    lines = report_drive(result, plan.scenario.quantities).splitlines()
+    lines = report_drive(result, Quantities.of(plan.scenario)).splitlines()
     assert lines[1] == f"laps      {sum(result.laps)} in {result.now} time units"
     assert lines[5].split() == ["robot", "jobs", "waits", "laps", "mean", "lap"]
 

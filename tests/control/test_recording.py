@@ -17,8 +17,8 @@ from rightofway.control.recording import Recording
 from rightofway.errors import InputError
 from rightofway.facts import Fact, read_fact
 from rightofway.model import Plan
-from rightofway.phrases import to_parts
 from rightofway.report.facts import FactWriter
+from rightofway.report.phrases import to_parts
 from tests.builders.languages import say
 from tests.builders.pages import ROOT
 from tests.builders.plans import door

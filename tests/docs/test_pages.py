@@ -160,7 +160,7 @@ def test_the_page_on_architecture_names_every_room_and_kind_of_test() -> None:
 
 def test_every_room_but_commands_and_studio_has_a_page_on_its_python() -> None:
     pages = {path.stem for path in (DOCS / "api").iterdir()} - {"index"}
-    assert pages == {*rooms(), "errors", "facts", "quantities", "solve", "units"} - {
+    assert pages == {*rooms(), "errors", "facts", "solve", "units"} - {
         "cli",
         "studio",
     }

@@ -22,6 +22,7 @@ from rightofway.io.workbook import format_workbook, write_template
 from rightofway.io.workbook.sheets import read_sheets
 from rightofway.io.workbook.writer import TEMPLATE
 from rightofway.model import Rules
+from rightofway.report.quantities import Quantities
 from tests.builders.sentences import tell_notes
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -197,7 +198,7 @@ def test_rules_hold_rules_units_and_what_belongs_to_the_map(tmp_path: Path) -> N
     )  # fmt: skip
     scenario = rightofway.load(path)
     assert (scenario.rules.occupancy, scenario.rules.rotations) == ("both", False)
-    assert scenario.quantities.format_heading("time") == "time [s]"
+    assert Quantities.of(scenario).format_heading("time") == "time [s]"
     assert scenario.roadmap.grid is not None
     assert scenario.roadmap.grid.cell_size == 2
 

@@ -17,6 +17,7 @@ from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Plan, PlannerRun, Scenario, Track
 from rightofway.precedence import build_graph
 from rightofway.repair.routing import find_shortest_routes
+from rightofway.report.quantities import Quantities
 from rightofway.search import Distances
 from rightofway.site.geometry import find_fractions
 from tests.builders.any_fleet import LAPS_REFUSE, any_fleet
@@ -87,7 +88,7 @@ def test_robots_that_come_too_close_come_as_close_as_the_oracle_finds(fleet: Sce
     found = [fault for fault in rightofway.check(plan).faults if fault.kind == "too close"]
     assert {fault.robots for fault in found} == set(met)
     for robots, square in met.items():
-        within = f"come within {fleet.quantities.format_length(sqrt(square))} ("
+        within = f"come within {Quantities.of(fleet).format_length(sqrt(square))} ("
         assert any(fault.robots == robots and within in fault.message for fault in found)
 
 

@@ -15,6 +15,7 @@ from rightofway.metrics import find_forced_losses, find_forced_makespan
 from rightofway.model import ForcedLoss, Objective, Outcome, OutcomeKind, Plan, Scenario, Tick
 from rightofway.report.plan import summarize_plan
 from rightofway.report.plan_data import make_summary_data
+from rightofway.report.quantities import Quantities
 from rightofway.site import VertexId
 from tests.builders.fleets import grid_fleet
 
@@ -22,7 +23,7 @@ DOOR = grid_fleet(["...", "@.@", "..."], [("N0", "N6"), ("N2", "N8")])
 
 
 def lines_of(plan: Plan) -> list[str]:
-    return summarize_plan(plan, plan.scenario.quantities).splitlines()
+    return summarize_plan(plan, Quantities.of(plan.scenario)).splitlines()
 
 
 def alley() -> Scenario:

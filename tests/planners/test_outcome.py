@@ -17,8 +17,9 @@ from rightofway.io.plan.writer import dump_plan
 from rightofway.metrics import derive_outcome
 from rightofway.model import Objective, Proof, Scenario, Tick
 from rightofway.model.outcome import classify_cost
-from rightofway.phrases import to_parts
+from rightofway.report.phrases import to_parts
 from rightofway.report.plan import describe_planning
+from rightofway.report.quantities import Quantities
 from rightofway.report.sentences import describe_proof
 from rightofway.viz.page.payload import make_payload
 from tests.builders.fleets import grid_fleet
@@ -82,7 +83,7 @@ def test_without_a_claim_a_plan_above_the_bound_is_the_best_found() -> None:
 def test_a_planner_may_prove_more_than_the_sum_alone() -> None:
     plan = solve(crossing(), "claimant", bound=5)
     assert plan.run.outcome == Outcome(kind=OutcomeKind.OPTIMAL, bound=Tick(5))
-    said = describe_planning(plan, plan.scenario.quantities)
+    said = describe_planning(plan, Quantities.of(plan.scenario))
     assert "optimal, no plan has a smaller flowtime" in said
 
 
@@ -97,7 +98,7 @@ def test_a_factor_holds_only_where_the_bound_proves_it(factor: str, kind: Outcom
     assert outcome.kind is kind
     assert plan.run.options == {"bound": 4, "factor": factor}
     is_said = "at most 5/4 times the least flowtime" in describe_planning(
-        plan, plan.scenario.quantities
+        plan, Quantities.of(plan.scenario)
     )
     assert is_said == (kind is OutcomeKind.BOUNDED)
     page = make_payload(plan)["planner"].get("proven", "")

@@ -11,6 +11,7 @@ import rightofway
 from rightofway import FleetBuilder, InputError, Objective, Plan
 from rightofway.model import Robot, Rules, Scenario, Stop
 from rightofway.report.plan import summarize_plan
+from rightofway.report.quantities import Quantities
 from rightofway.site import VertexId, make_grid_roadmap
 
 
@@ -34,7 +35,7 @@ SLOW = fleet([3, 0, 4], [0, 2, 1], ["1", "1/3", "1"], [0, 1, 2])
 
 
 def _report(plan: Plan) -> str:
-    return " ".join(summarize_plan(plan, plan.scenario.quantities).split())
+    return " ".join(summarize_plan(plan, Quantities.of(plan.scenario)).split())
 
 
 def test_the_robot_level_of_two_level_reads_the_objective() -> None:

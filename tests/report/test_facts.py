@@ -11,9 +11,9 @@ from rightofway.check import check
 from rightofway.facts import Fact, read_fact
 from rightofway.languages import VALUE, read_texts
 from rightofway.model import RerouteReason, Status
-from rightofway.phrases import to_parts
 from rightofway.report.facts import FactWriter
 from rightofway.report.judgement import describe_fault, write_fault
+from rightofway.report.phrases import to_parts
 from tests.builders.fleets import grid_fleet
 from tests.builders.plans import door_shifted
 

@@ -9,10 +9,11 @@ from rightofway.facts import Fact
 from rightofway.io import load_with_notes
 from rightofway.io.layouts.draft import LayoutDraft
 from rightofway.io.layouts.formats import describe_layout
-from rightofway.phrases import say_count
 from rightofway.report.facts import write_note, write_notes
 from rightofway.report.lines import COLUMNS, Facts, Table, lay_out
+from rightofway.report.phrases import say_count
 from rightofway.report.plan import report_decisions, summarize_plan
+from rightofway.report.quantities import Quantities
 from rightofway.site.layout import LayoutVertex
 from tests.builders.languages import translate
 from tests.cli.conftest import EXAMPLES
@@ -21,8 +22,8 @@ from tests.cli.conftest import EXAMPLES
 def test_no_line_of_a_report_is_longer_than_80_columns() -> None:
     plan = solve(load(EXAMPLES / "warehouse.yaml"), "two-level")
     for text in (
-        summarize_plan(plan, plan.scenario.quantities),
-        report_decisions(plan, plan.scenario.quantities),
+        summarize_plan(plan, Quantities.of(plan.scenario)),
+        report_decisions(plan, Quantities.of(plan.scenario)),
     ):
         assert max(map(len, text.splitlines())) <= COLUMNS
 

@@ -9,6 +9,7 @@ from fractions import Fraction
 from rightofway.model import Improvement, Plan, PlannerRun, Reroute, Rules, Tick, Track
 from rightofway.model.kept_facts import RerouteReason
 from rightofway.report.plan import describe_planning, report_decisions, summarize_plan
+from rightofway.report.quantities import Quantities
 from rightofway.units import Units
 from tests.builders.fleets import grid_fleet
 from tests.builders.plans import counter, door
@@ -22,7 +23,7 @@ def in_seconds(plan: Plan) -> Plan:
 
 
 def report(plan: Plan) -> list[str]:
-    text = summarize_plan(plan, plan.scenario.quantities)
+    text = summarize_plan(plan, Quantities.of(plan.scenario))
     assert max(map(len, text.splitlines())) <= 80
     return text.splitlines()
 
@@ -54,7 +55,9 @@ def test_times_are_in_the_units_of_the_scenario() -> None:
 
 def test_after_the_time_limit_only_costs_are_reported() -> None:
     plan = in_seconds(door())
-    assert summarize_plan(plan, plan.scenario.quantities, with_lost_time=False).splitlines() == [
+    assert summarize_plan(
+        plan, Quantities.of(plan.scenario), with_lost_time=False
+    ).splitlines() == [
         "planner    two-level",
         "flowtime   19 s, 5.6% above the lower bound of 18 s",
         "makespan   10 s",
@@ -64,7 +67,7 @@ def test_after_the_time_limit_only_costs_are_reported() -> None:
 
 def test_on_request_times_are_in_ticks_and_the_length_of_a_tick_is_given() -> None:
     plan = in_seconds(door())
-    lines = summarize_plan(plan, replace(plan.scenario.quantities, in_ticks=True)).splitlines()
+    lines = summarize_plan(plan, replace(Quantities.of(plan.scenario), in_ticks=True)).splitlines()
     assert lines[3:5] == ["lost time  1 tick: waiting 1 tick", "tick       1 s"]
     assert lines[6] == "times of each robot [ticks]"
     assert lines[-1] == "At tick 0, R1 waits 1 tick in N0 for R2 to leave N1."
@@ -141,7 +144,7 @@ def test_a_robot_that_waits_far_from_its_home_because_that_is_on_the_way_of_anot
 
 
 def test_a_tie_is_called_a_tie() -> None:
-    words = " ".join(report_decisions(door(), door().scenario.quantities).split())
+    words = " ".join(report_decisions(door(), Quantities.of(door().scenario)).split())
     assert "the completion times add up to the same. Then R1 waits by rule." in words
     figures = "19 time units if R1 waits, 19 time units if R2 waits."
     assert f"Sum of completion times: {figures}" in words
@@ -150,14 +153,16 @@ def test_a_tie_is_called_a_tie() -> None:
 def test_a_log_tells_no_decisions_from_no_meetings() -> None:
     plan = door()
     searched = replace(plan, run=replace(plan.run, decisions=()))
-    words = " ".join(report_decisions(searched, plan.scenario.quantities).split())
+    words = " ".join(report_decisions(searched, Quantities.of(plan.scenario)).split())
     assert words == (
         "The search that found this plan records no decisions, so no wait has a reason here"
         " (`--planner two-level` plans with a reason for each decision;"
         " `rightofway table PLAN --events` lists each wait and the robot waited for)."
     )
     apart = make_plan(["...", "..."], ([0, 1], [0, 1]), ([3, 4], [0, 1]))
-    assert report_decisions(apart, apart.scenario.quantities).startswith("No decision was needed")
+    assert report_decisions(apart, Quantities.of(apart.scenario)).startswith(
+        "No decision was needed"
+    )
 
 
 def test_what_a_planner_did_needs_no_knowledge_of_its_method() -> None:
@@ -165,7 +170,7 @@ def test_what_a_planner_did_needs_no_knowledge_of_its_method() -> None:
 
     def words(**run: object) -> str:
         changed = replace(plan.run, **run)  # type: ignore[arg-type]
-        return describe_planning(replace(plan, run=changed), plan.scenario.quantities)
+        return describe_planning(replace(plan, run=changed), Quantities.of(plan.scenario))
 
     assert words(seconds=0.4213) == "two-level, planned in 0.42 s"
     assert words(improvement=Improvement(saved=Tick(0), tries=2000)) == (

@@ -7,7 +7,8 @@ from dataclasses import replace
 import pytest
 
 from rightofway.model import Decision, Plan, Tick
-from rightofway.phrases import PhraseBook
+from rightofway.report.phrases import PhraseBook
+from rightofway.report.quantities import Quantities
 from rightofway.report.sentences import (
     Words,
     describe_decision,
@@ -38,7 +39,7 @@ DECISION = Decision(
 def words() -> Words:
     plan: Plan = door()
     plan = replace(plan, scenario=replace(plan.scenario, units=Units(time="s")))
-    return Words(plan=plan, quantities=plan.scenario.quantities)
+    return Words(plan=plan, quantities=Quantities.of(plan.scenario))
 
 
 def test_a_decision_is_explained_with_the_figures_of_both_choices(words: Words) -> None:

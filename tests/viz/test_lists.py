@@ -14,6 +14,7 @@ from rightofway.errors import InputError
 from rightofway.metrics import NamedCollision, free_running, name_collisions
 from rightofway.model import Plan, Tick, compute_completions
 from rightofway.repair.routing import free_running_tracks
+from rightofway.report.quantities import Quantities
 from rightofway.units import Units
 from rightofway.viz.table import (
     ListColumn,
@@ -83,7 +84,7 @@ def test_the_paper_lists_a_collision_for_each_tick() -> None:
         NamedCollision("R1", "R3", Tick(5), None, ("N4",), "collision"),
         NamedCollision("R2", "R3", Tick(5), Tick(5), ("N1", "N4"), "swap"),
     ]
-    quantities = paper_scenario(CASES["door-1"]).quantities
+    quantities = Quantities.of(paper_scenario(CASES["door-1"]))
     assert list(tabulate_collision_ticks(found, quantities, Tick(6)).list_rows()) == [
         ("R1", "R2", 3, "N7", "collision"),
         ("R1", "R2", 4, "N7", "collision"),
@@ -106,7 +107,9 @@ def test_conflicts_before_the_first_decision_are_counted_tick_by_tick(case: dict
     plan = published(case["name"])
     scenario, tracks = plan.scenario, free_running_tracks(plan.scenario)
     end = max(compute_completions(scenario, tracks))
-    listed = tabulate_collision_ticks(name_collisions(scenario, tracks), scenario.quantities, end)
+    listed = tabulate_collision_ticks(
+        name_collisions(scenario, tracks), Quantities.of(scenario), end
+    )
     assert count_conflicts_before(plan)[0] == [row[4] for row in listed.list_rows()].count(
         "collision"
     )
@@ -125,7 +128,7 @@ def test_a_list_of_too_many_ticks_is_refused() -> None:
     with pytest.raises(
         InputError, match=r"--each-tick: the collisions last 1000000000 ticks, more"
     ):
-        tabulate_collision_ticks(found, in_seconds().scenario.quantities, Tick(6))
+        tabulate_collision_ticks(found, Quantities.of(in_seconds().scenario), Tick(6))
 
 
 def test_each_decision_goes_on_from_what_the_one_before_has_left() -> None:
@@ -138,7 +141,7 @@ def test_a_long_list_is_cut_and_says_so() -> None:
     made = Listing(
         title="numbers",
         columns=(ListColumn(heading="n", values=range(5), kind="number"),),
-        quantities=in_seconds().scenario.quantities,
+        quantities=Quantities.of(in_seconds().scenario),
     )
     assert made.as_text(3).splitlines() == [
         "n", "0", "1", "2", "… and 2 more rows (-o FILE.txt or -o FILE.csv writes all)",

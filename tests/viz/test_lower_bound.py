@@ -13,6 +13,7 @@ from rightofway.metrics import compare, measure
 from rightofway.model import Objective, Outcome, OutcomeKind, Tick
 from rightofway.report.plan import summarize_plan
 from rightofway.report.plan_data import make_summary_data
+from rightofway.report.quantities import Quantities
 from rightofway.studio.tasks.documents import compute_figures
 from rightofway.viz.page.payload import make_payload
 from rightofway.viz.table.result import make_result
@@ -37,7 +38,7 @@ def test_a_bound_that_is_proven_is_shown_rather_than_the_sum_of_robots_alone(
     assert make_payload(plan)["metrics"]["lowerBound"] == 46
     assert compute_figures(plan)["lower_bound"] == 46
     assert compare([plan, plan]).as_dict()["plans"][0]["lower_bound"] == 46
-    summary = " ".join(str(summarize_plan(plan, plan.scenario.quantities)).split())
+    summary = " ".join(str(summarize_plan(plan, Quantities.of(plan.scenario))).split())
     assert "47 time units, 2.2% above the lower bound of 46 time units" in summary
 
 

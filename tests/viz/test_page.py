@@ -13,7 +13,7 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.model import Tick
-from rightofway.model.place_names import PlaceNames
+from rightofway.report.place_names import PlaceNames
 from rightofway.units import Units
 from rightofway.viz import make_frame, make_page, make_payload, make_png, write_page
 from rightofway.viz.page.schema import Payload

@@ -19,12 +19,12 @@ from rightofway.cli.options import (
 from rightofway.cli.tables import describe_clock, put_lists
 from rightofway.cli.terminal import choose_deadline, put_json, show_progress
 from rightofway.errors import InputError
-from rightofway.phrases import say_count
+from rightofway.report.phrases import say_count
 
 if TYPE_CHECKING:
     from rightofway.metrics import NamedCollision, NamedCollisions
     from rightofway.model import Plan
-    from rightofway.quantities import Quantities
+    from rightofway.report.quantities import Quantities
     from rightofway.viz.table import Listing
 
 EXAMPLES = """\b

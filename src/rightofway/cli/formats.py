@@ -11,7 +11,7 @@ import click
 
 from rightofway.cli.completion import PLANS, SCENARIOS, complete_files, complete_words
 from rightofway.cli.inputs import add_foreign_options, count_option, read_either
-from rightofway.cli.options import ListingCommand, require_writable
+from rightofway.cli.options import ListingCommand, choose_quantities, require_writable
 from rightofway.cli.outputs import put_text, write
 from rightofway.cli.terminal import put_json, say, say_of, say_written
 from rightofway.errors import InputError, find_nearest
@@ -225,7 +225,7 @@ def _write_plan(plan: Plan, path: str, name: str | None) -> None:
                 "work, turning and ways back are left out, only cells and steps are kept",
             )
         if plan.scenario.problem.clock.tick != 1:
-            step = plan.scenario.quantities.format_duration(1)
+            step = choose_quantities(plan.scenario).format_duration(1)
             say_of(path, f"a step lasts {step}")
     elif path == "-" or path.lower().endswith((".json", ".xlsx")):
         write(plan, path)

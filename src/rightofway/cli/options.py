@@ -14,7 +14,7 @@ import click
 
 if TYPE_CHECKING:
     from rightofway.model import Scenario
-    from rightofway.quantities import Quantities
+    from rightofway.report.quantities import Quantities
 
     NumberType = click.ParamType[Fraction]
 else:
@@ -152,9 +152,11 @@ ticks_option = click.option(
 )
 
 
-def choose_quantities(scenario: Scenario, *, in_ticks: bool) -> Quantities:
+def choose_quantities(scenario: Scenario, *, in_ticks: bool = False) -> Quantities:
     """Return how a report writes times: in the scenario's units, or in ticks on request."""
-    return replace(scenario.quantities, in_ticks=in_ticks)
+    from rightofway.report.quantities import Quantities
+
+    return replace(Quantities.of(scenario), in_ticks=in_ticks)
 
 
 def as_json_option(content: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:

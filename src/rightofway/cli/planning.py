@@ -49,7 +49,7 @@ from rightofway.planners import DEFAULT_PLANNER, IMPROVER, Feature, PlannerSpec,
 if TYPE_CHECKING:
     from rightofway.deadline import Deadline
     from rightofway.model import ForcedLoss, Plan, Scenario
-    from rightofway.quantities import Quantities
+    from rightofway.report.quantities import Quantities
 
 SECONDS_PER_VISIT = 2.2e-6
 """The time to judge a plan, to write it and to report on it, for each visit that it has at least.

@@ -24,11 +24,11 @@ from rightofway.cli.options import (
 from rightofway.cli.terminal import measure_width, put_json, say_written
 from rightofway.errors import InputError
 from rightofway.kinds.numbers import format_number
-from rightofway.model.place_names import PlaceNames
+from rightofway.report.place_names import PlaceNames
 
 if TYPE_CHECKING:
     from rightofway.model import Plan
-    from rightofway.quantities import Quantities
+    from rightofway.report.quantities import Quantities
     from rightofway.viz.table import Listing, TimeSpaceTable
 
 
@@ -77,7 +77,7 @@ def _shown(
     step: Fraction | None,
     in_ticks: bool,
 ) -> _Shown:
-    from rightofway.quantities import format_decimal
+    from rightofway.report.quantities import format_decimal
     from rightofway.viz.table import end_of
 
     if step == 0:

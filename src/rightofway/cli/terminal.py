@@ -118,7 +118,7 @@ def show_progress(
         return
     began = time.monotonic() if since is None else since
     latest, ended = [""], threading.Event()
-    from rightofway.quantities import format_decimal
+    from rightofway.report.quantities import format_decimal
 
     def show(message: Fact | str) -> None:
         latest[0] = str(message)

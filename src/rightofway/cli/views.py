@@ -40,7 +40,7 @@ from rightofway.errors import InputError
 if TYPE_CHECKING:
     from rightofway.check import Report
     from rightofway.model import Plan
-    from rightofway.quantities import Quantities
+    from rightofway.report.quantities import Quantities
     from rightofway.viz import Background
 
 LAYOUTS_WITH_PICTURES = (".yaml", ".yml")
@@ -187,7 +187,7 @@ def show(
     if isinstance(opened, Scenario):
         with show_progress(LIMIT) as report:
             opened = solve(opened, time_limit=LIMIT, report=report)
-        text = describe_planning(opened, opened.scenario.quantities)
+        text = describe_planning(opened, choose_quantities(opened.scenario))
         say(f"{plan}: {text}")
     first, *titles = _titles([plan, *others])
     extras: dict[str, Any] = {
@@ -270,7 +270,7 @@ def _write(plan: Plan, path: str, extras: dict[str, Any]) -> None:
 
     if path.lower().endswith(".gif"):
         film = write_gif(plan, path)
-        apart = plan.scenario.quantities.format_duration(film.ticks_per_frame)
+        apart = choose_quantities(plan.scenario).format_duration(film.ticks_per_frame)
         say(f"{film.frames} frames, {apart} apart")
         say_written(path)
     else:

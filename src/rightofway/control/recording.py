@@ -20,8 +20,8 @@ from rightofway.control.story import Story
 from rightofway.errors import InputError, quote
 from rightofway.facts import Fact, read_fact
 from rightofway.model import Plan
-from rightofway.phrases import to_parts
 from rightofway.report.facts import FactWriter
+from rightofway.report.phrases import to_parts
 from rightofway.viz.page.schema import DrivenFrame, DrivenRow, SaysRow
 
 __all__ = ["Recording", "RowSource"]

@@ -17,7 +17,6 @@ from rightofway.model.robot import Robot, Rules, Turn
 from rightofway.model.units import Clock
 from rightofway.model.work import BATTERIES, Battery, Job, Tour
 from rightofway.model.work_faults import find_work_faults
-from rightofway.quantities import Quantities
 from rightofway.site import Roadmap, VertexId
 from rightofway.site.walls import clear_of_walls, reaches_walls
 from rightofway.units import Units, write_decimal
@@ -113,11 +112,6 @@ class Scenario:
     def _repr_html_(self) -> str:
         """Return the map and the robots, for notebooks."""
         return get_figures().draw_scenario_html(self)
-
-    @property
-    def quantities(self) -> Quantities:
-        """How times, lengths and speeds of this scenario are written for people."""
-        return Quantities(units=self.units, tick=self.problem.clock.tick)
 
 
 def assign_tours(scenario: Scenario, tours: Sequence[Tour]) -> Scenario:

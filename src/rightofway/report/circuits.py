@@ -9,8 +9,9 @@ from typing import Literal
 
 from rightofway.cyclic import Piece
 from rightofway.model import Scenario, Tick
-from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase, chain_items, join_items
+from rightofway.report.phrases import Phrase, chain_items, join_items
+from rightofway.report.place_names import PlaceNames
+from rightofway.report.quantities import Quantities
 from rightofway.site import VertexId
 
 MAX_STEPS = 12
@@ -131,7 +132,7 @@ def summarize_circuit(pieces: Sequence[Piece], scenario: Scenario, period: Tick)
     """Return which robots set the pace, and the period."""
     robots = list(dict.fromkeys(piece.robot for piece in pieces))
     names = [scenario.robots[robot].name for robot in robots]
-    time = scenario.quantities.format_duration(period)
+    time = Quantities.of(scenario).format_duration(period)
     if len(names) == 1:
         return Phrase(
             "bottleneck of one robot",

@@ -8,9 +8,9 @@ from rightofway.facts import Fact
 from rightofway.metrics.changes import Change
 from rightofway.metrics.comparison import Comparison
 from rightofway.model import Plan
-from rightofway.phrases import join_items, to_parts
-from rightofway.quantities import format_decimal
 from rightofway.report.facts import FactWriter
+from rightofway.report.phrases import join_items, to_parts
+from rightofway.report.quantities import Quantities, format_decimal
 
 COSTS = ("flowtime", "makespan", "lower_bound", "alone")
 """Figures in ticks."""
@@ -30,7 +30,7 @@ def export_comparison(comparison: Comparison) -> dict[str, Any]:
 
 
 def _write_figures(figures: dict[str, Any], plan: Plan, scale: int) -> dict[str, str]:
-    duration, seconds = plan.scenario.quantities.format_duration, plan.run.seconds
+    duration, seconds = Quantities.of(plan.scenario).format_duration, plan.run.seconds
     gap = figures["gap"]
     return {
         **{key: duration(figures[key] // scale) for key in COSTS},

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from rightofway.execution.drive_result import DriveResult
-from rightofway.phrases import chain_items, say_count
-from rightofway.quantities import Quantities
 from rightofway.report.lines import Facts, Part, Table, lay_out
+from rightofway.report.phrases import chain_items, say_count
+from rightofway.report.quantities import Quantities
 
 __all__ = ["report_drive"]
 

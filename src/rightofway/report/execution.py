@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from rightofway.execution import PolicyGain, Quantiles, SimulationResult
-from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import chain_items, say_count
-from rightofway.quantities import Quantities, format_decimal
 from rightofway.report.lines import Facts, Part, Table, choose_further_format, lay_out, shorten_name
+from rightofway.report.phrases import chain_items, say_count
+from rightofway.report.place_names import PlaceNames
+from rightofway.report.quantities import Quantities, format_decimal
 
 MAX_ROBOTS = 20
 """Robots in the report; --json has them all."""

@@ -19,9 +19,16 @@ from rightofway.errors import Blockage
 from rightofway.facts import Fact
 from rightofway.languages import VALUE, find_text
 from rightofway.model import Scenario
-from rightofway.model.place_names import PlaceNames, describe_middle
-from rightofway.phrases import Phrase, chain_items, join_first, join_items, mark_figure, to_parts
-from rightofway.quantities import Quantities, format_decimal
+from rightofway.report.phrases import (
+    Phrase,
+    chain_items,
+    join_first,
+    join_items,
+    mark_figure,
+    to_parts,
+)
+from rightofway.report.place_names import PlaceNames, describe_middle
+from rightofway.report.quantities import Quantities, format_decimal
 from rightofway.units import Units
 
 if TYPE_CHECKING:
@@ -138,7 +145,7 @@ class FactWriter:
         if self._quantities is not None:
             return self._quantities
         if isinstance(self._about, Scenario):
-            return self._about.quantities
+            return Quantities.of(self._about)
         units = self._about or Units()
         if not isinstance(units, Units):
             units = units.units

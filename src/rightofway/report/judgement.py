@@ -7,9 +7,9 @@ from typing import Any
 
 from rightofway.check import Fault, Report
 from rightofway.facts import Fact
-from rightofway.phrases import Phrase, chain_items
-from rightofway.quantities import Quantities
 from rightofway.report.facts import FactWriter
+from rightofway.report.phrases import Phrase, chain_items
+from rightofway.report.quantities import Quantities
 
 Values = Mapping[str, Any]
 

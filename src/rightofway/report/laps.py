@@ -19,9 +19,6 @@ from rightofway.cyclic import (
     compute_parameter_effects,
 )
 from rightofway.model import Scenario, Tick
-from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import chain_items, say_count
-from rightofway.quantities import Quantities, format_decimal
 from rightofway.report.circuits import describe_circuit
 from rightofway.report.laps_data import (
     HOUR,
@@ -33,6 +30,9 @@ from rightofway.report.laps_data import (
     write_reason,
 )
 from rightofway.report.lines import Facts, Paragraph, Part, Table, choose_further_format, lay_out
+from rightofway.report.phrases import chain_items, say_count
+from rightofway.report.place_names import PlaceNames
+from rightofway.report.quantities import Quantities, format_decimal
 
 MAX_GROUPS = 3
 """Groups in the report; --json has them all."""

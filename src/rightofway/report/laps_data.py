@@ -19,11 +19,11 @@ from rightofway.cyclic import (
 from rightofway.errors import GaveUp
 from rightofway.kinds.numbers import format_number
 from rightofway.model import Scenario
-from rightofway.phrases import Phrase
-from rightofway.quantities import Quantities
 from rightofway.report.circuits import list_circuit_steps
 from rightofway.report.facts import FactWriter
+from rightofway.report.phrases import Phrase
 from rightofway.report.plan_data import describe_measures
+from rightofway.report.quantities import Quantities
 
 HOUR = 3600
 """Seconds in an hour; where the time unit is not known, laps are counted in as many time units."""

@@ -7,7 +7,7 @@ import textwrap
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from rightofway.quantities import Quantities
+from rightofway.report.quantities import Quantities
 from rightofway.units import Value
 
 COLUMNS = 80

@@ -17,9 +17,6 @@ from rightofway.metrics import (
     measure,
 )
 from rightofway.model import ForcedLoss, Loss, LostTime, Plan, Proof, Scenario
-from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase, chain_items, join_items, say_count
-from rightofway.quantities import Quantities, format_decimal
 from rightofway.report.facts import FactWriter
 from rightofway.report.judgement import list_report_sentences
 from rightofway.report.lines import (
@@ -31,6 +28,9 @@ from rightofway.report.lines import (
     choose_further_format,
     lay_out,
 )
+from rightofway.report.phrases import Phrase, chain_items, join_items, say_count
+from rightofway.report.place_names import PlaceNames
+from rightofway.report.quantities import Quantities, format_decimal
 from rightofway.report.sentences import (
     Words,
     describe_decision,

@@ -23,9 +23,9 @@ from rightofway.model import (
     Plan,
     Scenario,
 )
-from rightofway.model.place_names import PlaceNames
-from rightofway.phrases import Phrase, chain_items, join_items, mark_figure
-from rightofway.quantities import Quantities
+from rightofway.report.phrases import Phrase, chain_items, join_items, mark_figure
+from rightofway.report.place_names import PlaceNames
+from rightofway.report.quantities import Quantities
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -430,7 +430,7 @@ def explain_decision(words: Words, decision: Decision) -> str:
 
 def describe_closure(closure: Closure, scenario: Scenario) -> Phrase:
     """Return the closed places, and when they are closed."""
-    moment, place = scenario.quantities.format_moment, PlaceNames(scenario, numbered=True)
+    moment, place = Quantities.of(scenario).format_moment, PlaceNames(scenario, numbered=True)
     vertices, (begin, end) = (
         list_closed_vertices(closure, scenario),
         read_closed_ticks(closure, scenario),

@@ -15,8 +15,8 @@ from typing import Any
 
 from rightofway.errors import GaveUp, InputError, InputFault, NoPlanExists, describe_defect
 from rightofway.facts import Fact
-from rightofway.phrases import to_parts
 from rightofway.report.facts import write_blockage, write_note
+from rightofway.report.phrases import to_parts
 
 LENGTH = struct.Struct(">Q")
 """How the length of a message is written."""

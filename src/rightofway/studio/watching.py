@@ -20,8 +20,8 @@ from rightofway.control.recording import Recording
 from rightofway.errors import InputError
 from rightofway.facts import Fact, read_fact
 from rightofway.model import Plan
-from rightofway.phrases import to_parts
 from rightofway.report.facts import FactWriter
+from rightofway.report.phrases import to_parts
 from rightofway.studio.errors import Busy, Refused
 from rightofway.viz.page.document import as_compact_json, make_document
 from rightofway.viz.page.payload import make_payload

@@ -9,7 +9,8 @@ from itertools import groupby
 import numpy as np
 
 from rightofway.model import Robot, Scenario
-from rightofway.model.place_names import PlaceNames
+from rightofway.report.place_names import PlaceNames
+from rightofway.report.quantities import Quantities
 from rightofway.viz.palette import LIGHT, choose_colours
 from rightofway.viz.placement import Plane, lay_out_roadmap
 
@@ -49,7 +50,7 @@ def make_scenario_html(scenario: Scenario) -> str:
 
 
 def _write_row(scenario: Scenario, robot: Robot) -> str:
-    place, quantities = PlaceNames(scenario).describe_place, scenario.quantities
+    place, quantities = PlaceNames(scenario).describe_place, Quantities.of(scenario)
     stops = []
     for stop in robot.stops:
         ticks = stop.work / quantities.tick

@@ -16,8 +16,8 @@ from rightofway.errors import InputError
 from rightofway.facts import Fact, note_pieces
 from rightofway.io import read_layout
 from rightofway.io.layouts import make_layout_of_graph
-from rightofway.phrases import to_parts
 from rightofway.report.facts import write_note
+from rightofway.report.phrases import to_parts
 from rightofway.site.layout import Layout, build_roadmap_of_level
 from tests.builders.languages import say
 from tests.builders.sentences import tell_notes

@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     from rightofway.control.identities import Identity
     from rightofway.execution.drive_result import DriveResult
     from rightofway.facts import Fact
-    from rightofway.quantities import Quantities
+    from rightofway.report.quantities import Quantities
 
 INTERRUPTED, TERMINATED = 130, 143
 """Exit codes of robots at a broker after Ctrl-C, and after SIGTERM."""

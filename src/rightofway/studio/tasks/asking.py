@@ -10,9 +10,10 @@ from rightofway.errors import InputError, InvalidPlan, find_nearest
 from rightofway.io import format_plan
 from rightofway.metrics import compute_lost_time
 from rightofway.model import Loss, Plan, Status, Tick
-from rightofway.phrases import Phrase, to_parts
 from rightofway.repair.flip import flip_right_of_way
 from rightofway.report.facts import pack_note
+from rightofway.report.phrases import Phrase, to_parts
+from rightofway.report.quantities import Quantities
 from rightofway.report.sentences import Words, describe_decision, describe_losses, explain_decision
 from rightofway.studio.messages import Blobs, Emit, zip_text
 from rightofway.studio.tasks.documents import compute_figures
@@ -26,7 +27,7 @@ Result = tuple[Any, ...]
 def explain_losses(_emit: Emit, blobs: Blobs, *, robot: str | None = None) -> Result:
     """Return each cause of lost time in a sentence, with the decisions that it follows from."""
     plan = read(blobs[0])
-    words = Words(plan=plan, quantities=plan.scenario.quantities)
+    words = Words(plan=plan, quantities=Quantities.of(plan.scenario))
     wanted = None if robot is None else _index(plan, "robot", robot)
     answers = [
         _make_loss(words, loss)

@@ -32,9 +32,10 @@ from rightofway.io.sites import make_sites
 from rightofway.io.yaml_text import parse_yaml
 from rightofway.metrics import inspect, measure
 from rightofway.model import Plan, Scenario
-from rightofway.phrases import to_parts
 from rightofway.report.facts import write_note, write_notes
 from rightofway.report.inspection import export_finding
+from rightofway.report.phrases import to_parts
+from rightofway.report.quantities import Quantities
 from rightofway.studio.messages import Blobs, Emit, as_fault_data
 from rightofway.viz.verdict import give_verdict
 
@@ -173,7 +174,7 @@ def compute_figures(plan: Plan) -> dict[str, Any]:
 
     ``scenario`` is the digest of the scenario that it is of, ``faults`` how many the judge finds.
     """
-    metrics, duration = measure(plan), plan.scenario.quantities.format_duration
+    metrics, duration = measure(plan), Quantities.of(plan.scenario).format_duration
     costs = {
         "flowtime": metrics.flowtime,
         "makespan": metrics.makespan,

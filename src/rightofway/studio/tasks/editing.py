@@ -20,9 +20,9 @@ from rightofway.io.scenario.picture import add_picture
 from rightofway.io.sites import make_sites
 from rightofway.metrics import Inspection, Site, inspect
 from rightofway.metrics.site import Finding
-from rightofway.phrases import to_parts
 from rightofway.report.facts import write_notes
 from rightofway.report.inspection import describe_finding, describe_site, export_finding
+from rightofway.report.phrases import to_parts
 from rightofway.studio.messages import Blobs, Emit, as_fault_data, zip_text
 from rightofway.studio.tasks.documents import as_plain, compute_digest, load_document
 from rightofway.units import Units

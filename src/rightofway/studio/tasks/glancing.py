@@ -10,9 +10,9 @@ from rightofway.io import dump_scenario, is_layout, load_either, load_with_notes
 from rightofway.io.scenario.reader import read_scenario
 from rightofway.io.sites import Choice, Sites, make_sites, read_sites
 from rightofway.model import Plan
-from rightofway.quantities import format_decimal
 from rightofway.report.examples import find_examples_folder
 from rightofway.report.facts import write_note
+from rightofway.report.quantities import format_decimal
 from rightofway.site.scale import compute_extent
 from rightofway.studio.messages import Blobs, Emit
 from rightofway.studio.tasks.documents import Result, as_plain, read_document

@@ -15,10 +15,11 @@ from rightofway.io import format_plan, parse_plan
 from rightofway.io.json_text import parse_json
 from rightofway.kinds.numbers import read_exact
 from rightofway.model import Scenario
-from rightofway.phrases import to_parts
 from rightofway.report.facts import pack_note, write_note
 from rightofway.report.laps_data import make_laps_data, write_reason
+from rightofway.report.phrases import to_parts
 from rightofway.report.plan_data import describe_measures
+from rightofway.report.quantities import Quantities
 from rightofway.studio.messages import Blobs, Emit
 from rightofway.studio.tasks.documents import compute_digest, compute_figures, load_document
 from rightofway.studio.tasks.planning import PlanningProgress
@@ -201,7 +202,7 @@ def compute_spread(outcome: SimulationResult) -> dict[str, Any] | None:
     if not len(whole):
         return None
     counts, edges = np.histogram(whole.sum(axis=1), bins=CLASSES)
-    duration = outcome.plan.scenario.quantities.format_duration
+    duration = Quantities.of(outcome.plan.scenario).format_duration
     return {
         "counts": counts.tolist(),
         "planned": outcome.plan.flowtime,

@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from rightofway.facts import Fact
 from rightofway.files import write_whole
 from rightofway.metrics import Inspection, Site
-from rightofway.phrases import to_parts
 from rightofway.report.facts import write_note, write_notes
 from rightofway.report.inspection import (
     SEVERITIES,
@@ -17,6 +16,7 @@ from rightofway.report.inspection import (
     name_severity,
     write_heading,
 )
+from rightofway.report.phrases import to_parts
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.document import make_document
 from rightofway.viz.page.map_data import map_data

@@ -33,12 +33,13 @@ from rightofway.model import (
     Track,
 )
 from rightofway.model.closures import Closure
-from rightofway.model.place_names import PlaceNames
 from rightofway.model.steady_state import refuse_unknown_robots
-from rightofway.phrases import Phrase, PhraseBook, to_parts
 from rightofway.report.circuits import describe_circuit, summarize_circuit
 from rightofway.report.facts import FactWriter
 from rightofway.report.judgement import describe_fault, name_fault
+from rightofway.report.phrases import Phrase, PhraseBook, to_parts
+from rightofway.report.place_names import PlaceNames
+from rightofway.report.quantities import Quantities
 from rightofway.report.sentences import (
     Words,
     describe_closure,
@@ -116,7 +117,7 @@ def make_payload(
     trips, steady = make_trips(plan), steady or plan.steady
     scenario, run, metrics = plan.scenario, plan.run, measure(plan)
     tick, lost = scenario.problem.clock.tick, compute_lost_time(plan)
-    words, book = Words(plan=plan, quantities=scenario.quantities), PhraseBook()
+    words, book = Words(plan=plan, quantities=Quantities.of(scenario)), PhraseBook()
     payload: Payload = {
         "title": title,
         "phrases": book.entries,
@@ -238,7 +239,7 @@ def _make_planner(plan: Plan) -> PlannerData:
     run = plan.run
     method = "" if run.status is None else FactWriter(plan.scenario).write(run.status)
     if run.improvement is not None:
-        method = describe_improvement(run.improvement, plan.scenario.quantities)
+        method = describe_improvement(run.improvement, Quantities.of(plan.scenario))
     data: PlannerData = {"name": run.name, "method": to_parts(method)}
     if proven := describe_proof(plan):
         data["proven"] = to_parts(proven)

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from rightofway.errors import InputError
 from rightofway.model import Plan, Tick
-from rightofway.phrases import Phrase
 from rightofway.planners.two_level import MovementGroup, replay_movement_groups
-from rightofway.quantities import Quantities
+from rightofway.report.phrases import Phrase
+from rightofway.report.quantities import Quantities
 from rightofway.viz.table.timespace import TimeSpaceTable, choose_robots, make_table_of_groups
 
 
@@ -56,7 +56,7 @@ def make_decision_table(
         last = f"the last one is {len(decisions)}" if decisions else "the plan has no decisions"
         remedy = "rightofway collisions PLAN lists them"
         raise InputError.at("--decision", f"{number} is not there, {last} ({remedy})")
-    decision, quantities = decisions[number - 1], quantities or plan.scenario.quantities
+    decision, quantities = decisions[number - 1], quantities or Quantities.of(plan.scenario)
     groups = replay_movement_groups(plan, decision)
     table = make_table_of_groups(
         plan,

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from rightofway.quantities import Quantities
+from rightofway.report.quantities import Quantities
 from rightofway.viz.table.terminal import MAX_LINES, measure_text
 
 MAX_CELL = 40

@@ -17,7 +17,7 @@ from rightofway.metrics import (
     make_event_columns,
 )
 from rightofway.model import Decision, Plan, Tick
-from rightofway.quantities import Quantities
+from rightofway.report.quantities import Quantities
 from rightofway.viz.table.listing import ListColumn, Listing, Value
 from rightofway.viz.table.timespace import choose_robots
 
@@ -72,7 +72,10 @@ def tabulate_events(
     quantities
         How times are written; by default as the scenario does.
     """
-    columns, quantities = make_event_columns(plan, chosen), quantities or plan.scenario.quantities
+    columns, quantities = (
+        make_event_columns(plan, chosen),
+        quantities or Quantities.of(plan.scenario),
+    )
     ticks = (
         ()
         if quantities.in_ticks
@@ -286,5 +289,5 @@ def tabulate_decisions(plan: Plan, quantities: Quantities | None = None) -> List
                 heading="sum if j", values=[pair[1] for pair in sums], kind="time", for_people=False
             ),
         ),
-        quantities=quantities or plan.scenario.quantities,
+        quantities=quantities or Quantities.of(plan.scenario),
     )

@@ -14,6 +14,7 @@ from rightofway.extras import load_library
 from rightofway.files import make_archive, write_whole
 from rightofway.metrics import compute_lost_time, free_running, measure, name_collisions
 from rightofway.model import Plan
+from rightofway.report.quantities import Quantities
 from rightofway.viz.motion import Phase, make_trips
 from rightofway.viz.palette import choose_colours
 from rightofway.viz.placement import make_edge_length, order_in_line
@@ -76,7 +77,7 @@ def make_result(plan: Plan) -> bytes:
         write_legend(_add_sheet(workbook, "legend"), table)
     except InputError as error:
         left_out.append(("time and space", f"is left out: {error.faults[0].message}"))
-    quantities = plan.scenario.quantities
+    quantities = Quantities.of(plan.scenario)
     free = name_collisions(plan.scenario, free_running(plan))
     left = name_collisions(plan.scenario, plan.tracks)
     for listing in (
@@ -125,7 +126,7 @@ def _write_summary(sheet: Any, plan: Plan, more: Sequence[tuple[str, str]]) -> N
 
 
 def _list_figures(plan: Plan) -> Iterator[tuple[str, str]]:
-    quantities, count = plan.scenario.quantities, len(plan.tracks)
+    quantities, count = Quantities.of(plan.scenario), len(plan.tracks)
     status = "" if plan.run.status is None else f": {plan.run.status}"
     yield "planner", f"{plan.run.name}{status}"
     yield "robots", str(count)
@@ -158,7 +159,7 @@ def _list_robots(plan: Plan) -> Listing:
     return Listing(
         title="robots",
         columns=(ListColumn(heading="robot", values=names), *columns),
-        quantities=plan.scenario.quantities,
+        quantities=Quantities.of(plan.scenario),
     )
 
 
@@ -174,7 +175,7 @@ def _write_diagram(sheet: Any, data: Any, plan: Plan) -> None:
     chart.style, chart.scatterStyle = 13, "lineMarker"
     chart.width, chart.height = CHART_SIZE
     chart.title = None
-    chart.x_axis.title = scenario.quantities.format_heading("time")
+    chart.x_axis.title = Quantities.of(scenario).format_heading("time")
     chart.x_axis.delete = False
     chart.x_axis.scaling.min = 0
     chart.x_axis.majorGridlines = None
@@ -193,7 +194,7 @@ def _write_diagram(sheet: Any, data: Any, plan: Plan) -> None:
         chart.y_axis.majorUnit = 1
     elif cells is not None:
         chart.y_axis.number_format = '"N"0'
-    tick = scenario.quantities.tick
+    tick = Quantities.of(scenario).tick
     columns: list[list[float | str]] = []
     for trip, robot, colour in zip(
         trips, scenario.robots, choose_colours(len(trips)), strict=False

@@ -26,7 +26,7 @@ from rightofway.model import (
     compute_completions,
     find_stays,
 )
-from rightofway.quantities import Quantities, format_decimal
+from rightofway.report.quantities import Quantities, format_decimal
 from rightofway.site import Roadmap
 from rightofway.units import DIGITS
 
@@ -348,7 +348,7 @@ def _make_table(
     return TimeSpaceTable(
         first_tick=first,
         last_tick=last,
-        quantities=quantities or scenario.quantities,
+        quantities=quantities or Quantities.of(scenario),
         rows=tuple(rows),
     )
 

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 from rightofway import InputError
-from rightofway.quantities import Quantities, format_decimal
+from rightofway.report.quantities import Quantities, format_decimal
 from rightofway.units import TimeUnit, Units
 
-CASES = json.loads((Path(__file__).parent / "data" / "quantities.json").read_text())
+CASES = json.loads((Path(__file__).parents[1] / "data" / "quantities.json").read_text())
 """Values and their texts; the page is tested with the same ones."""
 
 

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from rightofway.model import Scenario
-from rightofway.model.place_names import PlaceNames
+from rightofway.report.place_names import PlaceNames
 from rightofway.units import Units
 from tests.builders.fleets import grid_fleet
 

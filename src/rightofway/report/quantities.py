@@ -11,7 +11,8 @@ from fractions import Fraction
 
 from rightofway.errors import InputError, quote
 from rightofway.kinds.arguments import checks_arguments
-from rightofway.phrases import Phrase, mark_figure
+from rightofway.model import Scenario
+from rightofway.report.phrases import Phrase, mark_figure
 from rightofway.units import DIGITS, Units, Value, round_half_up, write_decimal
 
 __all__ = ["Quantities", "format_decimal"]
@@ -68,6 +69,18 @@ class Quantities:
         if not isinstance(self.in_ticks, bool):
             message = f"{quote(self.in_ticks)} is neither true nor false (give True or False)"
             raise InputError.at("in_ticks", message)
+
+    @classmethod
+    @checks_arguments
+    def of(cls, scenario: Scenario) -> Quantities:
+        """Return how the times, lengths and speeds of a scenario are written.
+
+        Raises
+        ------
+        InputError
+            For a value that is no scenario.
+        """
+        return cls(units=scenario.units, tick=scenario.problem.clock.tick)
 
     @checks_arguments
     def format_duration(self, ticks: Value) -> str:

@@ -6,8 +6,8 @@ from collections import Counter
 from functools import cached_property
 
 from rightofway.model.scenario import Scenario
-from rightofway.phrases import Phrase
-from rightofway.quantities import format_decimal
+from rightofway.report.phrases import Phrase
+from rightofway.report.quantities import format_decimal
 from rightofway.site import Roadmap
 
 DECIMALS = 3
