@@ -247,6 +247,7 @@ FewerActions fewest_actions(const Problem& problem, const ArrayIn<std::int32_t>&
                             const ArrayIn<VertexId>& vertices, const ArrayIn<Tick>& enter,
                             const ArrayIn<Tick>& waits, Tick latest, std::int64_t most_states,
                             std::optional<double> time_limit) {
+    problem.refuse_times("fewest_actions");
     const auto n_robots = static_cast<std::size_t>(problem.n_robots());
     require_length("waits", waits.size(), n_robots);
     require_ranges("waits", view(waits), 0, never);

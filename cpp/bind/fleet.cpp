@@ -103,6 +103,14 @@ n_searches : int
 time_limit : float or None
     When to stop; at once for 0 or less. [s])";
 
+constexpr auto move_doc =
+    R"(Give all robots tracks on which one of them moves at a time; tell whether this was possible.
+
+Parameters
+----------
+time_limit : float or None
+    When to stop; at once for 0 or less. [s])";
+
 constexpr auto resume_doc = R"(Continue a `prioritize` that returned False.
 
 Parameters
@@ -218,6 +226,14 @@ void bind_fleet(nb::module_& module) {
                 return self.repair(view(order), n_searches, deadline);
             },
             array("order"), nb::arg("n_searches"), nb::arg("time_limit").none(), repair_doc)
+        .def(
+            "move_one_at_a_time",
+            [](FleetSearch& self, std::optional<double> time_limit) {
+                const Deadline deadline(time_limit);
+                const nb::gil_scoped_release released;
+                return self.move_one_at_a_time(deadline);
+            },
+            nb::arg("time_limit").none(), move_doc)
         .def(
             "resume",
             [](FleetSearch& self, std::int64_t n_searches, std::optional<double> time_limit) {

@@ -51,6 +51,7 @@ Plan plan_by_lacam(const Problem& problem, const ArrayIn<std::uint8_t>& ends_any
         require_length("ends_anywhere", ends_anywhere.size(),
                        static_cast<std::size_t>(problem.n_robots()));
     }
+    problem.refuse_times("LaCAM");
     const Deadline deadline(time_limit);
     Tracks tracks;
     const auto search = [&] {

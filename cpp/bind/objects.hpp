@@ -57,6 +57,26 @@ struct BoundTurning {
     }
 };
 
+struct BoundWork {
+    Ticks earliest;
+    Ticks latest;
+    Ticks ready;
+    Ints first_turn_of;
+    Ints first_turn;
+    Ints before;
+    Ints after;
+    std::int32_t n_places;
+    std::optional<Ticks> cost;
+    std::optional<Ticks> late_cost;
+    std::optional<Ticks> due;
+
+    WorkArrays arrays() const {
+        return {view(earliest),           view(latest),       view(ready), view(first_turn_of),
+                view(first_turn),         view(before),       view(after), view_or_empty(cost),
+                view_or_empty(late_cost), view_or_empty(due), n_places};
+    }
+};
+
 struct BoundClosures {
     Ints row;
     Ticks start;

@@ -110,6 +110,27 @@ class_of, ticks : int32[R], int32[T * K]
 n_kinds : int
     K.)";
 
+constexpr auto work_doc = R"(When stages may be served, and how robots begin and end.
+
+The last stage of a robot that ends anywhere is at vertex -1.
+
+Parameters
+----------
+earliest, latest : int64[S], int64[S]
+    The work of each stage begins at `earliest` or later, and ends at `latest` or before. [ticks]
+ready : int64[R]
+    Until when each robot stays at its home. [ticks]
+first_turn_of, first_turn : int32[R + 1], int32[n]
+    Robot ``r`` turns in ``first_turn[first_turn_of[r] + k]`` ticks before it first drives along the
+    k-th edge out of its home; in no time where the list is empty.
+before, after : int32[A], int32[A]
+    The work of stage ``before[k]`` ends before that of stage ``after[k]`` of another robot begins.
+n_places : int
+    Robots that end anywhere end at a vertex below.
+cost, late_cost, due : int64[S] or None
+    What a tick of the end of each stage costs, and what a tick after `due` costs more; None where
+    only completions cost.)";
+
 constexpr auto closures_doc = R"(Bookings of nobody.
 
 Parameters
@@ -138,6 +159,8 @@ surcharges : int64[C] or None
     What an edge of each length class adds to costs, not to durations; None where all are 0. [ticks]
 closures : Closures or None
     What is closed for a while.
+work : Work or None
+    Times of stages; None for a fleet without jobs.
 
 Raises
 ------
@@ -178,7 +201,7 @@ void init_lists(BoundExcludedRows* self, const BoundRoads& roads, const BoundDra
 void init_problem(Problem* self, const BoundRoads& roads, const BoundRobots& robots,
                   const BookingRules& rules, const BoundExcludedRows* lists,
                   const BoundTurning* turning, const std::optional<Ticks>& surcharges,
-                  const BoundClosures* closures) {
+                  const BoundClosures* closures, const BoundWork* work) {
     const ProblemArrays arrays{
         view(roads.indptr),          view(roads.heads),         view(roads.length_class),
         view(robots.paces),          view(robots.pace_of),      view(robots.home),
@@ -204,7 +227,8 @@ void init_problem(Problem* self, const BoundRoads& roads, const BoundRobots& rob
     if (closures != nullptr) {
         closed = {view(closures->row), view(closures->start), view(closures->end)};
     }
-    new (self) Problem(arrays, rules, resources, turns, closed);
+    new (self) Problem(arrays, rules, resources, turns, closed,
+                       work == nullptr ? WorkArrays{} : work->arrays());
 }
 
 constexpr auto overlaps_doc =
@@ -286,12 +310,20 @@ row : int
              array("class_of"), array("ticks"), nb::arg("n_kinds"));
     nb::class_<BoundClosures>(module, "Closures", closures_doc)
         .def(nb::init<Ints, Ticks, Ticks>(), array("row"), array("start"), array("end"));
+    nb::class_<BoundWork>(module, "Work", work_doc)
+        .def(nb::init<Ticks, Ticks, Ticks, Ints, Ints, Ints, Ints, std::int32_t,
+                      std::optional<Ticks>, std::optional<Ticks>, std::optional<Ticks>>(),
+             array("earliest"), array("latest"), array("ready"), array("first_turn_of"),
+             array("first_turn"), array("before"), array("after"), nb::arg("n_places"),
+             array("cost").none() = nb::none(), array("late_cost").none() = nb::none(),
+             array("due").none() = nb::none());
     nb::class_<Problem>(module, "Problem", problem_doc)
         .def("__init__", &init_problem, nb::arg("roads"), nb::arg("robots"), nb::arg("rules"),
              nb::arg("lists").none() = nb::none(), nb::arg("turning").none() = nb::none(),
              array("surcharges").none() = nb::none(), nb::arg("closures").none() = nb::none(),
-             nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 5>(),
-             nb::keep_alive<1, 6>(), nb::keep_alive<1, 7>(), nb::keep_alive<1, 8>())
+             nb::arg("work").none() = nb::none(), nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
+             nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(), nb::keep_alive<1, 7>(),
+             nb::keep_alive<1, 8>(), nb::keep_alive<1, 9>())
         .def_prop_ro("n_robots", &Problem::n_robots, "The number of robots, R.")
         .def_prop_ro("n_vertices", &Problem::n_vertices, "The number of vertices, V.")
         .def_prop_ro("rules", &Problem::rules, "How visits are booked.");

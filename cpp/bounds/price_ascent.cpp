@@ -31,6 +31,7 @@ PriceAscent::PriceAscent(const Problem& problem)
       stays_(static_cast<std::size_t>(problem.n_vertices())),
       drives_(prices_.lanes().size()),
       patience_(first_patience) {
+    problem.refuse_times("prices");
     trips_.reserve(tracks_.size());
     for (RobotId robot = 0; robot < problem.n_robots(); ++robot) {
         trips_.emplace_back(distances_);

@@ -93,6 +93,7 @@ ConstrainedTracks::ConstrainedTracks(const Problem& problem, SharedDistances& di
       held_(problem, no_traffic_.table()),
       search_(problem.roads(), problem.rules()),
       joint_(problem, no_traffic_.table()) {
+    problem.refuse_times("conflict-based search");
     for (RobotId robot = 0; robot < problem.n_robots(); ++robot) {
         trips_.emplace_back(distances, true);
     }

@@ -60,6 +60,9 @@ std::shared_ptr<const TurningTable> SharedDistances::with_turns(RobotId robot) {
 }
 
 Tick SharedDistances::between(VertexId from, VertexId target, RobotId robot) {
+    if (target == none) {
+        return 0;
+    }
     if (!is_uniform_) {
         return to(target, robot)->view(1).from(from);
     }
@@ -77,6 +80,37 @@ Tick SharedDistances::alone(RobotId robot) {
         known = least_completion(robot) + alone_offset;
     }
     return known - alone_offset;
+}
+
+// Longest paths: robot after robot, until no end changes. Arcs and tours have no cycle, so an end
+// has its last value after as many rounds as a path has arcs.
+std::vector<Tick> SharedDistances::least_ends() {
+    std::vector<Tick> ends(problem_.n_stages(), 0);
+    bool has_changed = true;
+    for (std::size_t round = 0; has_changed && round <= problem_.n_stages(); ++round) {
+        has_changed = false;
+        for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
+            const Itinerary itinerary = problem_.itinerary(robot);
+            Tick now = itinerary.times.ready;
+            VertexId place = itinerary.home;
+            for (std::size_t k = 0; k < itinerary.n_stages(); ++k) {
+                const std::int32_t stage =
+                    problem_.first_stage(robot) + static_cast<std::int32_t>(k);
+                now += std::max<Tick>(0, between(place, itinerary.stage_vertex[k], robot));
+                now = std::max(now, itinerary.times.earliest[k]);
+                for (const std::int32_t before : problem_.stages_before(stage)) {
+                    now = std::max(now, ends[index(before)]);
+                }
+                now += itinerary.stage_work[k];
+                has_changed |= ends[index(stage)] != now;
+                ends[index(stage)] = now;
+                now += itinerary.turn_after(k);
+                place = itinerary.stage_vertex[k];
+            }
+        }
+        has_changed &= problem_.has_arcs();
+    }
+    return ends;
 }
 
 void SharedDistances::take_alone(std::span<const Tick> alone) {
@@ -98,21 +132,28 @@ Tick SharedDistances::least_completion(RobotId robot) {
         return least_completion_with_turns(problem_, robot, to_stage);
     }
     const std::size_t first_at_end = itinerary.first_stage_at_end();
-    Tick sum = 0;
+    Tick now = itinerary.times.ready;
     VertexId place = itinerary.home;
     for (std::size_t k = 0; k < itinerary.n_stages(); ++k) {
         const Tick way = between(place, itinerary.stage_vertex[k], robot);
         if (way < 0) {
             return -1;
         }
-        sum += way + itinerary.stage_work[k] + (k < first_at_end ? itinerary.stage_turn[k] : 0);
+        const Tick begin = itinerary.times.are_known()
+                               ? std::max(now + way, itinerary.times.earliest[k])
+                               : now + way;
+        now = begin + itinerary.stage_work[k] + (k < first_at_end ? itinerary.turn_after(k) : 0);
         place = itinerary.stage_vertex[k];
     }
-    return sum;
+    return now;
 }
 
 std::shared_ptr<const DistanceTable> SharedDistances::make(VertexId target, RobotId robot) const {
     auto table = std::make_shared<DistanceTable>();
+    if (target == none) {
+        table->narrow.assign(index(problem_.n_vertices()), 0);
+        return table;
+    }
     if (is_uniform_) {
         if (tables_.steps_to(target, table->narrow)) {
             return table;

@@ -40,8 +40,8 @@ class SharedDistances {
 
     const Problem& problem() const { return problem_; }
 
-    // The table of a target, in units of `scale`, for a robot and all robots of its pace.
-    // Thread-safe.
+    // The table of a target, in units of `scale`, for a robot and all robots of its pace. Any
+    // vertex is the target `none`. Thread-safe.
     std::shared_ptr<const DistanceTable> to(VertexId target, RobotId robot);
 
     // The least ticks of a robot from a vertex to the target, -1 if no path exists. Needs no table
@@ -52,9 +52,13 @@ class SharedDistances {
     // robots would exceed the memory budget. Thread-safe.
     std::shared_ptr<const TurningTable> with_turns(RobotId robot);
 
-    // The completion time of a robot that drives alone, -1 if it cannot reach a stage. Cached;
+    // The completion time of a robot that drives alone, -1 if it cannot reach a stage; stages end
+    // however late. Cached;
     // thread-safe.
     Tick alone(RobotId robot);
+    // The least end of the work of each stage, by robots that drive alone and stages that wait for
+    // those of other robots; however late. Without ways the ends mean nothing.
+    std::vector<Tick> least_ends();
     // Fills the cache of `alone` from the distances of a problem with the same trips.
     void take_alone(std::span<const Tick> alone);
 

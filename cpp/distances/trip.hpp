@@ -32,6 +32,8 @@ class TripReader {
 
     // The trip of a robot, valid until the next call.
     const Trip& read(RobotId robot);
+    // The same with other limits of the times of its stages, borrowed.
+    const Trip& read(RobotId robot, std::span<const Tick> earliest, std::span<const Tick> latest);
 
   private:
     SharedDistances& distances_;
@@ -42,8 +44,13 @@ class TripReader {
 };
 
 // The completion time of a track, -1 if the track leaves out a stage. Sets `stage_after` to the
-// first stage not served after each visit.
+// first stage not served after each visit; `ends` to the end of the work of each stage served,
+// where stages have times.
 Tick completion(const Itinerary& itinerary, std::span<const Visit> track,
-                std::vector<std::int32_t>* stage_after = nullptr);
+                std::vector<std::int32_t>* stage_after = nullptr,
+                std::vector<Tick>* ends = nullptr);
+
+// What the ends of stages and the completion of a robot cost, without surcharges.
+Tick cost_of_ends(const Itinerary& itinerary, std::span<const Tick> ends, Tick completion);
 
 }  // namespace rightofway

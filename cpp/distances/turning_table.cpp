@@ -33,9 +33,13 @@ TurningTable::TurningTable(const Problem& problem, RobotId robot)
     for (std::size_t stage = n_stages; stage-- > 0;) {
         std::int32_t* least = least_.data() + stage * n_places_ + 1;  // by edge; [-1]: home
         const VertexId target = itinerary.stage_vertex[stage];
+        if (target == none) {
+            std::fill_n(least - 1, n_places_, 0);
+            continue;
+        }
         const bool is_at_end = stage >= first_last;
         work_at_end += is_at_end ? itinerary.stage_work[stage] : 0;
-        const Tick dwell = itinerary.stage_work[stage] + itinerary.stage_turn[stage];
+        const Tick dwell = itinerary.stage_work[stage] + itinerary.turn_after(stage);
         const auto served = [&](EdgeId edge) {  // the rest of the trip if the stage is served now
             if (is_at_end) {
                 return work_at_end;
@@ -79,7 +83,8 @@ TurningTable::TurningTable(const Problem& problem, RobotId robot)
         for (EdgeId e = graph.indptr[index(itinerary.home)];
              e < graph.indptr[index(itinerary.home + 1)] && itinerary.home != target; ++e) {
             if (least[e] >= 0 && problem.drive(robot, e) > 0) {
-                at_home = std::min(at_home, problem.drive(robot, e) + Tick{least[e]});
+                at_home = std::min(at_home, Tick{itinerary.turns.between(-1, e)} +
+                                                problem.drive(robot, e) + Tick{least[e]});
             }
         }
         least[-1] = at_home > largest_entry ? -1 : static_cast<std::int32_t>(at_home);
@@ -93,7 +98,8 @@ Tick least_completion_with_turns(const Problem& problem, RobotId robot,
     const Itinerary trip = problem.itinerary(robot);
     const std::size_t first_last = trip.first_stage_at_end();
     const std::uint64_t n_places = graph.indices.size() + 1;
-    std::vector<Tick> later(trip.n_stages(), 0);  // from each stage's vertex, its work included
+    std::vector<Tick> later(trip.n_stages(), 0);    // from each stage's vertex, its work included
+    std::vector<Tick> soonest(trip.n_stages(), 0);  // completion, by the earliest begins from it on
     for (std::size_t k = trip.n_stages(); k-- > 0;) {
         later[k] = trip.stage_work[k];
         if (k >= first_last) {
@@ -103,14 +109,19 @@ Tick least_completion_with_turns(const Problem& problem, RobotId robot,
             if (way < 0) {
                 return -1;
             }
-            later[k] += trip.stage_turn[k] + way + later[k + 1];
+            later[k] += trip.turn_after(k) + way + later[k + 1];
+        }
+        if (trip.times.are_known()) {
+            soonest[k] = std::max(trip.times.earliest[k] + later[k],
+                                  k + 1 < trip.n_stages() ? soonest[k + 1] : 0);
         }
     }
     std::unordered_map<std::uint64_t, Tick> best;
     std::priority_queue<Key, std::vector<Key>, std::greater<>> open;
     const auto reach = [&](EdgeId edge, VertexId vertex, std::size_t stage, Tick now) {
         for (; stage < first_last && trip.stage_vertex[stage] == vertex; ++stage) {
-            now += trip.stage_work[stage] + trip.stage_turn[stage];
+            now = std::max(now, trip.times.are_known() ? trip.times.earliest[stage] : now);
+            now += trip.stage_work[stage] + trip.turn_after(stage);
         }
         const Tick way = to_stage[stage].from(vertex);
         const std::uint64_t state = stage * n_places + static_cast<std::uint64_t>(edge + 1);
@@ -120,17 +131,18 @@ Tick least_completion_with_turns(const Problem& problem, RobotId robot,
         const auto [known, is_new] = best.emplace(state, now);
         if (is_new || now < known->second) {
             known->second = now;
-            open.emplace(now + way + later[stage], way + later[stage], state);
+            const Tick bound = std::max(now + way + later[stage], soonest[stage]);
+            open.emplace(bound, bound - now, state);
         }
     };
-    reach(-1, trip.home, 0, 0);
+    reach(-1, trip.home, 0, trip.times.ready);
     while (!open.empty()) {
         const auto [bound, rest, state] = open.top();
         open.pop();
         const auto edge = static_cast<EdgeId>(state % n_places) - 1;
         const std::size_t stage = state / n_places;
         const VertexId vertex = edge < 0 ? trip.home : graph.indices[index(edge)];
-        if (stage >= first_last && vertex == trip.stage_vertex.back()) {
+        if (stage >= first_last && (trip.ends_anywhere() || vertex == trip.stage_vertex.back())) {
             return bound;
         }
         const Tick now = bound - rest;

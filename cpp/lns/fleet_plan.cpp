@@ -15,7 +15,8 @@ FleetPlan::FleetPlan(const Problem& problem, Objective objective)
       objective_(objective),
       bookings_(problem.n_rows()),
       tracks_(static_cast<std::size_t>(problem.n_robots())),
-      held_(tracks_.size(), 0) {
+      held_(tracks_.size(), 0),
+      ends_(problem.has_arcs() ? problem.n_stages() : 0, 0) {
     const Closures& closed = problem.closures();
     for (std::size_t k = 0; k < closed.row.size(); ++k) {
         bookings_.insert(closed.row[k], {closed.start[k], closed.end[k]}, nobody);
@@ -49,6 +50,84 @@ Tick FleetPlan::surcharges(std::span<const Visit> visits) const {
         sum += problem_->surcharge(problem_->graph().edge(visits[k - 1].vertex, visits[k].vertex));
     }
     return sum;
+}
+
+bool FleetPlan::measure(RobotId robot, TimedTrack& track) const {
+    const Itinerary itinerary = problem_->itinerary(robot);
+    const Tick done = completion(itinerary, track.visits, nullptr, &track.ends);
+    track.cost = cost_of_ends(itinerary, track.ends, done) +
+                 itinerary.times.weight * surcharges(track.visits);
+    return done >= 0;
+}
+
+bool FleetPlan::measure(RobotId robot, TimedTrack& track, const StageLimits& limits) const {
+    Itinerary itinerary = problem_->itinerary(robot);
+    itinerary.times.earliest = limits.earliest;
+    itinerary.times.latest = limits.latest;
+    const Tick done = completion(itinerary, track.visits, nullptr, &track.ends);
+    track.cost = cost_of_ends(itinerary, track.ends, done) +
+                 itinerary.times.weight * surcharges(track.visits);
+    return done >= 0;
+}
+
+// Stages begin after the ends known of those before them; repeated until no end changes. Ends only
+// rise in these rounds, so the last ones are the least.
+RobotId FleetPlan::measure_all(std::span<TimedTrack> tracks) const {
+    std::vector<Tick> ends(problem_->has_arcs() ? problem_->n_stages() : 0, 0);
+    StageLimits limits;
+    bool has_changed = true;
+    for (std::size_t round = 0; has_changed && round <= problem_->n_stages() + 1; ++round) {
+        has_changed = false;
+        for (RobotId robot = 0; robot < n_robots(); ++robot) {
+            TimedTrack& track = tracks[index(robot)];
+            if (track.visits.empty()) {
+                continue;
+            }
+            if (!problem_->has_arcs()) {
+                if (!measure(robot, track)) {
+                    return robot;
+                }
+                continue;
+            }
+            const StageTimes times = problem_->itinerary(robot).times;
+            const std::int32_t first = problem_->first_stage(robot);
+            limits.earliest.assign(times.earliest.begin(), times.earliest.end());
+            limits.latest.assign(times.latest.begin(), times.latest.end());
+            for (std::size_t k = 0; k < limits.earliest.size(); ++k) {
+                for (const std::int32_t before :
+                     problem_->stages_before(first + static_cast<std::int32_t>(k))) {
+                    limits.earliest[k] = std::max(limits.earliest[k], ends[index(before)]);
+                }
+            }
+            if (!measure(robot, track, limits)) {
+                return robot;
+            }
+            for (std::size_t k = 0; k < track.ends.size(); ++k) {
+                Tick& end = ends[index(first) + k];
+                has_changed |= end != track.ends[k];
+                end = track.ends[k];
+            }
+        }
+    }
+    return nobody;
+}
+
+void FleetPlan::find_limits(RobotId robot, bool keeps_followers, StageLimits& limits) const {
+    const StageTimes times = problem_->itinerary(robot).times;
+    limits.earliest.assign(times.earliest.begin(), times.earliest.end());
+    limits.latest.assign(times.latest.begin(), times.latest.end());
+    for (std::size_t k = 0; k < limits.earliest.size(); ++k) {
+        const std::int32_t stage = problem_->first_stage(robot) + static_cast<std::int32_t>(k);
+        for (const std::int32_t before : problem_->stages_before(stage)) {
+            limits.earliest[k] = std::max(limits.earliest[k], end_of(before));
+        }
+        for (const std::int32_t after : problem_->stages_after(stage)) {
+            if (keeps_followers && has_track(problem_->robot_of(after))) {
+                limits.latest[k] =
+                    std::min(limits.latest[k], end_of(after) - problem_->stage_work(after));
+            }
+        }
+    }
 }
 
 Booking FleetPlan::booking(const TimedTrack& track, std::size_t k) const {
@@ -103,6 +182,9 @@ void FleetPlan::exchange(RobotId robot, TimedTrack& track) {
     }
     cost_ += problem_->weight(robot) * (track.cost - own.cost);
     std::swap(own, track);
+    if (problem_->has_arcs() && !own.visits.empty()) {
+        std::copy(own.ends.begin(), own.ends.end(), ends_.begin() + problem_->first_stage(robot));
+    }
     for (std::size_t k = 0; k < own.visits.size(); ++k) {
         for_each_row(robot, own, k, [&](std::int32_t row, const Booking& time) {
             for_each_mark(row, [&](std::int32_t mark) { bookings_.insert(mark, time, robot); });
@@ -111,6 +193,9 @@ void FleetPlan::exchange(RobotId robot, TimedTrack& track) {
 }
 
 void FleetPlan::retime(const StopCondition& interrupt) {
+    if (problem_->has_arcs()) {
+        return;
+    }
     Tracks all = tracks();
     rightofway::retime(*problem_, all, interrupt);
     FleetPlan retimed(*problem_, objective_);
@@ -121,7 +206,7 @@ void FleetPlan::retime(const StopCondition& interrupt) {
             poll();
             one.visits[k].enter = all.enter[index(all.first_visit[index(robot)]) + k];
         }
-        one.cost = completion(problem_->itinerary(robot), one.visits) + surcharges(one.visits);
+        measure(robot, one);
         retimed.exchange(robot, one);
     }
     *this = std::move(retimed);
@@ -139,11 +224,35 @@ void FleetPlan::hold_home(RobotId robot, Tick until) {
     }
 }
 
+// Calls `found` for each robot with a stage that the track lets begin or end at a wrong time, until
+// `found` ends the loop; whether it did.
+template <class Found>
+bool FleetPlan::meet_stages(RobotId robot, const TimedTrack& track, const Found& found) const {
+    for (std::size_t k = 0; k < track.ends.size() && problem_->has_arcs(); ++k) {
+        const std::int32_t stage = problem_->first_stage(robot) + static_cast<std::int32_t>(k);
+        const Tick begin = track.ends[k] - problem_->stage_work(stage);
+        for (const std::int32_t before : problem_->stages_before(stage)) {
+            const RobotId other = problem_->robot_of(before);
+            if (has_track(other) && begin < end_of(before) && found(other)) {
+                return true;
+            }
+        }
+        for (const std::int32_t after : problem_->stages_after(stage)) {
+            const RobotId other = problem_->robot_of(after);
+            if (has_track(other) && end_of(after) - problem_->stage_work(after) < track.ends[k] &&
+                found(other)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 // Calls `found` for each booking in conflict with the track until `found` ends the loop.
 template <class Found>
 void FleetPlan::meet(RobotId robot, const TimedTrack& track, const Found& found) const {
     const bool may_swap = problem_->may_follow();
-    bool is_over = false;
+    bool is_over = meet_stages(robot, track, found);
     for (std::size_t k = 0; k < track.visits.size() && !is_over; ++k) {
         for_each_row(robot, track, k, [&](std::int32_t row, const Booking& time) {
             is_over = is_over ||

@@ -1,9 +1,14 @@
 // The tracks of a fleet with their bookings and costs. A robot may have no track. The bookings
 // begin with the closures of the problem.
+//
+// A stage may have to end before a stage of another robot begins. Then the two robots conflict if
+// their tracks break that. A track is planned between the limits that the tracks of the others set
+// (`find_limits`); for stages of robots without a track, their latest known ends count.
 #pragma once
 
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/search_end.hpp"
@@ -14,8 +19,15 @@
 namespace rightofway {
 
 struct TimedTrack {
-    std::vector<Visit> visits;  // empty: the robot has no track
-    Tick cost = 0;              // completion time and surcharges of the edges
+    std::vector<Visit> visits;    // empty: the robot has no track
+    Tick cost = 0;                // completion time or ends of stages, and surcharges of the edges
+    std::vector<Tick> ends = {};  // of the work of each stage at a vertex, where stages have times
+};
+
+// The limits of the times of a robot's stages.
+struct StageLimits {
+    std::vector<Tick> earliest;
+    std::vector<Tick> latest;
 };
 
 class FleetPlan {
@@ -41,10 +53,24 @@ class FleetPlan {
     // The surcharges of the edges of a track.
     Tick surcharges(std::span<const Visit> visits) const;
 
+    // Fills in the ends of the stages and the cost of a track, given its visits and the limits of
+    // its stages. False if it misses a stage.
+    bool measure(RobotId robot, TimedTrack& track) const;
+    bool measure(RobotId robot, TimedTrack& track, const StageLimits& limits) const;
+    // Measures tracks of all robots together, of which some may be empty, in any order of stages
+    // that follow each other. The first robot whose track misses a stage; nobody if there is none.
+    RobotId measure_all(std::span<TimedTrack> tracks) const;
+    // The limits of a robot's stages among the tracks of the others. A track of a robot that has to
+    // wait for this one limits its ends only if `keeps_followers`. Only for a problem with arcs.
+    void find_limits(RobotId robot, bool keeps_followers, StageLimits& limits) const;
+    // Sets the ends of stages that count until a track of their robot is known.
+    void expect_ends(std::vector<Tick> ends) { ends_ = std::move(ends); }
+
     // Whether a track overlaps no booking, and has no swap or forbidden rotation with others.
     bool fits(RobotId robot, const TimedTrack& track) const;
 
-    // The robots in conflict with a track (vertex, swap or rotation), each once, in order of id.
+    // The robots in conflict with a track (vertex, swap, rotation, or stages that follow each
+    // other), each once, in order of id.
     void find_conflicting(RobotId robot, const TimedTrack& track,
                           std::vector<RobotId>& robots) const;
 
@@ -52,8 +78,9 @@ class FleetPlan {
     void hold_home(RobotId robot, Tick until);
 
     // Shifts each visit to the earliest time that keeps the order of bookings that exclude each
-    // other. Needs all tracks, and a problem without closures. An exception of `interrupt`, which
-    // is polled, leaves the plan as it was.
+    // other. Needs all tracks, and a problem without closures. Changes nothing where stages of two
+    // robots follow each other. An exception of `interrupt`, which is polled, leaves the plan as it
+    // was.
     void retime(const StopCondition& interrupt = {});
 
     // The booking of visit k of a track.
@@ -66,12 +93,16 @@ class FleetPlan {
     void for_each_mark(std::int32_t row, const Use& use) const;
     template <class Found>
     void meet(RobotId robot, const TimedTrack& track, const Found& found) const;
+    template <class Found>
+    bool meet_stages(RobotId robot, const TimedTrack& track, const Found& found) const;
+    Tick end_of(std::int32_t stage) const { return ends_[index(stage)]; }
 
     const Problem* problem_;
     Objective objective_;
     BookingTable bookings_;
     std::vector<TimedTrack> tracks_;
     std::vector<Tick> held_;
+    std::vector<Tick> ends_;  // the latest known ones of all stages, where some follow others
     Tick cost_ = 0;
 };
 

@@ -7,6 +7,7 @@
 
 #include "core/reject.hpp"
 #include "distances/trip.hpp"
+#include "lns/one_at_a_time.hpp"
 #include "lns/prioritized.hpp"
 
 namespace rightofway {
@@ -57,13 +58,28 @@ const std::vector<Tick>* FleetSearch::alone(const StopCondition& deadline) {
             alone[index(robot)] = distances_.alone(robot);
         }
         alone_ = std::move(alone);
-        bound_ = 0;
-        for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
-            bound_ += problem_.weight(robot) * alone_[index(robot)];
-        }
+        measure_least();
         is_alone_known_ = true;
     }
     return &alone_;
+}
+
+// What robots cost at least; without ways these numbers are never used.
+void FleetSearch::measure_least() {
+    least_costs_ = alone_;
+    const std::vector<Tick> ends =
+        problem_.has_times() ? distances_.least_ends() : std::vector<Tick>{};
+    bound_ = 0;
+    for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
+        Tick& least = least_costs_[index(robot)];
+        if (problem_.has_costs()) {
+            const Itinerary itinerary = problem_.itinerary(robot);
+            const std::size_t n = itinerary.n_stages() - (itinerary.ends_anywhere() ? 1 : 0);
+            const auto first = index(problem_.first_stage(robot));
+            least = cost_of_ends(itinerary, std::span(ends).subspan(first, n), least);
+        }
+        bound_ += problem_.weight(robot) * least;
+    }
 }
 
 void FleetSearch::take_alone(std::span<const Tick> alone) {
@@ -79,6 +95,29 @@ bool FleetSearch::prioritize(std::span<const RobotId> order, std::int64_t n_sear
     clear();
     portfolio_.emplace(distances_, plan_, order);
     return resume(n_searches, deadline, with_fallback);
+}
+
+bool FleetSearch::move_one_at_a_time(const StopCondition& deadline) {
+    if (!problem_.has_times()) {
+        throw std::invalid_argument("move_one_at_a_time: is for stages with times");
+    }
+    clear();
+    OneAtATime moves(distances_);
+    if (moves.run(deadline) != SearchEnd::found) {
+        return false;
+    }
+    std::vector<TimedTrack>& tracks = moves.tracks();
+    if (plan_.measure_all(tracks) != nobody) {
+        return false;  // a stage ends too late
+    }
+    for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
+        if (!plan_.fits(robot, tracks[index(robot)])) {
+            clear();
+            return false;
+        }
+        plan_.exchange(robot, tracks[index(robot)]);
+    }
+    return true;
 }
 
 bool FleetSearch::repair(std::span<const RobotId> order, std::int64_t n_searches,
@@ -121,11 +160,12 @@ bool FleetSearch::resume(std::int64_t n_searches, const StopCondition& deadline,
 void FleetSearch::start(const GivenTracks& given) {
     require_tracks(given);
     clear();
+    std::vector<TimedTrack> tracks = tracks_of(given);
     for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
-        if (given.first_visit[index(robot)] == given.first_visit[index(robot + 1)]) {
+        TimedTrack& track = tracks[index(robot)];
+        if (track.visits.empty()) {
             continue;
         }
-        TimedTrack track = track_of(robot, given);
         if (!plan_.fits(robot, track)) {
             clear();
             reject("robot", robot, "has a track that breaks the rules: it overlaps another one");
@@ -141,17 +181,16 @@ std::int64_t FleetSearch::restore(const GivenTracks& given, const StopCondition&
     require_all_tracks("restore");
     improvement_.reset();
     Poll poll(interrupt);
-    std::vector<TimedTrack> old;
+    std::vector<TimedTrack> old = tracks_of(given);
     FleetPlan together(problem_);
     for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
-        if (given.first_visit[index(robot)] == given.first_visit[index(robot + 1)]) {
+        if (old[index(robot)].visits.empty()) {
             reject("robot", robot, "has an empty track");
         }
-        old.push_back(track_of(robot, given));
-        if (!together.fits(robot, old.back())) {
+        if (!together.fits(robot, old[index(robot)])) {
             reject("robot", robot, "has a track that breaks the rules: it overlaps another one");
         }
-        TimedTrack same = old.back();
+        TimedTrack same = old[index(robot)];
         together.exchange(robot, same);
     }
     std::int64_t n_restored = 0;
@@ -199,7 +238,7 @@ std::int64_t FleetSearch::improve(std::int64_t n_tasks, std::int64_t patience,
         return 0;
     }
     if (!improvement_) {
-        improvement_.emplace(distances_, plan_, alone_, seed_, n_threads_);
+        improvement_.emplace(distances_, plan_, least_costs_, seed_, n_threads_);
     }
     const std::int64_t before = improvement_->n_tasks();
     improvement_->run(n_tasks, patience, deadline,
@@ -290,7 +329,8 @@ TimedTrack FleetSearch::track_of(RobotId robot, const GivenTracks& given) const 
                 "is entered along an edge that is barred to robot " + std::to_string(robot));
         }
         const std::int32_t turn = turns.between(before, edge);
-        if (given.enter[k] - given.enter[k - 1] < Tick{turn} + drive) {
+        const Tick from = std::max(given.enter[k - 1], problem_.ready(robot));
+        if (given.enter[k] - from < Tick{turn} + drive) {
             reject_entry("enter", k, given.enter[k],
                          "is sooner than robot " + std::to_string(robot) +
                              " can turn and drive there, " + std::to_string(Tick{turn} + drive) +
@@ -299,12 +339,22 @@ TimedTrack FleetSearch::track_of(RobotId robot, const GivenTracks& given) const 
         track.visits.push_back({given.enter[k], given.vertices[k], drive, turn});
         before = edge;
     }
-    const Tick done = completion(problem_.itinerary(robot), track.visits);
-    if (done < 0) {
-        reject("robot", robot, "has a track that breaks the rules: it misses a stage");
-    }
-    track.cost = done + plan_.surcharges(track.visits);
     return track;
+}
+
+// The tracks of all robots, empty for robots without visits.
+std::vector<TimedTrack> FleetSearch::tracks_of(const GivenTracks& given) const {
+    std::vector<TimedTrack> tracks(n_robots());
+    for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
+        if (given.first_visit[index(robot)] < given.first_visit[index(robot + 1)]) {
+            tracks[index(robot)] = track_of(robot, given);
+        }
+    }
+    const RobotId failing = plan_.measure_all(tracks);
+    if (failing != nobody) {
+        reject("robot", failing, "has a track that breaks the rules: it misses a stage");
+    }
+    return tracks;
 }
 
 // Searches that continue from the present plan.
@@ -316,6 +366,9 @@ void FleetSearch::drop_searches() {
 void FleetSearch::clear() {
     drop_searches();
     plan_ = FleetPlan(problem_, plan_.objective());
+    if (problem_.has_arcs()) {
+        plan_.expect_ends(distances_.least_ends());
+    }
 }
 
 }  // namespace rightofway

@@ -51,6 +51,9 @@ class FleetSearch {
     // Continues a `prioritize` that returned false.
     bool resume(std::int64_t n_searches, const StopCondition& deadline,
                 const StopCondition& with_fallback);
+    // Gives all robots tracks on which one of them moves at a time. Whether this was possible. Only
+    // for a problem with times of stages.
+    bool move_one_at_a_time(const StopCondition& deadline);
     // Gives tracks to the robots that have none, in this order. Whether all have one.
     bool repair(std::span<const RobotId> order, std::int64_t n_searches,
                 const StopCondition& deadline);
@@ -76,6 +79,8 @@ class FleetSearch {
     void require_tracks(const GivenTracks& given) const;
     void require_all_tracks(const char* what) const;
     TimedTrack track_of(RobotId robot, const GivenTracks& given) const;
+    std::vector<TimedTrack> tracks_of(const GivenTracks& given) const;
+    void measure_least();
     std::vector<RobotId> find_conflict_closure(RobotId first, std::span<const TimedTrack> old,
                                                Poll& poll) const;
     void drop_searches();
@@ -87,6 +92,7 @@ class FleetSearch {
     std::uint64_t seed_;
     std::size_t n_threads_;
     std::vector<Tick> alone_;
+    std::vector<Tick> least_costs_;  // of each robot
     bool is_alone_known_ = false;
     Tick bound_ = 0;
     std::optional<PrioritizedPortfolio> portfolio_;

@@ -27,6 +27,7 @@ struct Lns::Worker {
     TripReader reader;
     Neighbourhoods neighbourhoods;
     TimedTrack found;
+    StageLimits limits;
 };
 
 Lns::Lns(SharedDistances& distances, FleetPlan& plan, std::span<const Tick> alone,
@@ -110,6 +111,7 @@ void Lns::replan(Worker& worker, Task& task, const StopCondition& is_over) {
     Limits limits = limits_of(task, worker.plan);
     for (std::size_t k = 0; k < n; ++k) {
         task.tracks[k].visits.clear();
+        task.tracks[k].ends.clear();
         task.tracks[k].cost = 0;
         worker.plan.exchange(task.robots[k], task.tracks[k]);
     }
@@ -174,7 +176,14 @@ bool Lns::find_tracks(Worker& worker, const Task& task, Limits& limits,
     for (const RobotId robot : task.robots) {
         const Tick alone = alone_[index(robot)];
         const Tick weight = plan_.problem().weight(robot);
-        const SearchRequest request{worker.reader.read(robot),
+        const bool has_arcs = plan_.problem().has_arcs();
+        if (has_arcs) {
+            worker.plan.find_limits(robot, true, worker.limits);
+        }
+        const Trip& trip =
+            has_arcs ? worker.reader.read(robot, worker.limits.earliest, worker.limits.latest)
+                     : worker.reader.read(robot);
+        const SearchRequest request{trip,
                                     worker.plan.bookings(),
                                     {},
                                     std::min(alone + limits.slack / weight, limits.latest)};
@@ -182,7 +191,13 @@ bool Lns::find_tracks(Worker& worker, const Task& task, Limits& limits,
             return false;
         }
         worker.search.track(worker.found.visits);
-        worker.found.cost = worker.search.cost();
+        if (has_arcs) {
+            worker.plan.measure(robot, worker.found, worker.limits);
+        } else if (plan_.problem().has_times()) {
+            worker.plan.measure(robot, worker.found);
+        } else {
+            worker.found.cost = worker.search.cost();
+        }
         limits.slack -= weight * (worker.found.cost - alone);
         worker.plan.exchange(robot, worker.found);
         worker.found.cost = 0;

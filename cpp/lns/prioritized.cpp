@@ -38,7 +38,7 @@ Tick Prioritized::first_hold(RobotId robot) const {
 
 void Prioritized::keep_home(RobotId robot) {
     const Tick holds = 1 + n_evictions_[index(robot)];
-    plan_.hold_home(robot, holds * first_hold(robot));
+    plan_.hold_home(robot, problem_.ready(robot) + holds * first_hold(robot));
 }
 
 void Prioritized::start(std::span<const RobotId> order) {
@@ -84,12 +84,23 @@ bool Prioritized::place(RobotId robot, const StopCondition& is_over) {
 }
 
 bool Prioritized::find(RobotId robot, const StopCondition& is_over) {
-    const SearchRequest request{reader_.read(robot), plan_.bookings(), prices_, never, greed};
+    if (problem_.has_arcs()) {
+        plan_.find_limits(robot, false, limits_);
+    }
+    const Trip& trip = problem_.has_arcs() ? reader_.read(robot, limits_.earliest, limits_.latest)
+                                           : reader_.read(robot);
+    const SearchRequest request{trip, plan_.bookings(), prices_, never, greed};
     if (search_.run(request, is_over) != SearchEnd::found) {
         return false;
     }
     search_.track(track_.visits);
-    track_.cost = search_.completion() + plan_.surcharges(track_.visits);
+    if (problem_.has_arcs()) {
+        plan_.measure(robot, track_, limits_);
+    } else if (problem_.has_times()) {
+        plan_.measure(robot, track_);
+    } else {
+        track_.cost = search_.completion() + plan_.surcharges(track_.visits);
+    }
     plan_.find_conflicting(robot, track_, conflicting_);
     return true;
 }

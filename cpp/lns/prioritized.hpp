@@ -11,6 +11,11 @@
 // must change places may need the first track. So a robot evicted before searches again with
 // probability 1/2, which also breaks cycles of several robots.
 //
+// Where a stage of one robot waits for one of another, its earliest begin is the end in the track
+// of the other, or the end expected of it. A robot whose stage begins before a new track ends what
+// it waits for is evicted. Tours and arcs have no cycle, so ends rise to what the stages before
+// them need.
+//
 // Silver, "Cooperative pathfinding", AIIDE 2005; Andreychuk & Yakovlev, "Two techniques that
 // enhance the performance of multi-robot prioritized path planning", AAMAS 2018 (start holds);
 // Nagata & Braysy, "A powerful route minimization heuristic for the vehicle routing problem with
@@ -83,6 +88,7 @@ class Prioritized {
     std::vector<RobotId> conflicting_;
     std::vector<RobotId> evicted_;
     TimedTrack track_;
+    StageLimits limits_;
     std::int64_t n_searches_ = 0;
     Tick outlook_ = 0;
     Tick highest_outlook_ = 0;

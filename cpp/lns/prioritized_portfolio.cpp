@@ -55,7 +55,7 @@ class PrioritizedPortfolio::SecondThread {
 PrioritizedPortfolio::PrioritizedPortfolio(SharedDistances& distances, FleetPlan& plan,
                                            std::span<const RobotId> order)
     : plan_(plan),
-      hasty_plan_(distances.problem(), plan.objective()),
+      hasty_plan_(plan),
       patient_{plan_, Prioritized(distances, plan_, patient)},
       hasty_{hasty_plan_, Prioritized(distances, hasty_plan_, hasty)} {
     patient_.planner.start(order);

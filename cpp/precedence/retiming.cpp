@@ -4,6 +4,7 @@
 #include <array>
 #include <compare>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "core/types.hpp"
@@ -82,6 +83,8 @@ class Retiming {
         EdgeId edge = -1;
         Tick least = 1;  // from enter to enter
         Tick approach = 0;
+        std::size_t first_stage = 0;  // served by the visit, if stages have times
+        std::size_t end_stage = 0;    // exclusive
     };
 
     void measure(RobotId robot) {
@@ -97,9 +100,13 @@ class Retiming {
             way.least = drive + itinerary.turns.between(before, way.edge);
             way.approach = problem_.approach(drive);
             before = way.edge;
-            const Tick spare = enter(x + 1) - enter(x) - way.least;
-            for (const std::size_t end = itinerary.stage_after(stage, vertex(x), spare);
-                 stage < end; ++stage) {
+            const std::size_t end =
+                itinerary.stage_after(stage, vertex(x), enter(x), enter(x + 1) - way.least);
+            if (problem_.has_times()) {
+                way.first_stage = std::exchange(stage, end);
+                way.end_stage = end;
+            }
+            for (; stage < end; ++stage) {
                 way.least += itinerary.stage_work[stage] + itinerary.stage_turn[stage];
             }
             drives_.push_back({enter(x + 1) - way.approach, x + 1, robot});
@@ -114,7 +121,7 @@ class Retiming {
                                  problem_.vertex_row(drive.robot, vertex(x - 1)),
                                  problem_.edge_row(drive.robot, way.edge)};
         const std::size_t n_rows = problem_.books_edges() ? 3 : 2;
-        Tick soonest = enter(x - 1) + way.least;
+        Tick soonest = (problem_.has_times() ? serve(drive) : enter(x - 1)) + way.least;
         for (std::size_t k = 0; k < n_rows; k += 2) {
             soonest = std::max(soonest, latest_[index(rows[k])].before(drive.robot) + way.approach);
         }
@@ -126,6 +133,19 @@ class Retiming {
             }
         }
         return has_changed;
+    }
+
+    // When the visit before a drive has served its stages and turned for that, where stages have
+    // times.
+    Tick serve(const Drive& drive) const {
+        const Itinerary itinerary = problem_.itinerary(drive.robot);
+        const Way& way = ways_[index(drive.visit - 1)];
+        Tick now = std::max(enter(drive.visit - 1), itinerary.times.ready);
+        for (std::size_t stage = way.first_stage; stage < way.end_stage; ++stage) {
+            now = itinerary.end_of(stage, now);
+        }
+        return way.first_stage == way.end_stage ? now
+                                                : now + itinerary.stage_turn[way.end_stage - 1];
     }
 
     VertexId vertex(VisitId visit) const { return tracks_.vertex[index(visit)]; }

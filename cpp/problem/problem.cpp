@@ -57,7 +57,7 @@ void require_turns(const Graph& graph, const TurnArrays& turns, std::size_t n_ro
 }
 
 Problem::Problem(const ProblemArrays& arrays, const BookingRules& rules, const Resources& resources,
-                 const TurnArrays& turns, const Closures& closures)
+                 const TurnArrays& turns, const Closures& closures, const WorkArrays& work)
     : arrays_(arrays),
       roads_{{arrays.indptr, arrays.heads}, arrays.length_class},
       rules_(rules),
@@ -65,6 +65,7 @@ Problem::Problem(const ProblemArrays& arrays, const BookingRules& rules, const R
       lists_{resources.lists.finder, roads_.graph.n_vertices()},
       turns_(turns),
       closures_(closures),
+      work_(work),
       n_rows_(roads_.graph.n_vertices()) {
     if (arrays_.n_classes < 0) {
         reject("n_classes", arrays_.n_classes, "is negative");
@@ -92,6 +93,68 @@ Problem::Problem(const ProblemArrays& arrays, const BookingRules& rules, const R
         require_turns(graph(), turns_, arrays_.home.size());
     }
     check_closures();
+    if (has_times()) {
+        check_work();
+    }
+}
+
+void Problem::check_work() {
+    const auto n_robots = arrays_.home.size();
+    const auto n_stages = arrays_.stage_vertex.size();
+    require_length("latest", work_.latest.size(), n_stages);
+    require_length("earliest", work_.earliest.size(), n_stages);
+    require_durations("earliest", work_.earliest);
+    require_ranges("latest", work_.latest, 0, never);
+    require_length("ready", work_.ready.size(), n_robots);
+    require_durations("ready", work_.ready);
+    require_length("first_turn_of", work_.first_turn_of.size(), n_robots + 1);
+    require_lists("first_turn_of", work_.first_turn_of, work_.first_turn.size(), "turns");
+    for (std::size_t r = 0; r < n_robots; ++r) {
+        const auto n_turns = work_.first_turn_of[r + 1] - work_.first_turn_of[r];
+        if (n_turns != 0) {
+            require_length("first_turn[" + std::to_string(r) + "]", index(n_turns),
+                           graph().heads(arrays_.home[r]).size());
+        }
+    }
+    require_ranges("first_turn", work_.first_turn, 0, std::int32_t{1} << 30);
+    require_length("after", work_.after.size(), work_.before.size());
+    require_ids("before", work_.before, static_cast<std::int64_t>(n_stages));
+    require_ids("after", work_.after, static_cast<std::int64_t>(n_stages));
+    for (std::size_t k = 0; k < work_.before.size(); ++k) {
+        if (robot_of(work_.before[k]) == robot_of(work_.after[k])) {
+            reject_entry("after", k, work_.after[k], "is a stage of the same robot");
+        }
+    }
+    if (!work_.before.empty()) {
+        before_.resize(n_stages);
+        after_.resize(n_stages);
+    }
+    for (std::size_t k = 0; k < work_.before.size(); ++k) {
+        before_[index(work_.after[k])].push_back(work_.before[k]);
+        after_[index(work_.before[k])].push_back(work_.after[k]);
+    }
+    require_length("late_cost", work_.late_cost.size(), work_.cost.size());
+    require_length("due", work_.due.size(), work_.cost.size());
+    if (has_costs()) {
+        require_length("cost", work_.cost.size(), n_stages);
+        require_ranges("cost", work_.cost, 0, heaviest);
+        require_ranges("late_cost", work_.late_cost, 0, heaviest);
+        require_ranges("due", work_.due, 0, never);
+    }
+    require_range("n_places", work_.n_places, 0, n_vertices());
+}
+
+RobotId Problem::robot_of(std::int32_t stage) const {
+    const auto& first = arrays_.first_stage;
+    return static_cast<RobotId>(std::upper_bound(first.begin(), first.end(), stage) -
+                                first.begin()) -
+           1;
+}
+
+void Problem::refuse_times(const char* method) const {
+    if (has_times()) {
+        throw std::invalid_argument(std::string(method) + ": does not know times of stages");
+    }
 }
 
 void Problem::check_closures() {
@@ -131,7 +194,8 @@ void Problem::check_resources() {
 
 bool Problem::moves_in_steps() const {
     const auto is_step = [](std::int32_t ticks) { return ticks == 1 || ticks == -1; };
-    if (!may_follow() || !std::all_of(arrays_.paces.begin(), arrays_.paces.end(), is_step)) {
+    if (has_times() || !may_follow() ||
+        !std::all_of(arrays_.paces.begin(), arrays_.paces.end(), is_step)) {
         return false;
     }
     for (RobotId r = 0; r < n_robots(); ++r) {
@@ -165,7 +229,11 @@ void Problem::check_robots() const {
     require_length("first_stage", arrays_.first_stage.size(), n_robots + 1);
     require_lists("first_stage", arrays_.first_stage, arrays_.stage_vertex.size(), "stages", 1);
     const std::size_t n_stages = arrays_.stage_vertex.size();
-    require_ids("stage_vertex", arrays_.stage_vertex, n_vertices());
+    if (has_times()) {
+        check_ends_anywhere();
+    } else {
+        require_ids("stage_vertex", arrays_.stage_vertex, n_vertices());
+    }
     require_length("stage_work", arrays_.stage_work.size(), n_stages);
     require_length("stage_turn", arrays_.stage_turn.size(), n_stages);
     require_durations("stage_work", arrays_.stage_work);
@@ -176,19 +244,74 @@ void Problem::check_robots() const {
     }
 }
 
+// A stage is at a vertex, but the last one of a robot may be at `none`.
+void Problem::check_ends_anywhere() const {
+    for (std::size_t r = 0; r < arrays_.home.size(); ++r) {
+        for (auto k = index(arrays_.first_stage[r]); k < index(arrays_.first_stage[r + 1]); ++k) {
+            const bool is_last = k + 1 == index(arrays_.first_stage[r + 1]);
+            const bool is_anywhere = is_last && arrays_.stage_vertex[k] == none;
+            if (is_anywhere && arrays_.stage_work[k] != 0) {
+                reject_entry("stage_work", k, arrays_.stage_work[k], "is work at no vertex");
+            }
+            if (!is_anywhere) {
+                require_id("stage_vertex[" + std::to_string(k) + "]", arrays_.stage_vertex[k],
+                           n_vertices());
+            }
+        }
+    }
+}
+
 Itinerary Problem::itinerary(RobotId robot) const {
     const auto first = index(first_stage(robot));
     const std::size_t n = index(first_stage(robot + 1)) - first;
-    return {home(robot),
-            arrays_.stage_vertex.subspan(first, n),
-            arrays_.stage_work.subspan(first, n),
-            arrays_.stage_turn.subspan(first, n),
-            pace(robot),
-            turns(robot),
-            arrays_.surcharges};
+    Itinerary itinerary{home(robot),
+                        arrays_.stage_vertex.subspan(first, n),
+                        arrays_.stage_work.subspan(first, n),
+                        arrays_.stage_turn.subspan(first, n),
+                        pace(robot),
+                        turns(robot),
+                        arrays_.surcharges};
+    if (has_times()) {
+        StageTimes& times = itinerary.times;
+        times.earliest = work_.earliest.subspan(first, n);
+        times.latest = work_.latest.subspan(first, n);
+        times.ready = work_.ready[index(robot)];
+        times.n_places = work_.n_places;
+        if (has_costs()) {
+            times.cost = work_.cost.subspan(first, n);
+            times.late_cost = work_.late_cost.subspan(first, n);
+            times.due = work_.due.subspan(first, n);
+            times.weight = arrays_.weight.empty() ? 1 : arrays_.weight[index(robot)];
+        }
+    }
+    return itinerary;
 }
 
-Turns Problem::turns(RobotId robot) const { return Turns::of(turns_, robot); }
+std::size_t Itinerary::stage_after_in_time(std::size_t stage, VertexId vertex, Tick enter,
+                                           Tick until, std::vector<Tick>* ends) const {
+    Tick now = std::max(enter, times.ready);
+    for (; stage + 1 < n_stages() && stage_vertex[stage] == vertex; ++stage) {
+        now = end_of(stage, now);
+        if (now >= never || now + stage_turn[stage] > until) {
+            break;
+        }
+        if (ends != nullptr) {
+            ends->push_back(now);
+        }
+    }
+    return stage;
+}
+
+Turns Problem::turns(RobotId robot) const {
+    Turns turns = Turns::of(turns_, robot);
+    if (turns.take_time() && has_times()) {
+        const auto first = work_.first_turn_of[index(robot)];
+        const auto n_turns = work_.first_turn_of[index(robot) + 1] - first;
+        turns.first = work_.first_turn.subspan(index(first), index(n_turns));
+        turns.first_edge = graph().indptr[index(home(robot))];
+    }
+    return turns;
+}
 
 Turns Turns::of(const TurnArrays& turns, RobotId robot) {
     if (turns.class_of.empty() || turns.class_of[index(robot)] < 0) {

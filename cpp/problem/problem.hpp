@@ -3,6 +3,7 @@
 // Searches read one `Problem`. It is immutable, borrows its arrays, and is checked once.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -38,6 +39,29 @@ struct ProblemArrays {
     std::int32_t n_classes;
     std::span<const Tick> surcharges = {};  // per length class: added to costs; empty: all 0
     std::span<const Tick> weight = {};      // per robot: of a tick of it; empty: all 1
+};
+
+// Fleets with jobs: when stages may be served, how robots begin and end, and what the ends of
+// stages cost. Empty for other fleets. The last stage of a robot that ends anywhere is at `none`,
+// without work.
+struct WorkArrays {
+    std::span<const Tick> earliest;  // per stage: the work begins then or later
+    std::span<const Tick> latest;    // per stage: the work ends then or before
+    std::span<const Tick> ready;     // per robot: it stays at its home until then
+    // Robot r turns in first_turn[first_turn_of[r] + k] ticks before it drives along the k-th edge
+    // out of its home; in no time if its list is empty.
+    std::span<const std::int32_t> first_turn_of;  // R + 1
+    std::span<const std::int32_t> first_turn;
+    // The work of stage before[k] ends before that of stage after[k] of another robot begins.
+    std::span<const std::int32_t> before;
+    std::span<const std::int32_t> after;
+    // Per stage: what a tick of its end costs, and a tick of its end after `due` costs more; empty:
+    // nothing. Then a tick of completion costs the weight of the robot, and costs are not weighted
+    // again.
+    std::span<const Tick> cost = {};
+    std::span<const Tick> late_cost = {};
+    std::span<const Tick> due = {};
+    VertexId n_places = 0;  // robots that end anywhere end at a vertex below
 };
 
 // Which bookings exclude each other. A *row* is a resource as robots of one size class book it: row
@@ -77,18 +101,46 @@ struct Turns {
 
     std::span<const std::int64_t> offset;
     std::span<const std::int32_t> kind;
-    std::span<const std::int32_t> ticks;  // by kind; empty: turning takes no time
+    std::span<const std::int32_t> ticks;       // by kind; empty: turning takes no time
+    std::span<const std::int32_t> first = {};  // before the first drive, by edge out of the home
+    EdgeId first_edge = 0;                     // out of the home
 
     bool take_time() const { return !ticks.empty(); }
-    // Ticks from the heading of one edge to that of the next; 0 for the first drive (`in` is -1).
+    // Ticks from the heading of one edge to that of the next; `in` is -1 for the first drive, which
+    // turns from the initial heading, if the robot has one.
     std::int32_t between(EdgeId in, EdgeId out) const {
-        return ticks.empty() || in < 0 ? 0 : ticks[index(kind[index(offset[index(in)] + out)])];
+        if (ticks.empty()) {
+            return 0;
+        }
+        if (in < 0) {
+            return first.empty() ? 0 : first[index(out - first_edge)];
+        }
+        return ticks[index(kind[index(offset[index(in)] + out)])];
+    }
+};
+
+// The part of `WorkArrays` that is of the stages of one robot.
+struct StageTimes {
+    std::span<const Tick> earliest = {};
+    std::span<const Tick> latest = {};
+    std::span<const Tick> cost = {};
+    std::span<const Tick> late_cost = {};
+    std::span<const Tick> due = {};
+    Tick ready = 0;
+    Tick weight = 1;
+    VertexId n_places = 0;
+
+    bool are_known() const { return !earliest.empty(); }
+    bool cost_ends() const { return !cost.empty(); }
+    Tick cost_of(std::size_t stage, Tick end) const {
+        return cost[stage] * end + late_cost[stage] * std::max<Tick>(0, end - due[stage]);
     }
 };
 
 // The stages of one robot and its pace. A visit serves a stage if it is at the stage's vertex and
 // lasts for work plus turn, besides the turn to the next edge and the drive; the last visit of the
-// robot needs no turn.
+// robot needs no turn. Where stages have times, work waits for its earliest begin, and a visit
+// turns once, after the last of its stages.
 struct Itinerary {
     VertexId home = 0;
     std::span<const VertexId> stage_vertex;
@@ -97,13 +149,40 @@ struct Itinerary {
     std::span<const std::int32_t> pace;  // ticks per edge of each length class; -1: barred
     Turns turns = {};
     std::span<const Tick> surcharges = {};  // of each length class; empty: all 0
+    StageTimes times = {};
 
     std::size_t n_stages() const { return stage_vertex.size(); }
+    bool ends_anywhere() const { return stage_vertex.back() == none; }
+    // Whether the robot completes with its last work, and then drives to some vertex.
+    bool completes_before_end() const { return ends_anywhere() && n_stages() > 1; }
+
+    // When the work of a stage ends if it can begin at `now`; never if that is too late.
+    Tick end_of(std::size_t stage, Tick now) const {
+        if (!times.are_known()) {
+            return now + stage_work[stage];
+        }
+        const Tick end = std::max(now, times.earliest[stage]) + stage_work[stage];
+        return end <= times.latest[stage] ? end : never;
+    }
+
+    // The turn after a stage if the next stage is served as soon as possible.
+    Tick turn_after(std::size_t stage) const {
+        const bool stays =
+            times.are_known() && stage + 1 < n_stages() &&
+            (stage_vertex[stage + 1] == stage_vertex[stage] || stage_vertex[stage + 1] == none);
+        return stays ? 0 : stage_turn[stage];
+    }
 
     // The first stage not served after a visit, where `stage` is the first not served before it.
-    // `spare` is the duration of the visit without the turn and the drive that follow. A visit
-    // serves as many stages as fit into `spare`; only the last visit serves the last stage.
-    std::size_t stage_after(std::size_t stage, VertexId vertex, Tick spare) const {
+    // From `until` on, the visit turns to the next edge and drives. A visit serves as many stages
+    // as fit into the time before; only the last visit serves the last stage. Where stages have
+    // times, `ends` gets the end of each one served, if it is given.
+    std::size_t stage_after(std::size_t stage, VertexId vertex, Tick enter, Tick until,
+                            std::vector<Tick>* ends = nullptr) const {
+        if (times.are_known()) {
+            return stage_after_in_time(stage, vertex, enter, until, ends);
+        }
+        Tick spare = until - enter;
         while (stage + 1 < n_stages() && stage_vertex[stage] == vertex &&
                spare >= stage_work[stage] + stage_turn[stage]) {
             spare -= stage_work[stage] + stage_turn[stage];
@@ -111,6 +190,9 @@ struct Itinerary {
         }
         return stage;
     }
+
+    std::size_t stage_after_in_time(std::size_t stage, VertexId vertex, Tick enter, Tick until,
+                                    std::vector<Tick>* ends) const;
 
     // The first stage of the final run of stages that are all at the last vertex.
     std::size_t first_stage_at_end() const {
@@ -126,7 +208,8 @@ class Problem {
   public:
     // Borrows the arrays. Throws std::invalid_argument if the arrays do not fit together.
     Problem(const ProblemArrays& arrays, const BookingRules& rules, const Resources& resources = {},
-            const TurnArrays& turns = {}, const Closures& closures = {});
+            const TurnArrays& turns = {}, const Closures& closures = {},
+            const WorkArrays& work = {});
 
     const Graph& graph() const { return roads_.graph; }
     const Roads& roads() const { return roads_; }
@@ -142,6 +225,8 @@ class Problem {
         return stage + 1 == arrays_.first_stage[index(robot + 1)];
     }
     VertexId stage_vertex(std::int32_t stage) const { return arrays_.stage_vertex[index(stage)]; }
+    Tick stage_work(std::int32_t stage) const { return arrays_.stage_work[index(stage)]; }
+    Tick stage_turn(std::int32_t stage) const { return arrays_.stage_turn[index(stage)]; }
     // Work time plus turn of a stage; the last visit of a robot needs no turn.
     Tick stage_dwell(std::int32_t stage) const {
         return arrays_.stage_work[index(stage)] + arrays_.stage_turn[index(stage)];
@@ -168,15 +253,35 @@ class Problem {
                    : arrays_.surcharges[index(roads_.length_class[index(edge)])];
     }
     bool has_surcharges() const { return !arrays_.surcharges.empty(); }
-    // How much a tick of a robot's completion time and surcharges counts.
+    // How much a tick of a robot's completion time and surcharges counts; 1 where ends of stages
+    // cost.
     Tick weight(RobotId robot) const {
-        return arrays_.weight.empty() ? 1 : arrays_.weight[index(robot)];
+        return arrays_.weight.empty() || has_costs() ? 1 : arrays_.weight[index(robot)];
     }
     Tick total_weight() const {
-        return arrays_.weight.empty()
+        return arrays_.weight.empty() || has_costs()
                    ? n_robots()
                    : std::accumulate(arrays_.weight.begin(), arrays_.weight.end(), Tick{0});
     }
+
+    // Whether stages have times, robots begin with a state or end anywhere, or stages of two robots
+    // follow each other.
+    bool has_times() const { return !work_.earliest.empty(); }
+    // Whether ends of stages cost.
+    bool has_costs() const { return !work_.cost.empty(); }
+    const WorkArrays& work() const { return work_; }
+    Tick ready(RobotId robot) const { return has_times() ? work_.ready[index(robot)] : 0; }
+    RobotId robot_of(std::int32_t stage) const;
+    // The stages of other robots that end before a stage begins, and that begin after its end.
+    std::span<const std::int32_t> stages_before(std::int32_t stage) const {
+        return before_.empty() ? std::span<const std::int32_t>{} : before_[index(stage)];
+    }
+    std::span<const std::int32_t> stages_after(std::int32_t stage) const {
+        return after_.empty() ? std::span<const std::int32_t>{} : after_[index(stage)];
+    }
+    bool has_arcs() const { return !before_.empty(); }
+    // Throws std::invalid_argument if stages have times; `method` does not know them.
+    void refuse_times(const char* method) const;
 
     // Whether lists are given: for robots with a size, and zones. Else robots are points.
     bool has_sizes() const { return !lists_.is_identity(); }
@@ -237,6 +342,8 @@ class Problem {
     void check_robots() const;
     void check_resources();
     void check_closures();
+    void check_work();
+    void check_ends_anywhere() const;
 
     ProblemArrays arrays_;
     Roads roads_;
@@ -245,6 +352,9 @@ class Problem {
     ExcludedRows lists_;
     TurnArrays turns_;
     Closures closures_;
+    WorkArrays work_;
+    std::vector<std::vector<std::int32_t>> before_;  // by stage; empty without arcs
+    std::vector<std::vector<std::int32_t>> after_;
     std::int32_t n_rows_;
     bool edges_exclude_ = false;
     bool is_barred_ = false;

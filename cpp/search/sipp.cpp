@@ -24,9 +24,13 @@ void SafeIntervalSearch::begin(const SearchRequest& request) {
     ends_from_ = request.ends_from;
     goal_ = none;
     greed_ = request.greed;
+    has_times_ = trip_->times.are_known();
+    completes_before_end_ = has_times_ && trip_->completes_before_end();
+    costs_ends_ = greed_ == 0 && trip_->times.cost_ends();
     // Overlaps that no price buys make an earlier, dearer node worth keeping.
-    has_one_label_ = (prices_.empty() && trip_->surcharges.empty()) ||
-                     (greed_ > 0 && !bookings_->has_closures());
+    has_one_label_ =
+        (prices_.empty() && trip_->surcharges.empty() && !completes_before_end_ && !costs_ends_) ||
+        (greed_ > 0 && !bookings_->has_closures());
     measure_stages(request.trip);
     least_drive_ = never;
     for (const std::int32_t ticks : trip_->pace) {
@@ -64,11 +68,12 @@ SearchEnd SafeIntervalSearch::search(std::int64_t most_states, const StopConditi
     first.gap = BookingTable::started(home, rules_.headway);
     first.parent = none;
     first.cost = price_of_entry(first, 0);
-    if (first.cost >= never) {
-        return SearchEnd::proven_none;  // another robot books the home at tick 0
+    if (first.cost >= never || !pay_until(first, trip_->times.ready)) {
+        return SearchEnd::proven_none;  // another robot books the home before this one is ready
     }
-    first_f_ = rest(first);
-    reach(first, first_f_);  // 1
+    first.ready = trip_->times.ready;
+    first_f_ = has_times_ ? value(first, rest(first)) - first.cost : rest(first);
+    reach(first, rest(first));  // 1
     while (!open_.empty()) {
         const OpenList::Entry top = open_.pop();  // 2
         const SearchNode& node = states_[top.node];
@@ -118,7 +123,10 @@ void SafeIntervalSearch::drive(std::int32_t node, EdgeId edge) {
         return;
     }
     SearchNode candidate = here;
-    candidate.cost += trip_->surcharges.empty() ? 0 : trip_->surcharges[index(length_class)];
+    if (!trip_->surcharges.empty()) {
+        candidate.cost +=
+            (costs_ends_ ? trip_->times.weight : 1) * trip_->surcharges[index(length_class)];
+    }
     candidate.vertex = roads_.graph.indices[index(edge)];
     candidate.ready += Tick{trip_->turns.between(here.edge, edge)} + ticks;
     candidate.parent = node;
@@ -127,12 +135,15 @@ void SafeIntervalSearch::drive(std::int32_t node, EdgeId edge) {
     const bool never_ends = index(here.gap) == from.size();
     const Tick latest = never_ends ? never : from[index(here.gap)].time.start - rules_.headway;
     const Tick way = rest(candidate);
-    if (candidate.ready > latest || way < 0 || candidate.ready + way + candidate.cost > limit_ ||
-        candidate.ready + way > latest_) {
+    if (candidate.ready > latest || way < 0 || value(candidate, way) > limit_ ||
+        (candidate.ready + way > latest_ && !has_completed(candidate))) {
         return;
     }
-    Tick in_time = limit_ == never ? latest : std::min(latest, limit_ - way - candidate.cost);
-    in_time = std::min(in_time, latest_ - way);
+    Tick in_time = latest;
+    if (costs_time(candidate)) {
+        in_time = limit_ == never ? latest : std::min(latest, limit_ - way - candidate.cost);
+        in_time = std::min(in_time, latest_ - way);
+    }
     const Tick approach = rules_.books_ahead ? ticks : 0;
     const auto along = books_edges_ ? at(roads_.graph.n_vertices() + edge) : no_bookings;
     if (prices_.empty()) {
@@ -180,8 +191,9 @@ Tick SafeIntervalSearch::free_drive(std::span<const BookedBy> along, Tick tick, 
 
 // Line 13: adds a state to OPEN unless it is known to be reached as early and as cheaply.
 void SafeIntervalSearch::reach(const SearchNode& candidate, Tick way) {
-    const Tick f = candidate.ready + way + candidate.cost;
-    if (way < 0 || f > limit_ || candidate.ready + way > latest_) {
+    const Tick f = value(candidate, way);
+    if (way < 0 || f > limit_ || (candidate.ready + way > latest_ && !has_completed(candidate)) ||
+        (has_times_ && !is_in_time(candidate))) {
         return;
     }
     const std::int32_t node = states_.add(candidate);
@@ -197,7 +209,7 @@ void SafeIntervalSearch::track(std::vector<Visit>& visits) const {
     for (std::int32_t node = goal_; node != none; node = states_[node].parent) {
         const SearchNode& one = states_[node];
         if (one.parent == none) {
-            visits.push_back({one.ready, one.vertex, 0});
+            visits.push_back({0, one.vertex, 0});
         } else if (one.drive > 0) {
             const EdgeId before = states_[one.parent].edge;
             visits.push_back(

@@ -36,6 +36,12 @@
 // The last visit may have an earliest start. Then a robot may still pass the last vertex before:
 // "entered late enough to stay" is one more gap there, from which nothing follows but the end.
 //
+// Where stages have times (problem.hpp), work waits for its earliest begin, and a later arrival is
+// still never better, because a robot can wait in its gap. A visit may serve several stages and
+// turns once. If ends of stages cost, A* minimizes these costs and the weighted completion time. A
+// robot that ends anywhere completes with its last work: from there on its cost is fixed, and a
+// state keeps every node that is earlier or cheaper than the others.
+//
 // Closures are bookings of nobody: they have no price and swap with no robot. Surcharges of edges
 // count as costs, as prices do.
 //
@@ -83,8 +89,9 @@ class SafeIntervalSearch {
 
     // The track of the last search; empty if the search found none.
     void track(std::vector<Visit>& visits) const;
+    // Only of a robot that does not end anywhere.
     Tick completion() const { return states_[goal_].ready; }
-    Tick cost() const { return completion() + states_[goal_].cost; }
+    Tick cost() const { return value(states_[goal_], 0); }
 
     // Prepares `rest` for a trip. Borrows the trip.
     void measure(const Trip& trip) {
@@ -105,6 +112,7 @@ class SafeIntervalSearch {
     SearchEnd search(std::int64_t most_states, const StopCondition& is_over);
     void begin(const SearchRequest& request);
     void measure_stages(const Trip& trip);
+    void measure_times(const Trip& trip);
     Tick least_end() const;
     Tick free_end(std::span<const BookedBy> before) const;
     bool is_worth_aiming() const;
@@ -118,9 +126,27 @@ class SafeIntervalSearch {
         return way < 0 ? way : way + to_go_[index(stage)];
     }
     Tick rest(const SearchNode& node) const { return rest(node.vertex, node.edge, node.stage); }
+    // The least cost of a track by way of a node: f = g + h.
+    Tick value(const SearchNode& node, Tick way) const {
+        return has_times_ ? value_in_time(node, way) : node.ready + way + node.cost;
+    }
+    Tick value_in_time(const SearchNode& node, Tick way) const;
+    bool is_in_time(const SearchNode& node) const;
+    // Whether the robot has completed, and looks for a vertex to stay at.
+    bool has_completed(const SearchNode& node) const {
+        return completes_before_end_ && node.stage + 1 >= n_stages();
+    }
+    // Whether the cost rises by a tick with each tick.
+    bool costs_time(const SearchNode& node) const { return !costs_ends_ && !has_completed(node); }
     void expand(std::int32_t node);
     void finish(std::int32_t node);
     void serve(std::int32_t node);
+    void finish_in_time(SearchNode after);
+    void serve_in_time(std::int32_t node);
+    bool pay_until(SearchNode& node, Tick tick) const;
+    Tick completion_cost(Tick tick) const {
+        return costs_ends_ ? trip_->times.weight * tick : tick;
+    }
     void stay_on(std::int32_t node);
     void drive(std::int32_t node, EdgeId edge);
     void drive_between(SearchNode candidate, Tick way, Tick latest, Tick approach,
@@ -162,7 +188,12 @@ class SafeIntervalSearch {
     Tick latest_ = never;
     Tick stays_from_ = 0;
     Tick ends_from_ = 0;
-    std::vector<Tick> to_go_;      // least ticks from each stage's vertex to completion
+    bool has_times_ = false;             // stages have times
+    bool completes_before_end_ = false;  // the robot ends anywhere
+    bool costs_ends_ = false;            // ends of stages cost
+    std::vector<Tick> to_go_;            // least ticks from each stage's vertex to completion
+    std::vector<Tick> soonest_;    // least completion by the earliest begins from each stage on
+    std::vector<Tick> in_time_;    // latest arrival at each stage's vertex
     std::int32_t first_last_ = 0;  // first of the final stages at the last vertex
     SearchStates states_;
     OpenList open_;

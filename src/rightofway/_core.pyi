@@ -175,6 +175,32 @@ class Closures:
 
     def __init__(self, row: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], end: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
 
+class Work:
+    """
+    When stages may be served, and how robots begin and end.
+
+    The last stage of a robot that ends anywhere is at vertex -1.
+
+    Parameters
+    ----------
+    earliest, latest : int64[S], int64[S]
+        The work of each stage begins at `earliest` or later, and ends at `latest` or before. [ticks]
+    ready : int64[R]
+        Until when each robot stays at its home. [ticks]
+    first_turn_of, first_turn : int32[R + 1], int32[n]
+        Robot ``r`` turns in ``first_turn[first_turn_of[r] + k]`` ticks before it first drives along the
+        k-th edge out of its home; in no time where the list is empty.
+    before, after : int32[A], int32[A]
+        The work of stage ``before[k]`` ends before that of stage ``after[k]`` of another robot begins.
+    n_places : int
+        Robots that end anywhere end at a vertex below.
+    cost, late_cost, due : int64[S] or None
+        What a tick of the end of each stage costs, and what a tick after `due` costs more; None where
+        only completions cost.
+    """
+
+    def __init__(self, earliest: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], latest: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], ready: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_turn_of: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_turn: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], before: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], after: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_places: int, cost: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, late_cost: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, due: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None) -> None: ...
+
 class Problem:
     """
     A scenario in ticks: roads, robots and booking rules.
@@ -198,6 +224,8 @@ class Problem:
         What an edge of each length class adds to costs, not to durations; None where all are 0. [ticks]
     closures : Closures or None
         What is closed for a while.
+    work : Work or None
+        Times of stages; None for a fleet without jobs.
 
     Raises
     ------
@@ -205,7 +233,7 @@ class Problem:
         If the arrays do not fit together; names the array, the index and the value.
     """
 
-    def __init__(self, roads: Roads, robots: Robots, rules: BookingRules, lists: ExcludedRows | None = None, turning: Turning | None = None, surcharges: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, closures: Closures | None = None) -> None: ...
+    def __init__(self, roads: Roads, robots: Robots, rules: BookingRules, lists: ExcludedRows | None = None, turning: Turning | None = None, surcharges: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, closures: Closures | None = None, work: Work | None = None) -> None: ...
 
     @property
     def n_robots(self) -> int:
@@ -856,6 +884,16 @@ class FleetSearch:
             All robots without a track, each once.
         n_searches : int
             The most searches before it gives up.
+        time_limit : float or None
+            When to stop; at once for 0 or less. [s]
+        """
+
+    def move_one_at_a_time(self, time_limit: float | None) -> bool:
+        """
+        Give all robots tracks on which one of them moves at a time; tell whether this was possible.
+
+        Parameters
+        ----------
         time_limit : float or None
             When to stop; at once for 0 or less. [s]
         """

@@ -162,14 +162,14 @@ def test_itineraries_follow_the_tours_and_robots_wait_for_jobs_before() -> None:
     tours = (item(0, 0, 5, 4), item(0, 1, 9)), (item(1, 0, 6, 1), charge)
     assigned = assign_tours(scenario, tours)
     first, second = assigned.problem.itineraries
-    # A robot turns for the time of a cell, 2 ticks, but not between two stages at one vertex.
+    # A visit turns once, for the time of a cell, 2 ticks, after the last of its stages.
     assert first.stages == (
         Stage(vertex=V(5), work=T(4), turn=T(2), earliest=T(7)),
         Stage(vertex=V(9), work=T(0), turn=T(2), latest=T(101), weight=3, due=T(18)),
         Stage(vertex=V(0), work=T(0), turn=T(0)),
     )
     assert second.stages == (
-        Stage(vertex=V(6), work=T(1), turn=T(0), weight=2),
+        Stage(vertex=V(6), work=T(1), turn=T(2), weight=2),
         Stage(vertex=V(6), work=T(8), turn=T(2)),
         Stage(vertex=V(3), work=T(0), turn=T(0)),
     )

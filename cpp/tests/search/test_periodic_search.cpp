@@ -27,8 +27,9 @@ struct Diamond {
 
     Roads roads() const { return {{indptr, indices}, length_class}; }
     Trip trip() const {
-        return {0,    stage_vertex, stage_work, stage_turn,
-                pace, {},           {},         {{to_three.data(), 1}, {to_zero.data(), 1}}};
+        return {0,          stage_vertex, stage_work,
+                stage_turn, pace,         {},
+                {},         {},           {{to_three.data(), 1}, {to_zero.data(), 1}}};
     }
 };
 

@@ -32,6 +32,9 @@ struct Case {
     Ticks work{};
     Ticks prices{};
     Tick limit = never;
+    Ticks earliest{};  // empty: stages have no times
+    Ticks latest{};
+    Tick ready = 0;
 
     SearchEnd run(FoundTrack& found) const {
         const std::vector<std::int32_t> classes(roads.heads.size(), 0);
@@ -39,9 +42,14 @@ struct Case {
         const Ticks turn(stages.size(), 0);
         std::vector<std::vector<std::int32_t>> tables;
         for (const VertexId stage : stages) {
-            tables.push_back(roads.table(stage));
+            tables.push_back(stage == none ? std::vector<std::int32_t>(4, 0) : roads.table(stage));
         }
-        Trip trip{home, stages, work, turn, pace, {}, {}, {}};
+        Trip trip{home, stages, work, turn, pace, {}, {}, {}, {}};
+        if (!earliest.empty()) {
+            trip.times = {earliest, latest};
+            trip.times.ready = ready;
+            trip.times.n_places = 4;
+        }
         for (const auto& one : tables) {
             trip.to_stage.emplace_back(one.data(), 1);
         }
@@ -299,6 +307,45 @@ TEST_CASE("tracks beyond the limit are of no use") {
     CHECK(one.run(found) == SearchEnd::found);
 }
 
+TEST_CASE("work waits for its earliest begin, and ends in time or not at all") {
+    FoundTrack found;
+    Case one{test::corridor(), BookingTable(4), {0, false}, 0, {2, 0}, {3, 0}};
+    one.earliest = {10, 0};
+    one.latest = {13, never};
+    REQUIRE(one.run(found) == SearchEnd::found);
+    CHECK(found.vertices == Vertices{0, 1, 2, 1, 0});
+    CHECK(found.enter == Ticks{0, 1, 2, 14, 15});  // works from 10 to 13
+    CHECK(found.cost == 15);
+    one.ready = 9;  // it comes at 11 and would work until 14
+    CHECK(one.run(found) == SearchEnd::proven_none);
+}
+
+TEST_CASE("a robot whose work has to wait leaves and comes back if others pass") {
+    FoundTrack found;
+    Case one{test::corridor_with_bay(), BookingTable(4), {0, false}, 0, {1, 0}, {2, 0}};
+    one.table.book(1, {3, 5}, 9);  // and goes on to the home
+    one.table.book(0, {5, 8}, 9);
+    one.earliest = {6, 0};
+    one.latest = {never, never};
+    REQUIRE(one.run(found) == SearchEnd::found);
+    CHECK(found.vertices[2] >= 2);  // one of the two other vertices
+    CHECK(found.enter == Ticks{0, 1, 2, 5, 9});  // works from 6 to 8
+}
+
+TEST_CASE("a robot that ends anywhere completes with its last work, and then makes room") {
+    FoundTrack found;
+    Case one{test::corridor(), BookingTable(4), {0, false}, 0, {2, none}, {1, 0}};
+    one.earliest = {0, 0};
+    one.latest = {never, never};
+    REQUIRE(one.run(found) == SearchEnd::found);
+    CHECK(found.vertices == Vertices{0, 1, 2});
+    CHECK(found.cost == 3);
+    one.table.book(2, {5, never}, 9);
+    REQUIRE(one.run(found) == SearchEnd::found);
+    CHECK(found.vertices.size() == 4);
+    CHECK(found.cost == 3);
+}
+
 TEST_CASE("one object serves many searches") {
     const test::Roads roads = test::corridor_with_bay();
     const std::vector<std::int32_t> classes(roads.heads.size(), 0);
@@ -306,7 +353,7 @@ TEST_CASE("one object serves many searches") {
     const auto table = roads.table(2);
     const Vertices stage{2};
     const Ticks nothing{0};
-    const Trip trip{0, stage, nothing, nothing, pace, {}, {}, {{table.data(), 1}}};
+    const Trip trip{0, stage, nothing, nothing, pace, {}, {}, {}, {{table.data(), 1}}};
     SafeIntervalSearch search({roads.graph(), classes}, {0, false});
     BookingTable bookings(4);
     for (Tick k = 0; k < 1500; ++k) {  // the table of states has to grow on the way
@@ -333,7 +380,7 @@ TEST_CASE("where somebody else comes to the end late, the search does not look a
     }
     const Vertices stage{5};
     const Ticks nothing{0};
-    const Trip trip{0, stage, nothing, nothing, pace, {}, {}, {{table.data(), 1}}};
+    const Trip trip{0, stage, nothing, nothing, pace, {}, {}, {}, {{table.data(), 1}}};
     SafeIntervalSearch search({{indptr, heads}, classes}, {0, false});
     BookingTable bookings(n);
     for (Tick k = 10; k < 100; ++k) {

@@ -20,6 +20,7 @@ from rightofway.model.problem import (
     scale_weights,
 )
 from rightofway.model.robot import Robot
+from rightofway.model.turning import compute_first_turns
 from rightofway.model.units import Clock, Tick
 from rightofway.model.work import (
     CAPACITY,
@@ -78,7 +79,7 @@ def bind_tours(problem: Problem, tours: Sequence[Tour]) -> Problem:
     return replace(
         problem,
         itineraries=tuple(
-            _bind_tour(problem.work, robot, itinerary, tour)
+            _bind_tour(problem, robot, itinerary, tour)
             for robot, itinerary, tour in zip(
                 problem.work.robots, problem.itineraries, tours, strict=True
             )
@@ -87,22 +88,21 @@ def bind_tours(problem: Problem, tours: Sequence[Tour]) -> Problem:
     )
 
 
-def _bind_tour(work: Work, robot: BoundRobot, itinerary: Itinerary, tour: Tour) -> Itinerary:
-    places = [item.vertex for item in tour]
+def _bind_tour(problem: Problem, robot: BoundRobot, itinerary: Itinerary, tour: Tour) -> Itinerary:
+    assert problem.work is not None, "the problem has jobs"
+    stages = [_bind_item(problem.work.jobs, item, robot.turn) for item in tour]
     if robot.home is not None or not tour:
-        places.append(robot.start if robot.home is None else robot.home)
-    turns = [
-        Tick(0) if at == following else robot.turn
-        for at, following in zip(places, [*places[1:], places[-1]], strict=True)
-    ]
-    stages = [_bind_item(work.jobs, item, turn) for item, turn in zip(tour, turns, strict=False)]
-    stages += [Stage(vertex=at, work=Tick(0), turn=Tick(0)) for at in places[len(tour) :]]
+        last = robot.start if robot.home is None else robot.home
+        stages.append(Stage(vertex=last, work=Tick(0), turn=Tick(0)))
+    heading = robot.heading if itinerary.turning is not None else None
     return replace(
         itinerary,
         home=robot.start,
         stages=tuple(stages),
         ready=robot.ready,
-        heading=robot.heading if itinerary.turning is not None else None,
+        heading=heading,
+        first_turns=compute_first_turns(problem.roadmap, itinerary.turning, robot.start, heading),
+        ends_anywhere=robot.home is None,
     )
 
 

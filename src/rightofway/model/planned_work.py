@@ -165,84 +165,39 @@ def time_tours(scenario: Scenario, tracks: Sequence[Track]) -> tuple[PlannedTour
     A charge lasts as long as the robot would wait otherwise. The tour of a robot ends before the
     first item that no visit is long enough for.
     """
-    work, tours, after = scenario.problem.work, scenario.tours, scenario.problem.after
+    work = scenario.problem.work
     assert work is not None, "the scenario has jobs"
-    assert tours is not None, "the scenario has tours"
+    assert scenario.tours is not None, "the scenario has tours"
     stays = find_stays(scenario, tracks)
-    timings = [_Timing.of(work, robot, tracks[robot], stays[robot]) for robot in range(len(tours))]
-    floors: dict[tuple[int, int], int] = {}
-    for _ in range(len(after) + 1):  # each pass settles what follows a settled item
-        placed = [
-            list(timing.place_items(tour, [floors.get((robot, k), 0) for k in range(len(tour))]))
-            for robot, (timing, tour) in enumerate(zip(timings, tours, strict=True))
-        ]
-        ends: dict[tuple[int, int], int] = {}
-        for arc in after:
-            robot, stage = arc.before
-            if stage < len(placed[robot]):
-                ends[arc.after] = max(ends.get(arc.after, 0), placed[robot][stage].end)
-        if ends == floors:
-            break
-        floors = ends
     return tuple(
-        tuple(timing.lengthen_charges(items)) for timing, items in zip(timings, placed, strict=True)
+        tuple(
+            _lengthen_charges(list(_time_items(tour, stay)), _list_latest(work, robot, track, stay))
+        )
+        for robot, (tour, track, stay) in enumerate(zip(scenario.tours, tracks, stays, strict=True))
     )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Timing:
-    """The visits of one robot: where, and from when until when it may do something there."""
+def _time_items(tour: Tour, stay: Stays) -> Iterator[PlannedItem]:
+    """Yield the items of a tour that visits serve, without the vertex where the robot rests."""
+    items = [item for item in tour if item.job is not None or item.duration]
+    for item, visit, begin, end in zip(items, stay.serves, stay.begins, stay.ends, strict=False):
+        yield PlannedItem(visit=visit, begin=begin, end=end, job=item.job, stop=item.stop)
 
-    work: Work
-    vertices: Sequence[int]
-    begins: Sequence[int]
-    ends: Sequence[int]
 
-    @classmethod
-    def of(cls, work: Work, robot: int, track: Track, stays: Stays) -> _Timing:
-        state = work.robots[robot]
-        ends = np.append(track.enter[1:], NEVER) - stays.drive - stays.turns - state.turn
-        ends[-1] = NEVER
-        return cls(
-            work=work,
-            vertices=track.vertices.tolist(),
-            begins=np.maximum(track.enter, state.ready).tolist(),
-            ends=ends.tolist(),
-        )
+def _list_latest(work: Work, robot: int, track: Track, stay: Stays) -> list[int]:
+    """Return when the last item of each visit ends at the latest; NEVER for the last visit."""
+    latest = np.append(track.enter[1:], NEVER) - stay.drive - stay.turns - work.robots[robot].turn
+    latest[-1] = NEVER
+    return [int(tick) for tick in latest]
 
-    def place_items(self, tour: Tour, floors: Sequence[int]) -> Iterator[PlannedItem]:
-        """Yield the items of a tour, each in the first visit that it fits in.
 
-        An item begins at its floor or later, one for each [ticks].
-        """
-        first = free = 0
-        for item, floor in zip(tour, floors, strict=True):
-            if item.job is None and not item.duration:
-                continue  # where the robot rests
-            free = max(free, floor, self._find_earliest(item))
-            for visit in range(first, len(self.vertices)):
-                begin = max(free, self.begins[visit])
-                end = begin + item.duration
-                if self.vertices[visit] == item.vertex and end <= self.ends[visit]:
-                    break
-            else:
-                return
-            yield PlannedItem(
-                visit=visit, begin=Tick(begin), end=Tick(end), job=item.job, stop=item.stop
-            )
-            first, free = visit, end
-
-    def _find_earliest(self, item: TourItem) -> Tick:
-        if item.job is None or item.stop is None:
-            return Tick(0)
-        job = self.work.jobs[item.job]
-        return job.stops[item.stop - job.first].earliest
-
-    def lengthen_charges(self, placed: Sequence[PlannedItem]) -> Iterator[PlannedItem]:
-        """Yield items where charges last until the next item or the end of their visit."""
-        for item, following in zip_longest(placed, placed[1:]):
-            end = self.ends[item.visit]
-            if following is not None and following.visit == item.visit:
-                end = following.begin
-            grows = item.job is None and end < NEVER
-            yield replace(item, end=Tick(end)) if grows else item
+def _lengthen_charges(
+    placed: Sequence[PlannedItem], latest: Sequence[int]
+) -> Iterator[PlannedItem]:
+    """Yield items where charges last until the next item or the end of their visit."""
+    for item, following in zip_longest(placed, placed[1:]):
+        end = latest[item.visit]
+        if following is not None and following.visit == item.visit:
+            end = following.begin
+        grows = item.job is None and end < NEVER
+        yield replace(item, end=Tick(end)) if grows else item

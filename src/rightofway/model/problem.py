@@ -46,7 +46,8 @@ class Stage:
         How long the robot works there [ticks].
     turn
         How long it then turns, if an edge is to be driven afterwards [ticks]; 0 where the next
-        stage is at the same vertex.
+        stage is at the same vertex. In a scenario with jobs a visit turns once, after the last of
+        the stages that it serves; the turn is 0 for none of them.
     earliest
         The work begins then or later [ticks].
     latest
@@ -104,6 +105,13 @@ class Itinerary:
     heading
         Angle from the x axis of the map's plane to its y axis, which points down, at the first
         drive [degrees]; None where the first drive needs no turn.
+    first_turns
+        How long the robot turns from its `heading` before it drives along each edge out of `home`
+        [ticks]; empty where the first drive needs no turn.
+    ends_anywhere
+        Whether the robot, of a scenario with jobs, completes with its last work and may then drive
+        to any vertex, where it stays for ever. A last stage without work and weight is such a
+        vertex, as far as it is known.
     """
 
     home: VertexId
@@ -114,6 +122,8 @@ class Itinerary:
     weight: int = 1
     ready: Tick = field(default=Tick(0))
     heading: Fraction | None = None
+    first_turns: tuple[Tick, ...] = ()
+    ends_anywhere: bool = False
 
     @property
     def edge_costs(self) -> tuple[Tick, ...]:
@@ -132,6 +142,13 @@ class Itinerary:
     def quickest_edge(self) -> Tick:
         """Ticks of the quickest edge; 1 without an edge."""
         return min((ticks for ticks in self.edge_ticks if ticks > 0), default=Tick(1))
+
+    @property
+    def stages_to_serve(self) -> tuple[Stage, ...]:
+        """The stages, without the vertex where a robot rests that ends anywhere."""
+        last = self.stages[-1]
+        rests = self.ends_anywhere and last.work == 0 and last.weight == 0
+        return self.stages[:-1] if rests else self.stages
 
     @property
     def last(self) -> VertexId:
@@ -181,6 +198,11 @@ class Problem:
     closures: Closures | None = None
     work: Work | None = None
     after: tuple[Arc, ...] = ()
+
+    @property
+    def has_times(self) -> bool:
+        """Whether stages have times, and robots begin with a state: in a scenario with jobs."""
+        return self.work is not None
 
     @property
     def is_barred(self) -> bool:

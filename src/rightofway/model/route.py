@@ -260,7 +260,7 @@ def compute_turns_along(
 ) -> NDArray[np.int64]:
     """Return how long a robot turns at each vertex of a path [ticks]; int64, shape (n,).
 
-    It turns neither at the first vertex nor at the last one.
+    It does not turn at the last vertex, and at the first one only from its initial heading.
 
     Parameters
     ----------
@@ -273,10 +273,29 @@ def compute_turns_along(
     """
     turns = np.zeros(len(vertices), np.int64)
     if itinerary.turning is not None:
-        turns[1:-1] = itinerary.turning.compute_turns(
-            roadmap.find_edges(vertices[:-1], vertices[1:])
-        )
+        edges = roadmap.find_edges(vertices[:-1], vertices[1:])
+        turns[1:-1] = itinerary.turning.compute_turns(edges)
+        turns[0] = compute_first_turn(roadmap, itinerary, edges)
     return turns
+
+
+def compute_first_turn(roadmap: Roadmap, itinerary: Itinerary, edges: NDArray[np.int32]) -> Tick:
+    """Return how long a robot turns from its initial heading into the first of some edges [ticks].
+
+    Parameters
+    ----------
+    roadmap
+        The graph of the edges.
+    itinerary
+        The robot; its turns are in `Itinerary.first_turns`.
+    edges
+        What it drives along, from its home on; -1 where there is no edge.
+    """
+    if not itinerary.first_turns or not len(edges) or edges[0] < 0:
+        return Tick(0)
+    first = int(edges[0]) - int(roadmap.indptr[itinerary.home])
+    is_out_of_home = 0 <= first < len(itinerary.first_turns)
+    return itinerary.first_turns[first] if is_out_of_home else Tick(0)
 
 
 def find_serving_visits(

@@ -9,8 +9,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model.route import Track, compute_least_dwells, find_serving_visits
+from rightofway.model.problem import Itinerary, Problem
+from rightofway.model.route import (
+    Track,
+    compute_first_turn,
+    compute_least_dwells,
+    find_serving_visits,
+)
 from rightofway.model.scenario import Scenario
+from rightofway.model.stage_times import StageTimes, find_stage_times
 from rightofway.model.units import NEVER, Tick
 from rightofway.site import Roadmap
 
@@ -38,7 +45,11 @@ class Stays:
     serves
         The visit that serves each stage. It ends before the first stage that no visit serves.
     completion
-        When the robot has entered its last vertex and done the work there [ticks].
+        When the robot has entered its last vertex and done the work there; with its last work, if
+        it may end anywhere [ticks].
+    begins, ends
+        In a scenario with jobs, when the work of each of these stages begins and ends [ticks]. Then
+        `dwell` also holds the ticks until the robot is ready, and before works may begin.
     """
 
     dwell: NDArray[np.int64]
@@ -47,6 +58,8 @@ class Stays:
     turns: NDArray[np.int64]
     serves: tuple[int, ...]
     completion: Tick
+    begins: tuple[Tick, ...] = ()
+    ends: tuple[Tick, ...] = ()
 
 
 def find_stays(
@@ -78,8 +91,11 @@ def find_stays(
     for own, itinerary in zip(owns, scenario.problem.itineraries, strict=True):
         if itinerary.turning is not None:
             turns[own][1:] = itinerary.turning.compute_turns(edges[own])
+            turns[own][0] = compute_first_turn(scenario.roadmap, itinerary, edges[own])
     spare = np.append(np.diff(enter), 0) - drive - turns
     spare[ends - 1] = NEVER
+    if scenario.problem.has_times and tours is None:
+        return _find_stays_in_time(scenario.problem, tracks, owns, (drive, turns, spare))
     all_serves = []
     for robot, (own, track) in enumerate(zip(owns, tracks, strict=True)):
         if tours is None:
@@ -136,6 +152,51 @@ def _complete_tour(scenario: Scenario, robot: int, track: Track, tour: PlannedTo
     if tour and state.home is None:
         return end
     return max(end, Tick(int(track.enter[-1])))
+
+
+def _find_stays_in_time(
+    problem: Problem,
+    tracks: Sequence[Track],
+    owns: Sequence[slice],
+    arrays: tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]],
+) -> tuple[Stays, ...]:
+    """Return the stays of a scenario with jobs, from drives, turns and spare ticks of visits."""
+    drive, turns, spare = arrays
+    leaves = [track.enter + spare[own] for track, own in zip(tracks, owns, strict=True)]
+    for until in leaves:
+        until[-1] = NEVER
+    all_times = find_stage_times(problem, tracks, [until.tolist() for until in leaves])
+    all_stays = []
+    for itinerary, track, own, times in zip(
+        problem.itineraries, tracks, owns, all_times, strict=True
+    ):
+        dwell = _compute_dwells(itinerary, track, times)
+        waits = spare[own] - dwell
+        waits[-1] = 0
+        done = max(int(track.enter[-1]), itinerary.ready) if not times.ends else times.ends[-1]
+        if not itinerary.ends_anywhere:
+            done = int(track.enter[-1] + dwell[-1])
+        stays = Stays(
+            dwell=dwell + turns[own],
+            drive=drive[own],
+            waits=waits,
+            turns=turns[own],
+            serves=times.serves,
+            completion=Tick(done),
+            begins=times.begins,
+            ends=times.ends,
+        )
+        all_stays.append(stays)
+    return tuple(all_stays)
+
+
+def _compute_dwells(itinerary: Itinerary, track: Track, times: StageTimes) -> NDArray[np.int64]:
+    """Return the ticks until each visit has served its stages and the robot has turned for that."""
+    done = np.maximum(track.enter, itinerary.ready)
+    for visit, end, stage in zip(times.serves, times.ends, itinerary.stages, strict=False):
+        done[visit] = end + (stage.turn if visit < len(track) - 1 else 0)
+    dwell: NDArray[np.int64] = done - track.enter
+    return dwell
 
 
 def compute_drives(scenario: Scenario, tracks: Sequence[Track]) -> NDArray[np.int64]:

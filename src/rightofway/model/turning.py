@@ -8,6 +8,7 @@ of it take no time.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -57,10 +58,13 @@ class Turning:
         The angles of the roadmap.
     ticks
         Ticks for each kind of angle; int64.
+    rate
+        How fast the robot turns [degrees per tick].
     """
 
     angles: Angles
     ticks: NDArray[np.int64]
+    rate: Fraction
 
     def compute_turn(self, before: int, after: int) -> Tick:
         """Return how long the robot turns between two edges [ticks]; 0 before the first, -1."""
@@ -97,8 +101,28 @@ def compute_turnings(
                 longest = f"a turn takes {quote(ticks[-1])} ticks of {quote(clock.tick)}"
                 message = f"{quote(rate)} is too slow: {longest} (give a faster one)"
                 raise InputError.at(("robots", robot, "turn_rate"), message)
-            turnings[rate] = Turning(angles=angles, ticks=np.array(ticks, np.int64))
+            turnings[rate] = Turning(
+                angles=angles, ticks=np.array(ticks, np.int64), rate=rate * clock.tick
+            )
     return [turnings[rate] for rate in rates]
+
+
+def compute_first_turns(
+    roadmap: Roadmap, turning: Turning | None, start: int, heading: Fraction | None
+) -> tuple[Tick, ...]:
+    """Return how long a robot turns from a heading before each edge out of a vertex [ticks].
+
+    Empty where turning takes no time, or the heading is unknown.
+    """
+    if turning is None or heading is None:
+        return ()
+    headings, has_heading = _headings(roadmap)
+    turns = []
+    for edge in range(roadmap.indptr[start], roadmap.indptr[start + 1]):
+        angle = abs(Fraction(headings[edge]) - heading) % 360
+        steps = round(min(angle, 360 - angle) / ANGLE_STEP) if has_heading[edge] else 0
+        turns.append(Tick(math.ceil(steps * ANGLE_STEP / turning.rate)))
+    return tuple(turns)
 
 
 @lru_cache(maxsize=4)

@@ -9,16 +9,19 @@ from rightofway.native.bookings import (
     find_overlaps,
 )
 from rightofway.native.problem import (
+    ANYWHERE,
     bind_native,
     bind_roads,
     bind_rules,
     bind_turning,
+    list_native_stages,
     make_tracks,
     name_compiler,
 )
 from rightofway.native.resources import bind_lists, find_clashes, find_vertices_near, list_excluded
 
 __all__ = [
+    "ANYWHERE",
     "BookedRows",
     "ClosedPlaces",
     "bind_closures",
@@ -33,6 +36,7 @@ __all__ = [
     "find_overlaps",
     "find_vertices_near",
     "list_excluded",
+    "list_native_stages",
     "make_tracks",
     "name_compiler",
 ]

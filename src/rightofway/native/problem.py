@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import atexit
+import math
 from collections.abc import Sequence
+from fractions import Fraction
 from itertools import accumulate, chain, pairwise
 from weakref import WeakKeyDictionary
 
@@ -12,10 +14,19 @@ from numpy.typing import NDArray
 
 from rightofway import _core
 from rightofway.errors import InputError, quote
-from rightofway.model import BookingRules, Problem, Tick, Track
+from rightofway.model import NEVER, BookingRules, Itinerary, Problem, Stage, Tick, Track
 from rightofway.model.turning import Turning
 from rightofway.native.resources import bind_lists
-from rightofway.site import Roadmap
+from rightofway.site import Roadmap, VertexId
+
+ANYWHERE = VertexId(-1)
+"""The vertex of the last stage of a robot that ends anywhere."""
+
+LARGEST_SLOPE = 2**18
+"""What a tick costs that delays all stages of a robot; search keys have 37 bits for costs."""
+
+LARGEST_COST = 10**6
+"""What a tick of one stage costs at most."""
 
 _BOUND: WeakKeyDictionary[Problem, _core.Problem] = WeakKeyDictionary()
 atexit.register(_BOUND.clear)  # a problem that lives to the end takes no native object along
@@ -46,16 +57,16 @@ def bind_native(problem: Problem) -> _core.Problem:
         closed = problem.closures
         number: dict[tuple[Tick, ...], int] = {}
         pace_of = [number.setdefault(robot.edge_ticks, len(number)) for robot in robots]
-        stages = [stage for robot in robots for stage in robot.stages]
+        all_stages = [list_native_stages(robot) for robot in robots]
+        stages = list(chain.from_iterable(all_stages))
+        first_stage = [0, *accumulate(map(len, all_stages))]
         native = _BOUND[problem] = _core.Problem(
             bind_roads(roadmap),
             _core.Robots(
                 paces=np.array(list(chain.from_iterable(number)), np.int32),
                 pace_of=np.array(pace_of, np.int32),
                 home=np.array([robot.home for robot in robots], np.int32),
-                first_stage=np.array(
-                    [0, *accumulate(len(robot.stages) for robot in robots)], np.int32
-                ),
+                first_stage=np.array(first_stage, np.int32),
                 stage_vertex=np.array([stage.vertex for stage in stages], np.int32),
                 stage_work=np.array([stage.work for stage in stages], np.int64),
                 stage_turn=np.array([stage.turn for stage in stages], np.int64),
@@ -69,8 +80,73 @@ def bind_native(problem: Problem) -> _core.Problem:
             closures=(
                 None if closed is None else _core.Closures(closed.row, closed.start, closed.end)
             ),
+            work=_bind_work(problem, stages, first_stage) if problem.has_times else None,
         )
     return native
+
+
+def list_native_stages(itinerary: Itinerary) -> tuple[Stage, ...]:
+    """Return the stages of a robot as kernels take them; one that ends anywhere ends at `ANYWHERE`.
+
+    Parameters
+    ----------
+    itinerary
+        What the robot has to do.
+    """
+    if not itinerary.ends_anywhere:
+        return itinerary.stages
+    return (*itinerary.stages_to_serve, Stage(vertex=ANYWHERE, work=Tick(0), turn=Tick(0)))
+
+
+def _bind_work(problem: Problem, stages: Sequence[Stage], first_stage: Sequence[int]) -> _core.Work:
+    """Return the times of a problem with jobs."""
+    robots = problem.itineraries
+    first_turns = [robot.first_turns for robot in robots]
+    before, after = (
+        np.array([first_stage[robot] + stage for robot, stage in pairs], np.int32)
+        for pairs in ([arc.before for arc in problem.after], [arc.after for arc in problem.after])
+    )
+    latest = [NEVER if stage.latest is None else stage.latest for stage in stages]
+    costs = _scale_costs(problem, stages, first_stage)
+    return _core.Work(
+        earliest=np.array([stage.earliest for stage in stages], np.int64),
+        latest=np.array(latest, np.int64),
+        ready=np.array([robot.ready for robot in robots], np.int64),
+        first_turn_of=np.array([0, *accumulate(map(len, first_turns))], np.int32),
+        first_turn=np.array(list(chain.from_iterable(first_turns)), np.int32),
+        before=before,
+        after=after,
+        n_places=problem.roadmap.n_drawn,
+        cost=None if costs is None else costs[0],
+        late_cost=None if costs is None else costs[1],
+        due=None
+        if costs is None
+        else np.array([NEVER if stage.due is None else stage.due for stage in stages], np.int64),
+    )
+
+
+def _scale_costs(
+    problem: Problem, stages: Sequence[Stage], first_stage: Sequence[int]
+) -> tuple[NDArray[np.int64], NDArray[np.int64]] | None:
+    """Return what a tick of the end of each stage costs, and a tick after its due time more.
+
+    None where ends cost nothing. A tick of completion costs the weight of its robot, and should
+    decide only between plans of equal service: the scale is as large as the keys of the search
+    allow, `LARGEST_SLOPE` for the stages of a robot together.
+    """
+    work = problem.work
+    if work is None or work.objective != "service" or not any(stage.weight for stage in stages):
+        return None
+    exact = [(stage.weight, stage.weight * work.late * (stage.due is not None)) for stage in stages]
+    slope = max(
+        sum(cost + late for cost, late in exact[first:end]) for first, end in pairwise(first_stage)
+    )
+    scale = LARGEST_SLOPE / Fraction(slope)
+    if scale >= work.late.denominator:
+        scale -= scale % work.late.denominator  # all costs are whole numbers then
+    scaled = [[min(math.ceil(one * scale), LARGEST_COST) for one in pair] for pair in exact]
+    columns = np.array(scaled, np.int64).T
+    return np.ascontiguousarray(columns[0]), np.ascontiguousarray(columns[1])
 
 
 def bind_rules(rules: BookingRules) -> _core.BookingRules:

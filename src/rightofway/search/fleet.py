@@ -137,6 +137,19 @@ class FleetSearch:
         """Continue `prioritize` where it ended; the searches count from its beginning."""
         return self._core.resume(searches, time_limit)
 
+    def move_one_at_a_time(self, *, time_limit: float | None) -> bool:
+        """Give robots tracks on which one of them moves at a time; tell whether all have one.
+
+        A robot serves stages until one waits for a stage of another robot, and drives home before
+        the next robot moves. Only for a problem with times.
+
+        Parameters
+        ----------
+        time_limit
+            When to stop [s].
+        """
+        return self._core.move_one_at_a_time(time_limit)
+
     def start(self, tracks: Sequence[Track | None]) -> None:
         """Take over tracks; robots without one are left to `repair`.
 

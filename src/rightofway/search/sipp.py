@@ -18,7 +18,7 @@ from rightofway.errors import GaveUp, InputError
 from rightofway.facts import Fact
 from rightofway.kinds.table import require_index
 from rightofway.model import NEVER, Problem, Tick, Track, compute_drives_along
-from rightofway.native import bind_native, list_excluded
+from rightofway.native import ANYWHERE, bind_native, list_excluded, list_native_stages
 from rightofway.search.distances import Distances
 
 STOPPED = 2
@@ -158,7 +158,12 @@ def find_earliest_track(
     if distances.roadmap is not problem.roadmap and distances.roadmap != problem.roadmap:
         raise InputError.at("distances", "are of another roadmap than the bookings")
     itinerary = problem.itineraries[require_index("robot", robot, len(problem.itineraries))]
-    tables = [distances.to(stage.vertex, itinerary.edge_ticks) for stage in itinerary.stages]
+    tables = [
+        distances.to(stage.vertex, itinerary.edge_ticks)
+        if stage.vertex != ANYWHERE
+        else np.zeros(problem.roadmap.n_vertices, np.int32)
+        for stage in list_native_stages(itinerary)
+    ]
     end, vertices, enter = _core.earliest_track(
         bind_native(problem), robot, bookings.table, tables, time_limit
     )
