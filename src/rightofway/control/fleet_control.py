@@ -150,6 +150,7 @@ class FleetControl:
         """
         names = tuple(names) or tuple(f"robot {number}" for number in range(len(routes)))
         committed = [0] * len(routes)
+        # Rule 1: the robots of a rotation would all wait for each other, so no release could begin.
         refuse_rotation(graph, names)
         refuse_ways(routes, committed, names, self.may_drive)
         entry = make_plan_entry("plan", run, routes, graph, committed=committed, names=names)
@@ -157,6 +158,7 @@ class FleetControl:
 
     def start(self) -> list[Message]:
         """Return the messages to send after a start: all unanswered ones, requests for states."""
+        # Rule 12: messages without an answer go out again word for word, then robots are asked.
         self.commit({"kind": "started"})
         number, run = self.ledger.starts, self.ledger.run
         asks = [
@@ -198,6 +200,7 @@ class FleetControl:
             drives where it may not.
         """
         robots, names = self.ledger.robots, self.ledger.names
+        # Rule 10: the released parts, sent or not, acknowledged or not, stay as they are.
         committed = self.list_committed()
         refuse_rotation(graph, names)
         refuse_changes(robots, routes, committed, withdrawn, placed)
@@ -206,6 +209,7 @@ class FleetControl:
         refuse_ways(routes, committed, names, self.may_drive)
         entry = make_plan_entry("splice", self.ledger.run, routes, graph, committed=committed)
         begins = [{"kind": "placed", "robot": k, "visit": routes[k].first} for k in placed]
+        # One commit swaps the routes and the graph, so that a kill leaves the old or the new plan.
         self.commit(*begins, {**entry, "withdrawn": [list(job) for job in withdrawn]}, *notes)
         if self._since_snapshot >= self._snapshot_every:
             self._journal.begin_again(self.ledger.make_snapshot())
@@ -269,6 +273,7 @@ class FleetControl:
         own, graph = self.ledger.robots[robot], self.ledger.graph
         before = own.arrived
         visit = self._find_proven(own, state)
+        # Facts are committed before anything is released because of them (rule 5).
         self.commit(*list_facts(self.ledger, robot, state, visit, self._report))
         answers = list(self._follow_state(robot, state))
         self.commit(*answers)
@@ -322,6 +327,7 @@ class FleetControl:
         own = self.ledger.robots[robot]
         if own.is_off:
             return
+        # One message at a time: a doubt goes first, then an update, then a withdrawal.
         if own.token is not None:
             yield InstantAction(robot=robot, action_id=own.token, kind="stateRequest")
         elif own.message is not None and not own.is_acknowledged:
@@ -342,6 +348,8 @@ class FleetControl:
         own = self.ledger.robots[robot]
         if own.message is None or own.is_off:
             return
+        # A withdrawal of long ago has reached a newer order: nobody knows how far the robot will
+        # drive.
         if state.order_id == own.order_id and is_taken_back(self.ledger, robot, state):
             yield from self._settle_doubt(robot, state)
         elif state.order_id == own.order_id:
@@ -350,9 +358,12 @@ class FleetControl:
             stands_at = own.find_held(state.last_place)
             if not own.is_acknowledged and is_acknowledged_by(own, state):
                 yield {"kind": "acknowledged", "robot": robot}
+            # Rule 9: it stands at a vertex that it holds. The parts after it become free only when
+            # a state shows the new order of this one node.
             elif has_stopped(own, state) and stands_at is not None:
                 order = make_order(self.ledger, robot, stands_at, stands_at)
                 yield {**order, "stands_at": stands_at}
+        # Rule 8: no order, or one that is no longer current.
         elif not state.order_id or self.ledger.owns(robot, state.order_id):
             yield from self._settle_doubt(robot, state)
 
@@ -364,11 +375,14 @@ class FleetControl:
             is_on_its_way = own.message.update_id == 0 and not own.is_acknowledged
             if is_on_its_way and robot not in self._reminded:
                 return  # the state may be from before
+            # A fresh token tells answers to this question from states that are late.
             token = f"{self.ledger.run}-{robot}-doubt{own.tokens}"
             yield {"kind": "doubt", "robot": robot, "token": token}
         elif own.token in state.actions and state.is_idle:
             stands_at = own.find_held(state.last_place)
             if stands_at is not None:
+                # Idle at a vertex that it holds: a new order from there with all its released
+                # parts. This proves no arrival: only states under the new order do.
                 yield make_order(self.ledger, robot, stands_at, own.released)
             elif own.fault is None:
                 yield take_fault(robot, make_stray(state), state, self._report)
@@ -393,8 +407,11 @@ class FleetControl:
         """Return the next step of a robot: its first order, a withdrawal, or an update."""
         if own.is_off or own.token is not None:
             return None
+        # Rule 3: the first order is the first vertex alone.
         if own.message is None:
             return make_order(self.ledger, robot, own.arrived, own.arrived)
+        # Rule 6: at most one update without an answer, else one lost message would refuse all later
+        # ones.
         if not own.is_acknowledged:
             return None
         if own.cancel is None:
@@ -461,4 +478,6 @@ class FleetControl:
                 for entry in entries:
                     self.ledger.apply(entry)
             except Exception as error:
+                # The entry is on the disk but not in memory: only a start on the journal can tell
+                # what holds.
                 raise LedgerFailed(describe_defect(error)) from error

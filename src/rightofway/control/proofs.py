@@ -33,12 +33,15 @@ def list_facts(
 ) -> Iterator[Entry]:
     """Yield the facts that a state proves: finished jobs, an arrival, faults; report faults."""
     own = ledger.robots[robot]
+    # FINISHED counts whenever it comes, under any order: the id of an action is used once.
     for action_id, status in state.actions.items():
         job = own.jobs_of.get(action_id)
         if job is None or job in own.finished:
             continue
         if status == "FINISHED":
             yield {"kind": "finished", "robot": robot, "job": job}
+        # FAILED counts for the current order and the latest attempt only: an older state may be
+        # late.
         elif (
             status == "FAILED"
             and state.order_id == own.order_id
@@ -74,20 +77,25 @@ def _is_failure(own: RobotLedger, action_id: str, job: str) -> bool:
 def find_proven_visit(own: RobotLedger, state: StateReport) -> int | None:
     """Return the visit at whose vertex a state proves that the robot has arrived."""
     sent = own.orders.get(state.order_id)
+    # Rule 7: the order is one of ours, and odd sequence numbers are edges.
     if sent is None or state.last_sequence_id % 2:
         return None
     end = sent.ends.get(state.update_id)
     if end is None:  # never sent, or so old that it proves nothing new
         return None
+    # The visit lies in the base of the update that the state names, so a wrong number proves
+    # nothing.
     begin = max(sent.offset, own.route.first)
     visit = sent.offset + state.last_sequence_id // 2
     if not begin <= visit <= min(end, own.released):
         return None
+    # The name has to agree, too: two fields that are wrong alike are less likely than one.
     if own.route.get_place(visit) != state.last_place:
         return None
     if not state.nodes:
         # A state from before the update, after a withdrawal or a reset has no nodes either.
         return visit if visit == end else None
+    # Nodes and edges that are still ahead contradict an arrival behind them: the first one counts.
     ahead = [sent.offset + (number + 1) // 2 for number in (*state.nodes, *state.edges)]
     visit = min(visit, min(ahead) - 1)
     return visit if visit >= begin else None
@@ -99,6 +107,7 @@ def _find_fault(ledger: Ledger, robot: int, state: StateReport) -> Fact | None:
     sent = own.orders.get(state.order_id)
     if sent is None:
         return _find_fault_of_order(ledger, robot, state)
+    # A higher update than any sent: somebody else controls this robot.
     if state.update_id >= sent.updates:
         return Fact("unknown update", update=state.update_id, updates=sent.updates)
     visit = sent.offset + state.last_sequence_id // 2
@@ -122,6 +131,7 @@ def _find_fault_of_order(ledger: Ledger, robot: int, state: StateReport) -> Fact
     if not ledger.owns(robot, state.order_id):
         return Fact("foreign order", order=escape_text(state.order_id[:80]))
     number = ledger.find_number(robot, state.order_id)
+    # An order from before a person placed the robot, with nodes left: it may still drive them.
     if number is not None and number < ledger.robots[robot].first_order and state.nodes:
         return Fact("old order")
     return None

@@ -44,21 +44,28 @@ def find_last_part(
         Tells whether robots may stop at a vertex, by its name.
     """
     own, end = ledger.robots[robot], ledger.robots[robot].released
+    # Rule 4: a robot that a person holds, or that is faulty (rule 11), gets nothing more.
     if own.is_on_hold or own.fault is not None:
         return end
     route, last, arrived = own.route, min(own.arrived + ahead, own.route.end - 1), list[int]()
+    # Look-ahead bounds the base, but a base never ends where robots may not stop.
     while last < own.route.end - 1 and not may_stop(route.get_place(last)):
         last += 1
     part = end
     while (
         part < last
+        # Each HARD action of the vertex before is finished.
         and own.finished.issuperset(route.get_jobs(part))
+        # No node twice in a base: else a robot that forgot its order could drive a loop twice.
         and not is_in_base(own, part + 1)
+        # All arrivals that the part waits for are known. They stay true, so no clock is read.
         and ledger.graph.may_go(Part(robot, part + 1), arrived := arrived or ledger.arrived)
+        # Closures by people, robots that strayed, and closures by the clock only hold back.
         and find_closed(ledger, route.get_place(part), route.get_place(part + 1)) is None
         and not list_strayed_to(ledger, route.get_place(part + 1))
         and may_enter(robot, part + 1)
     ):
+        # A part is released only together with those up to the next vertex where robots may stop.
         part += 1
         end = part if may_stop(route.get_place(part)) else end
     return end

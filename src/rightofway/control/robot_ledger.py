@@ -110,6 +110,8 @@ class RobotLedger:
         self.route, jobs = route, route.all_jobs
         numbers = (int(job.removeprefix("job")) for job in jobs)
         self.next_job = max(self.next_job, max(numbers, default=-1) + 1)
+        # Jobs and orders that no visit names any more are dropped, so that laps without end need no
+        # more memory.
         self.finished &= jobs
         self.failed &= jobs
         self.attempts = {job: number for job, number in self.attempts.items() if job in jobs}
@@ -184,6 +186,7 @@ def _order(own: RobotLedger, entry: Entry) -> None:
 
 def _acknowledge(own: RobotLedger, _: Entry) -> None:
     own.is_acknowledged = True
+    # Rule 9: only now does the robot give up the parts after the node where it stopped.
     if own.cancel is not None and own.cancel.stands_at is not None:
         own.released, own.cancel = own.cancel.stands_at, None
 
@@ -232,11 +235,13 @@ def _take_off(own: RobotLedger, _: Entry) -> None:
 
 def _place(own: RobotLedger, entry: Entry) -> None:
     """Have a robot begin at a visit that no order has; orders of before prove nothing."""
+    # A person has placed it: states under earlier orders prove nothing any more.
     own.arrived = own.released = entry["visit"]
     own.message, own.is_acknowledged, own.first_order = None, False, own.order_count
     own.token = own.cancel = own.fault = own.strays_at = None
     own.is_off = False
     for job in own.failed:
+        # A new id for each attempt, so that a late FAILED of the one before is not taken for it.
         own.attempts[job] += 1
     own.failed.clear()
 

@@ -192,8 +192,12 @@ def _follow(plan: PartialPlan, i: int, j: int, *, on_tie: int) -> _MovementGroup
     mark = graph.checkpoint()
     decisions: list[Decision] = []
     rights: list[Right] = []
+    # A temporary movement group of the paper: the two robots go on, meeting after meeting, until
+    # they do not meet any more. Both groups are tried, and the better one is kept.
     while (meeting := graph.find_next_meeting_of(i, j)) is not None:
         segment = plan.find_segment(meeting)
+        # Node level: let either of the two wait, and count the collisions that are left in the
+        # system.
         options = [_attempt(plan, meeting, segment, waits) for waits in (0, 1)]
         chosen = _node_level(options, on_tie)
         if chosen is None:
@@ -217,6 +221,7 @@ def _follow(plan: PartialPlan, i: int, j: int, *, on_tie: int) -> _MovementGroup
 def _attempt(plan: PartialPlan, meeting: Meeting, segment: Segment, waits: int) -> _Option | None:
     """Let one of the two wait until the other has left, and count; None if impossible."""
     graph, robot = plan.graph, meeting.robots[waits]
+    # A choice that meets robots which are settled already would undo decisions of before.
     others = plan.settled.copy()
     others[list(meeting.robots)] = 0
     rights = list_rights_if_waits(graph, meeting, segment, waits)
@@ -242,12 +247,15 @@ def _attempt(plan: PartialPlan, meeting: Meeting, segment: Segment, waits: int) 
 def _node_level(options: Sequence[_Option | None], on_tie: int) -> _Option | None:
     """Choose which robot waits by the conflicts left in the whole system."""
     possible = [option for option in options if option is not None]
+    # One of the two cannot wait at all: the other one does.
     if len(possible) < len(options):
         return possible[0] if possible else None
+    # Both robots could wait: first, no robot that is settled may be met again.
     clear = [option for option in possible if not option.meets_settled]
     if len(clear) == 1:
         return replace(clear[0], level="settled")
     i_waits, j_waits = possible
+    # A tie at the node level is decided at the robot level: by which group both achieve sooner.
     if i_waits.conflicts_left == j_waits.conflicts_left:
         return replace(possible[on_tie], level="robot")
     return replace(min(possible, key=lambda option: option.conflicts_left), level="node")

@@ -83,6 +83,8 @@ class LocalSearch:
     def run(self, rounds: int) -> None:
         """Descend, then change some robots' luck and descend again, until no robot is late."""
         try:
+            # Iterated local search (Lourenço, Martin & Stützle 2003): descend to a local optimum,
+            # then perturb and descend again; what is not better is taken back.
             self.descend()
             self.task.better(self.graph.build_tracks)
             for _ in range(rounds):
@@ -106,6 +108,8 @@ class LocalSearch:
         graph, critical = self.graph, list(self.list_critical_rights())
         if not critical:
             return
+        # Ruin: one robot of a critical right of way gives back all its rights, and then is
+        # preferred, or prefers others, at every meeting.
         first, second = (graph.place(visit)[0] for visit in self.draw.choice(critical))
         robot = self.draw.choice((first, second))
         mark = graph.checkpoint()
