@@ -60,6 +60,7 @@ def auto(task: Task) -> Draft:
 def _best(task: Task) -> Draft:
     """Return the best plan of several methods, with its proof."""
     prover = _Prover(task)
+    # Small fleets get the plan of the paper first, because each of its decisions has a reason.
     first = _explained(task)
     if first is not None:
         nodes = min(FIRST_NODES, task.options["nodes"] or FIRST_NODES)
@@ -69,6 +70,7 @@ def _best(task: Task) -> Draft:
     try:
         better = _improved(task, first)
     except GaveUp:
+        # A large fleet would only lose time in a tree that cannot be searched.
         if len(task.scenario.robots) > FEW:
             raise
         optimum = prover.search()
@@ -175,6 +177,7 @@ class _Prover:
             return draft  # prices add up what robots lose
         least = compute_price_bound(task.scenario, task.deadline, task.options["nodes"])
         if objective is Objective.BOTH:
+            # Prices bound the flowtime; the makespan is at least that of the last robot alone.
             weight = sum(task.scenario.problem.weights)
             least = Tick(least + weight * max(measure_alone(task)))
         if draft.proof is not None and draft.proof.bound >= least:

@@ -84,6 +84,7 @@ def refuse_stranded(scenario: Scenario, stranded: Iterable[int]) -> None:
 
 def _shared_ends(scenario: Scenario) -> Iterator[Blockage]:
     """Yield where several robots would have to stay at one vertex for ever."""
+    # Two robots that stay at one vertex for ever can never both be there: no search is needed.
     holders: defaultdict[VertexId, list[int]] = defaultdict(list)
     for robot, itinerary in enumerate(scenario.problem.itineraries):
         holders[itinerary.last].append(robot)

@@ -123,6 +123,8 @@ class LocalSearch:
         improved = True
         while improved:
             improved = False
+            # Only critical rights can pay: a plan gets shorter only if its critical path does (as
+            # in the neighbourhood of van Laarhoven, Aarts & Lenstra 1992 for job shops).
             critical = list(self.list_critical_rights())
             self.draw.shuffle(critical)
             for first, second in critical:
@@ -153,6 +155,8 @@ class LocalSearch:
         segment = graph.find_segment_of_right(first, second)
         if not graph.take_back(first, second):
             return False  # a flip before has taken it back already
+        # The segment is one resource: all its rights turn round together, or two robots would meet
+        # head-on in the middle.
         for a, b in segment.list_meetings():
             graph.take_back(graph.get_visit(i, a), graph.get_visit(j, b))
         rights = [
@@ -167,10 +171,13 @@ class LocalSearch:
     def resolve(self, *, below: Value | None = None, preference: _Preference | None = None) -> bool:
         """Resolve all conflicts; false if that is impossible or the plan not better."""
         for _ in range(MOST_MEETINGS * len(self.alone)):
+            # Rights of way only ever delay robots, so a plan that is not better now never will be.
             if below is not None and self.measure() >= below:
                 return False
             meeting = self.graph.find_next_meeting()
             if meeting is None:
+                # Without meetings the plan is whole; where rotations are forbidden, the result
+                # decides.
                 return not find_rotation(self.task.scenario.problem, self.graph.build_tracks())
             if not self.resolve_one(meeting, preference):
                 return False

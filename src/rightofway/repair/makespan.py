@@ -81,6 +81,9 @@ class MakespanSearch:
         Where a tree ends undecided, only later ticks are tried.
         """
         best = self.value
+        # Bisection between the proven bound and the best plan. A tree that ends without a plan
+        # proves that none completes by `latest`; a tree that ran out of nodes proves nothing, and
+        # only moves `tried`.
         tried = latest = self.bound  # no tick is tried again
         while tried < best and best > self.factor * self.bound:
             tree = self._grow(latest, None)
@@ -102,6 +105,8 @@ class MakespanSearch:
         a tree, with the makespan of the last robot alone, holds for all plans that are left.
         """
         latest: int | None = None
+        # Each plan of less makespan may have more flowtime. So plans are visited by makespan, from
+        # the largest down, and a tree is only asked for plans that are better in the sum.
         share = sum(self._weights) * self._longest
         while self.value > self.factor * self.bound:
             tree = self._grow(latest, self.value - share)
@@ -110,6 +115,8 @@ class MakespanSearch:
             if tree.is_proven and tree.tracks is None:
                 self.bound = self.value
                 return
+            # The makespan is at least that of the robot that is last alone, whatever the tree
+            # found.
             self.bound = min(self.value, max(self.bound, share + (tree.bound or 0)))
             if tree.tracks is None:
                 return
