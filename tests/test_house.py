@@ -18,6 +18,7 @@ ROOMS = [
     "precedence",
     "lacam",
     "lns",
+    "tours",
     "cbs",
     "bounds",
     "cyclic",

@@ -131,5 +131,6 @@ void bind_adg(nb::module_& module);
 void bind_graph(nb::module_& module);
 void bind_routes(nb::module_& module);
 void bind_sipp(nb::module_& module);
+void bind_tours(nb::module_& module);
 
 }  // namespace rightofway::bind

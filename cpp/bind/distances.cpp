@@ -1,6 +1,7 @@
 #include "bindings.hpp"
 #include "distances/congestion.hpp"
 #include "distances/distance_tables.hpp"
+#include "distances/energy_tables.hpp"
 #include "distances/shortest_paths.hpp"
 
 namespace rightofway::bind {
@@ -47,6 +48,32 @@ ArrayOut<std::int32_t> to(const DistanceTables& self, VertexId target,
     }
     return to_numpy(std::move(distance));
 }
+
+constexpr auto energies_of_quickest_ways_doc =
+    R"(Return the energy of a quickest way from each vertex, the least of those, int64[V].
+
+Parameters
+----------
+ticks_to : int32[V]
+    What `to` returned for the target. [ticks]
+edge_ticks : int32[E]
+    What it was given. [ticks]
+edge_energy : int64[E]
+    What each edge takes.
+most : int
+    Returned where the way takes more, or none exists.)";
+
+constexpr auto least_energies_doc =
+    R"(Return the least energy from each vertex to one of the targets, int64[V].
+
+Parameters
+----------
+targets : int32[n]
+    The vertices of which one is to be reached.
+edge_energy : int64[E]
+    What each edge takes; -1 where it is barred.
+most : int
+    Returned where the way takes more, or none exists.)";
 
 constexpr auto paths_doc =
     R"(Canonical shortest paths between single pairs of vertices, without a table for each target.
@@ -118,7 +145,25 @@ oncoming : int
 void bind_distances(nb::module_& module) {
     nb::class_<DistanceTables>(module, "DistanceTables", distances_doc)
         .def("__init__", &init_distances, array("indptr"), array("indices"))
-        .def("to", &to, nb::arg("target"), array("edge_ticks"), to_doc);
+        .def("to", &to, nb::arg("target"), array("edge_ticks"), to_doc)
+        .def(
+            "energies_of_quickest_ways",
+            [](const DistanceTables& self, const ArrayIn<std::int32_t>& ticks_to,
+               const ArrayIn<std::int32_t>& edge_ticks, const ArrayIn<std::int64_t>& edge_energy,
+               std::int64_t most) {
+                return to_numpy(find_energies_of_quickest_ways(
+                    self.reverse(), view(ticks_to), view(edge_ticks), view(edge_energy), most));
+            },
+            array("ticks_to"), array("edge_ticks"), array("edge_energy"), nb::arg("most"),
+            energies_of_quickest_ways_doc)
+        .def(
+            "least_energies",
+            [](const DistanceTables& self, const ArrayIn<VertexId>& targets,
+               const ArrayIn<std::int64_t>& edge_energy, std::int64_t most) {
+                return to_numpy(
+                    find_least_energies(self.reverse(), view(targets), view(edge_energy), most));
+            },
+            array("targets"), array("edge_energy"), nb::arg("most"), least_energies_doc);
     nb::class_<ShortestPaths>(module, "ShortestPaths", paths_doc)
         .def(
             "__init__",

@@ -58,4 +58,5 @@ NB_MODULE(_core, module) {
     rightofway::bind::bind_adg(module);
     rightofway::bind::bind_graph(module);
     rightofway::bind::bind_sipp(module);
+    rightofway::bind::bind_tours(module);
 }

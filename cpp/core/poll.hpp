@@ -13,10 +13,15 @@ class Poll {
     // Borrows the condition; an empty one is never asked.
     explicit Poll(const StopCondition& is_over) : is_over_(is_over) {}
 
-    // To be called at each step of the loop. Whether the loop has to stop, if it can; what the
-    // condition throws ends it in any case.
-    bool operator()() {
-        return ++n_steps_ % steps_between_looks == 0 && is_over_ && is_due() && is_over_();
+    // To be called at each step of the loop, with a number of steps if that is a long one. Whether
+    // the loop has to stop, if it can; what the condition throws ends it in any case.
+    bool operator()(std::uint32_t n_steps = 1) {
+        n_steps_ += n_steps;
+        if (n_steps_ < steps_between_looks) {
+            return false;
+        }
+        n_steps_ = 0;
+        return is_over_ && is_due() && is_over_();
     }
 
   private:

@@ -50,6 +50,7 @@ class DistanceTables {
     DistanceTables(std::span<const EdgeId> indptr, std::span<const VertexId> indices);
 
     VertexId n_vertices() const { return reverse_.n_vertices(); }
+    const ReverseGraph& reverse() const { return reverse_; }
 
     // The least ticks from each vertex to the target, -1 if no path exists. Throws
     // std::invalid_argument for an unknown target or an edge of 0 ticks or less, and

@@ -507,6 +507,36 @@ class DistanceTables:
             If a least time does not fit int32.
         """
 
+    def energies_of_quickest_ways(self, ticks_to: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edge_ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edge_energy: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], most: int) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+        """
+        Return the energy of a quickest way from each vertex, the least of those, int64[V].
+
+        Parameters
+        ----------
+        ticks_to : int32[V]
+            What `to` returned for the target. [ticks]
+        edge_ticks : int32[E]
+            What it was given. [ticks]
+        edge_energy : int64[E]
+            What each edge takes.
+        most : int
+            Returned where the way takes more, or none exists.
+        """
+
+    def least_energies(self, targets: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], edge_energy: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], most: int) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+        """
+        Return the least energy from each vertex to one of the targets, int64[V].
+
+        Parameters
+        ----------
+        targets : int32[n]
+            The vertices of which one is to be reached.
+        edge_energy : int64[E]
+            What each edge takes; -1 where it is barred.
+        most : int
+            Returned where the way takes more, or none exists.
+        """
+
 class ShortestPaths:
     """
     Canonical shortest paths between single pairs of vertices, without a table for each target.
@@ -1540,3 +1570,231 @@ def earliest_track(problem: Problem, robot: int, bookings: BookingTable, stage_t
         How it ended (0: found, 1: proven that there is no such track, 2: out of time), the vertices,
         and when each is entered. [ticks]
     """
+
+class TourObjective(enum.Enum):
+    """What tours minimize."""
+
+    service = 0
+    """Service times and lateness by weights of jobs."""
+
+    flowtime = 1
+    """The flowtime by weights of robots."""
+
+    makespan = 2
+    """The makespan; on ties the flowtime."""
+
+    both = 3
+    """Makespan plus completion, summed by weights."""
+
+class UnservedReason(enum.IntEnum):
+    """Why no tour serves a job."""
+
+    robot = 0
+    """No robot may or can carry it."""
+
+    way = 1
+    """No robot has a way to its stops."""
+
+    latest = 2
+    """No robot can be in time, even alone."""
+
+    battery = 3
+    """No battery lasts."""
+
+    after = 4
+    """A job before it is unserved."""
+
+    not_found = 5
+    """The search has found no place for it."""
+
+class TourRobots:
+    """
+    The robots of a tour problem, one entry each.
+
+    Parameters
+    ----------
+    travel, battery : int32[R]
+        Kind of travel; kind of battery, -1: none.
+    start, end : int32[R]
+        Where it is at `ready`, and where it has to rest; end -1: at its last stop.
+    ready : int64[R]
+        When its tour begins. [ticks]
+    capacity, load : int32[R]
+        The largest load, and what is on board at `ready`.
+    soc : int64[R]
+        The energy of the battery at `ready`.
+    weight : int64[R]
+        Of its completion in the flowtime.
+    """
+
+    def __init__(self, travel: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], battery: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], end: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], ready: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], capacity: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], load: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], soc: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], weight: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+
+class TourJobs:
+    """
+    The jobs of a tour problem: what to do, one entry for each stop.
+
+    Parameters
+    ----------
+    first_stop : int32[J + 1]
+        Job ``j`` has the stops ``first_stop[j] .. first_stop[j + 1] - 1``, in this order.
+    place : int32[S]
+        Where.
+    work : int64[S]
+        How long. [ticks]
+    load : int32[S]
+        The change of the load.
+    earliest, latest : int64[S]
+        Begin not before; end not after, `NEVER`: at any time. [ticks]
+    """
+
+    def __init__(self, first_stop: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], place: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], work: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], load: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], earliest: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], latest: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+
+class TourRules:
+    """
+    The jobs of a tour problem: who may do them, and what they cost.
+
+    Parameters
+    ----------
+    weight, release, due : int64[J]
+        The service of a job costs its weight for each tick from `release` to its end, and more for ticks
+        past `due` (`NEVER`: none). [ticks]
+    begun_by : int32[J]
+        The robot that has begun it, -1: none. These jobs are served before all others.
+    first_robot, robots : int32[J + 1], int32[n]
+        The robots that may and can do a job.
+    first_after, after : int32[J + 1], int32[n]
+        The jobs that end before a job begins.
+    """
+
+    def __init__(self, weight: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], release: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], due: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], begun_by: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_robot: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], robots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], first_after: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], after: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+
+class TourBatteries:
+    """
+    Kinds of batteries, in whole numbers over one denominator.
+
+    Parameters
+    ----------
+    full, on, work, charge, reserve : int64[B]
+        Capacity; use per tick until the robot rests, and per tick of work; gain per tick of a charge;
+        what has to be left.
+    drive : int64[B * P * P]
+        Use of a drive between two places, apart from `on`.
+    to_charging : int64[B * P]
+        Least use from a place to a charging place; more than `full` without a way.
+    first_charging, charging : int32[B + 1], int32[n]
+        The charging places of a kind.
+    """
+
+    def __init__(self, full: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], on: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], work: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], charge: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], reserve: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], to_charging: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_charging: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], charging: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+
+class TourProblem:
+    """
+    Jobs and robots for which tours are wanted.
+
+    Parameters
+    ----------
+    n_places : int
+        P.
+    ticks : int32[K * P * P]
+        Ticks of drives from place to place, for each kind of travel; -1: no way.
+    robots, jobs, rules, batteries
+        The rest.
+    objective : TourObjective
+        What is minimized after the weight of unserved jobs.
+    unit, late : int
+        Cost of a tick of service, and what a tick past `due` costs more.
+
+    Raises
+    ------
+    ValueError
+        For arrays that do not fit.
+    KernelLimit
+        If costs might not fit 64 bits.
+    """
+
+    def __init__(self, n_places: int, ticks: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], robots: TourRobots, jobs: TourJobs, rules: TourRules, batteries: TourBatteries, objective: TourObjective, unit: int, late: int) -> None: ...
+
+    @property
+    def n_jobs(self) -> int:
+        """The number of jobs."""
+
+class TourSearch:
+    """
+    Search for tours; the best ones can be read between calls.
+
+    They depend on the seed and the steps alone. Ctrl-C leaves the best tours as they were.
+
+    Parameters
+    ----------
+    problem : TourProblem
+        Jobs and robots.
+    seed : int
+        For all that is drawn.
+    """
+
+    def __init__(self, problem: TourProblem, seed: int) -> None: ...
+
+    def start(self, first: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stops: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
+        """
+        Insert jobs as they are in these tours, where that is feasible.
+
+        Parameters
+        ----------
+        first : int32[R + 1]
+            Robot ``r`` has the stops ``first[r] .. first[r + 1] - 1``.
+        stops : int32[n]
+            Indices of stops of all jobs.
+        """
+
+    def construct(self, time_limit: float | None = None) -> bool:
+        """
+        Insert unserved jobs by regret; return whether that was done in time.
+
+        Parameters
+        ----------
+        time_limit : float or None
+            When to stop. [s]
+        """
+
+    def improve(self, n_steps: int, time_limit: float | None = None) -> int:
+        """
+        Do steps of large neighbourhood search; return how many were done.
+
+        Parameters
+        ----------
+        n_steps : int
+            The most steps.
+        time_limit : float or None
+            When to stop. [s]
+        """
+
+    def tours(self) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+        """
+        Return the best tours: stops and charges.
+
+        Returns
+        -------
+        tuple of (int32[R + 1], int32[N], int32[N], int64[N], int64[N])
+            The items of each robot; the stop of each (-1: a charge); its place, its begin and its ticks.
+        """
+
+    def unserved(self) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
+        """
+        Return the jobs without a tour and the reasons, as `UnservedReason`.
+
+        Returns
+        -------
+        tuple of (int32[n], int32[n])
+            In the order of jobs.
+        """
+
+    @property
+    def cost(self) -> tuple[int, int, int, int]:
+        """
+        Return what the best tours cost; compared from left to right.
+
+        Returns
+        -------
+        tuple of (int, int, int, int)
+            Begun jobs without a tour, the weight of other unserved jobs, the objective, the flowtime.
+        """

@@ -435,7 +435,45 @@ def _always(**arguments: Any) -> Callable[[random.Random], Arguments]:
     return lambda rng: dict(arguments)  # noqa: ARG005
 
 
+def _tour_parts() -> dict[str, Part]:
+    """Return jobs of one and two stops for two robots among five places, one with a battery."""
+    spread = np.abs(np.subtract.outer(np.arange(5), np.arange(5)))
+    return {
+        "robots": Part("TourRobots", {
+            "travel": int32(0, 0), "battery": int32(-1, 0), "start": int32(3, 4),
+            "end": int32(-1, 0), "ready": int64(0, 2), "capacity": int32(1, 2),
+            "load": int32(0, 0), "soc": int64(0, 9), "weight": int64(1, 2),
+        }),
+        "jobs": Part("TourJobs", {
+            "first_stop": int32(0, 1, 3, 4), "place": int32(1, 0, 2, 4), "load": int32(0, 1, -1, 0),
+            "work": int64(2, 1, 1, 0), "earliest": int64(0, 3, 0, 0),
+            "latest": int64(_core.NEVER, _core.NEVER, 30, _core.NEVER),
+        }),
+        "rules": Part("TourRules", {
+            "weight": int64(1, 2, 1), "release": int64(0, 3, 0),
+            "due": int64(9, _core.NEVER, _core.NEVER), "begun_by": int32(-1, -1, -1),
+            "first_robot": int32(0, 2, 4, 5), "robots": int32(0, 1, 0, 1, 1),
+            "first_after": int32(0, 0, 0, 1), "after": int32(0),
+        }),
+        "batteries": Part("TourBatteries", {
+            "full": int64(20), "on": int64(1), "work": int64(0), "charge": int64(4),
+            "reserve": int64(2), "drive": int64(*spread.ravel()), "to_charging": int64(*spread[0]),
+            "first_charging": int32(0, 1), "charging": int32(0),
+        }),
+    }  # fmt: skip
+
+
+def _tour_problem(rng: random.Random) -> Arguments:
+    spread = np.abs(np.subtract.outer(np.arange(5), np.arange(5)))
+    objective = rng.choice((_core.TourObjective.service, _core.TourObjective.makespan))
+    return {
+        "n_places": 5, "ticks": int32(*spread.ravel()), **_tour_parts(),
+        "objective": objective, "unit": 1, "late": rng.randrange(3),
+    }  # fmt: skip
+
+
 PARTS = (
+    *_tour_parts().values(),
     _roads(), problem_arguments("sizes")["robots"], _rules(), _lists().arguments["drawing"],
     _lists(), _turning(0, -1, 1), _closures(1),
     _trip(_turning(0)), _horizon(), _routes(*[1] * 12), _rows_of_routes(), _closed(),
@@ -471,6 +509,24 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
     "DistanceTables.to": lambda rng: {
         "target": rng.randrange(V), "edge_ticks": _ticks_of_edges(rng)
     },
+    "DistanceTables.energies_of_quickest_ways": lambda rng: {
+        "ticks_to": to_stop(rng.randrange(V)), "edge_ticks": np.ones(E, np.int32),
+        "edge_energy": np.ones(E, np.int64), "most": rng.randrange(9),
+    },
+    "DistanceTables.least_energies": lambda rng: {
+        "targets": int32(3, rng.randrange(V)), "edge_energy": np.ones(E, np.int64), "most": 5
+    },
+    "TourProblem": _tour_problem,
+    "TourProblem.n_jobs": _always(),
+    "TourSearch": lambda rng: {
+        "problem": Part("TourProblem", _tour_problem(rng)), "seed": rng.randrange(99)
+    },
+    "TourSearch.start": _always(first=int32(0, 3, 4), stops=int32(1, 0, 2, 3)),
+    "TourSearch.construct": _timed(),
+    "TourSearch.improve": _timed(n_steps=50),
+    "TourSearch.tours": _always(),
+    "TourSearch.unserved": _always(),
+    "TourSearch.cost": _always(),
     "ShortestPaths": lambda rng: {**graph(), "edge_ticks": _ticks_of_edges(rng)},
     "ShortestPaths.find": lambda rng: {"start": rng.randrange(V), "target": rng.randrange(V)},
     "find_overlaps": lambda rng: {

@@ -106,6 +106,53 @@ class Distances:
             self._edges[edge_ticks] = by_class[self.roadmap.class_of_edge]
         return self._edges[edge_ticks]
 
+    def measure_energies(
+        self, target: VertexId, edge_ticks: tuple[Tick, ...], energies: tuple[int, ...], most: int
+    ) -> NDArray[np.int64]:
+        """Return what the quickest way from every vertex to ``target`` takes from a battery.
+
+        Parameters
+        ----------
+        target
+            The vertex to reach.
+        edge_ticks
+            Ticks for an edge of each class, -1 for one that is barred.
+        energies
+            Energy of an edge of each class.
+        most
+            What is returned where the way takes more, or none exists.
+
+        Returns
+        -------
+        ndarray of int64, shape (V,)
+            The least energy of all quickest ways.
+        """
+        table, ticks = self.to(target, edge_ticks), self.compute_edge_ticks(edge_ticks)
+        by_edge = np.array(energies, np.int64)[self.roadmap.class_of_edge]
+        return self._kernel.energies_of_quickest_ways(table, ticks, by_edge, most)
+
+    def find_least_energies(
+        self, targets: Iterable[VertexId], energies: tuple[int, ...], most: int
+    ) -> NDArray[np.int64]:
+        """Return the least energy from every vertex to one of the targets.
+
+        Parameters
+        ----------
+        targets
+            The vertices of which one is to be reached.
+        energies
+            Energy of an edge of each class, -1 for one that is barred.
+        most
+            What is returned where the way takes more, or none exists.
+
+        Returns
+        -------
+        ndarray of int64, shape (V,)
+            Energies.
+        """
+        by_edge = np.array(energies, np.int64)[self.roadmap.class_of_edge]
+        return self._kernel.least_energies(np.fromiter(targets, np.int32), by_edge, most)
+
     def is_symmetric(self, edge_ticks: tuple[Tick, ...]) -> bool:
         """Return whether every edge may be driven in both directions in equal ticks."""
         if edge_ticks not in self._symmetric:

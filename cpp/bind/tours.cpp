@@ -1,0 +1,351 @@
+#include <nanobind/stl/tuple.h>
+
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "bindings.hpp"
+#include "tours/tour_search.hpp"
+
+namespace rightofway::bind {
+namespace {
+
+constexpr auto tour_robots_doc = R"(The robots of a tour problem, one entry each.
+
+Parameters
+----------
+travel, battery : int32[R]
+    Kind of travel; kind of battery, -1: none.
+start, end : int32[R]
+    Where it is at `ready`, and where it has to rest; end -1: at its last stop.
+ready : int64[R]
+    When its tour begins. [ticks]
+capacity, load : int32[R]
+    The largest load, and what is on board at `ready`.
+soc : int64[R]
+    The energy of the battery at `ready`.
+weight : int64[R]
+    Of its completion in the flowtime.)";
+
+constexpr auto tour_jobs_doc = R"(The jobs of a tour problem: what to do, one entry for each stop.
+
+Parameters
+----------
+first_stop : int32[J + 1]
+    Job ``j`` has the stops ``first_stop[j] .. first_stop[j + 1] - 1``, in this order.
+place : int32[S]
+    Where.
+work : int64[S]
+    How long. [ticks]
+load : int32[S]
+    The change of the load.
+earliest, latest : int64[S]
+    Begin not before; end not after, `NEVER`: at any time. [ticks])";
+
+constexpr auto tour_rules_doc = R"(The jobs of a tour problem: who may do them, and what they cost.
+
+Parameters
+----------
+weight, release, due : int64[J]
+    The service of a job costs its weight for each tick from `release` to its end, and more for ticks
+    past `due` (`NEVER`: none). [ticks]
+begun_by : int32[J]
+    The robot that has begun it, -1: none. These jobs are served before all others.
+first_robot, robots : int32[J + 1], int32[n]
+    The robots that may and can do a job.
+first_after, after : int32[J + 1], int32[n]
+    The jobs that end before a job begins.)";
+
+constexpr auto tour_batteries_doc = R"(Kinds of batteries, in whole numbers over one denominator.
+
+Parameters
+----------
+full, on, work, charge, reserve : int64[B]
+    Capacity; use per tick until the robot rests, and per tick of work; gain per tick of a charge;
+    what has to be left.
+drive : int64[B * P * P]
+    Use of a drive between two places, apart from `on`.
+to_charging : int64[B * P]
+    Least use from a place to a charging place; more than `full` without a way.
+first_charging, charging : int32[B + 1], int32[n]
+    The charging places of a kind.)";
+
+constexpr auto tour_problem_doc = R"(Jobs and robots for which tours are wanted.
+
+Parameters
+----------
+n_places : int
+    P.
+ticks : int32[K * P * P]
+    Ticks of drives from place to place, for each kind of travel; -1: no way.
+robots, jobs, rules, batteries
+    The rest.
+objective : TourObjective
+    What is minimized after the weight of unserved jobs.
+unit, late : int
+    Cost of a tick of service, and what a tick past `due` costs more.
+
+Raises
+------
+ValueError
+    For arrays that do not fit.
+KernelLimit
+    If costs might not fit 64 bits.)";
+
+constexpr auto tour_search_doc = R"(Search for tours; the best ones can be read between calls.
+
+They depend on the seed and the steps alone. Ctrl-C leaves the best tours as they were.
+
+Parameters
+----------
+problem : TourProblem
+    Jobs and robots.
+seed : int
+    For all that is drawn.)";
+
+constexpr auto tour_start_doc = R"(Insert jobs as they are in these tours, where that is feasible.
+
+Parameters
+----------
+first : int32[R + 1]
+    Robot ``r`` has the stops ``first[r] .. first[r + 1] - 1``.
+stops : int32[n]
+    Indices of stops of all jobs.)";
+
+constexpr auto tour_construct_doc =
+    R"(Insert unserved jobs by regret; return whether that was done in time.
+
+Parameters
+----------
+time_limit : float or None
+    When to stop. [s])";
+
+constexpr auto tour_improve_doc =
+    R"(Do steps of large neighbourhood search; return how many were done.
+
+Parameters
+----------
+n_steps : int
+    The most steps.
+time_limit : float or None
+    When to stop. [s])";
+
+constexpr auto tour_tours_doc = R"(Return the best tours: stops and charges.
+
+Returns
+-------
+tuple of (int32[R + 1], int32[N], int32[N], int64[N], int64[N])
+    The items of each robot; the stop of each (-1: a charge); its place, its begin and its ticks.)";
+
+constexpr auto tour_unserved_doc =
+    R"(Return the jobs without a tour and the reasons, as `UnservedReason`.
+
+Returns
+-------
+tuple of (int32[n], int32[n])
+    In the order of jobs.)";
+
+constexpr auto tour_cost_doc = R"(Return what the best tours cost; compared from left to right.
+
+Returns
+-------
+tuple of (int, int, int, int)
+    Begun jobs without a tour, the weight of other unserved jobs, the objective, the flowtime.)";
+
+// Copies of arrays would be made by the problem anyway: these objects keep the arrays.
+struct BoundTourRobots {
+    ArrayIn<std::int32_t> travel;
+    ArrayIn<std::int32_t> battery;
+    ArrayIn<std::int32_t> start;
+    ArrayIn<std::int32_t> end;
+    ArrayIn<Tick> ready;
+    ArrayIn<std::int32_t> capacity;
+    ArrayIn<std::int32_t> load;
+    ArrayIn<std::int64_t> soc;
+    ArrayIn<std::int64_t> weight;
+};
+
+struct BoundTourJobs {
+    ArrayIn<std::int32_t> first_stop;
+    ArrayIn<std::int32_t> place;
+    ArrayIn<Tick> work;
+    ArrayIn<std::int32_t> load;
+    ArrayIn<Tick> earliest;
+    ArrayIn<Tick> latest;
+};
+
+struct BoundTourRules {
+    ArrayIn<std::int64_t> weight;
+    ArrayIn<Tick> release;
+    ArrayIn<Tick> due;
+    ArrayIn<std::int32_t> begun_by;
+    ArrayIn<std::int32_t> first_robot;
+    ArrayIn<std::int32_t> robots;
+    ArrayIn<std::int32_t> first_after;
+    ArrayIn<std::int32_t> after;
+};
+
+struct BoundTourBatteries {
+    ArrayIn<std::int64_t> full;
+    ArrayIn<std::int64_t> on;
+    ArrayIn<std::int64_t> work;
+    ArrayIn<std::int64_t> charge;
+    ArrayIn<std::int64_t> reserve;
+    ArrayIn<std::int64_t> drive;
+    ArrayIn<std::int64_t> to_charging;
+    ArrayIn<std::int32_t> first_charging;
+    ArrayIn<std::int32_t> charging;
+};
+
+void init_tour_problem(TourProblem* self, std::int32_t n_places, const ArrayIn<std::int32_t>& ticks,
+                       const BoundTourRobots& robots, const BoundTourJobs& jobs,
+                       const BoundTourRules& rules, const BoundTourBatteries& batteries,
+                       TourObjective objective, std::int64_t unit, std::int64_t late) {
+    new (self) TourProblem(
+        {n_places, view(ticks)},
+        {view(robots.travel), view(robots.battery), view(robots.start), view(robots.end),
+         view(robots.ready), view(robots.capacity), view(robots.load), view(robots.soc),
+         view(robots.weight)},
+        {view(jobs.first_stop), view(jobs.place), view(jobs.work), view(jobs.load),
+         view(jobs.earliest), view(jobs.latest), view(rules.weight), view(rules.release),
+         view(rules.due), view(rules.begun_by), view(rules.first_robot), view(rules.robots),
+         view(rules.first_after), view(rules.after)},
+        {view(batteries.full), view(batteries.on), view(batteries.work), view(batteries.charge),
+         view(batteries.reserve), view(batteries.drive), view(batteries.to_charging),
+         view(batteries.first_charging), view(batteries.charging)},
+        objective, unit, late);
+}
+
+using TourItems = std::tuple<ArrayOut<std::int32_t>, ArrayOut<std::int32_t>, ArrayOut<std::int32_t>,
+                             ArrayOut<Tick>, ArrayOut<Tick>>;
+
+TourItems list_items(const TourSearch& self, const TourProblem& problem) {
+    std::vector<std::int32_t> first{0};
+    std::vector<std::int32_t> stops;
+    std::vector<std::int32_t> places;
+    std::vector<Tick> begins;
+    std::vector<Tick> ticks;
+    for (std::size_t r = 0; r < problem.n_robots(); ++r) {
+        const Tour& tour = self.best().tour(static_cast<RobotId>(r));
+        const TourTimes& times = tour.times();
+        auto charge = times.charges.begin();
+        for (std::size_t k = 0; k <= tour.size(); ++k) {
+            for (; charge != times.charges.end() && index(charge->gap) == k; ++charge) {
+                stops.push_back(none);
+                places.push_back(charge->place);
+                begins.push_back(charge->begin);
+                ticks.push_back(charge->ticks);
+            }
+            if (k < tour.size()) {
+                stops.push_back(tour.stops()[k]);
+                places.push_back(problem.stop(tour.stops()[k]).place);
+                begins.push_back(times.begin[k]);
+                ticks.push_back(times.end[k] - times.begin[k]);
+            }
+        }
+        first.push_back(static_cast<std::int32_t>(stops.size()));
+    }
+    return {to_numpy(std::move(first)), to_numpy(std::move(stops)), to_numpy(std::move(places)),
+            to_numpy(std::move(begins)), to_numpy(std::move(ticks))};
+}
+
+std::tuple<ArrayOut<std::int32_t>, ArrayOut<std::int32_t>> list_unserved(TourSearch& self,
+                                                                         std::size_t n_jobs) {
+    std::vector<std::int32_t> jobs;
+    std::vector<std::int32_t> reasons;
+    for (std::int32_t job = 0; index(job) < n_jobs; ++job) {
+        if (!self.best().serves(job)) {
+            jobs.push_back(job);
+            reasons.push_back(static_cast<std::int32_t>(self.explain(job)));
+        }
+    }
+    return {to_numpy(std::move(jobs)), to_numpy(std::move(reasons))};
+}
+
+void bind_tour_input(nb::module_& module) {
+    using Ids = ArrayIn<std::int32_t>;
+    using Wholes = ArrayIn<std::int64_t>;
+    nb::class_<BoundTourRobots>(module, "TourRobots", tour_robots_doc)
+        .def(nb::init<Ids, Ids, Ids, Ids, Wholes, Ids, Ids, Wholes, Wholes>(), array("travel"),
+             array("battery"), array("start"), array("end"), array("ready"), array("capacity"),
+             array("load"), array("soc"), array("weight"));
+    nb::class_<BoundTourJobs>(module, "TourJobs", tour_jobs_doc)
+        .def(nb::init<Ids, Ids, Wholes, Ids, Wholes, Wholes>(), array("first_stop"), array("place"),
+             array("work"), array("load"), array("earliest"), array("latest"));
+    nb::class_<BoundTourRules>(module, "TourRules", tour_rules_doc)
+        .def(nb::init<Wholes, Wholes, Wholes, Ids, Ids, Ids, Ids, Ids>(), array("weight"),
+             array("release"), array("due"), array("begun_by"), array("first_robot"),
+             array("robots"), array("first_after"), array("after"));
+    nb::class_<BoundTourBatteries>(module, "TourBatteries", tour_batteries_doc)
+        .def(nb::init<Wholes, Wholes, Wholes, Wholes, Wholes, Wholes, Wholes, Ids, Ids>(),
+             array("full"), array("on"), array("work"), array("charge"), array("reserve"),
+             array("drive"), array("to_charging"), array("first_charging"), array("charging"));
+}
+
+}  // namespace
+
+void bind_tours(nb::module_& module) {
+    nb::enum_<TourObjective>(module, "TourObjective", "What tours minimize.")
+        .value("service", TourObjective::service, "Service times and lateness by weights of jobs.")
+        .value("flowtime", TourObjective::flowtime, "The flowtime by weights of robots.")
+        .value("makespan", TourObjective::makespan, "The makespan; on ties the flowtime.")
+        .value("both", TourObjective::both, "Makespan plus completion, summed by weights.");
+    nb::enum_<UnservedReason>(module, "UnservedReason", "Why no tour serves a job.",
+                              nb::is_arithmetic())
+        .value("robot", UnservedReason::robot, "No robot may or can carry it.")
+        .value("way", UnservedReason::way, "No robot has a way to its stops.")
+        .value("latest", UnservedReason::latest, "No robot can be in time, even alone.")
+        .value("battery", UnservedReason::battery, "No battery lasts.")
+        .value("after", UnservedReason::after, "A job before it is unserved.")
+        .value("not_found", UnservedReason::not_found, "The search has found no place for it.");
+    bind_tour_input(module);
+    nb::class_<TourProblem>(module, "TourProblem", tour_problem_doc)
+        .def("__init__", &init_tour_problem, nb::arg("n_places"), array("ticks"), nb::arg("robots"),
+             nb::arg("jobs"), nb::arg("rules"), nb::arg("batteries"), nb::arg("objective"),
+             nb::arg("unit"), nb::arg("late"))
+        .def_prop_ro("n_jobs", &TourProblem::n_jobs, "The number of jobs.");
+    nb::class_<TourSearch>(module, "TourSearch", tour_search_doc)
+        .def(nb::init<const TourProblem&, std::uint64_t>(), nb::arg("problem"), nb::arg("seed"),
+             nb::keep_alive<1, 2>())
+        .def(
+            "start",
+            [](TourSearch& self, const ArrayIn<std::int32_t>& first,
+               const ArrayIn<std::int32_t>& stops) {
+                const nb::gil_scoped_release released;
+                self.start(view(first), view(stops));
+            },
+            array("first"), array("stops"), tour_start_doc)
+        .def(
+            "construct",
+            [](TourSearch& self, std::optional<double> time_limit) {
+                const Deadline deadline(time_limit);
+                const nb::gil_scoped_release released;
+                return self.construct(deadline);
+            },
+            nb::arg("time_limit").none() = nb::none(), tour_construct_doc)
+        .def(
+            "improve",
+            [](TourSearch& self, std::int64_t n_steps, std::optional<double> time_limit) {
+                const Deadline deadline(time_limit);
+                const nb::gil_scoped_release released;
+                return self.improve(n_steps, deadline);
+            },
+            nb::arg("n_steps"), nb::arg("time_limit").none() = nb::none(), tour_improve_doc)
+        .def(
+            "tours", [](const TourSearch& self) { return list_items(self, self.problem()); },
+            tour_tours_doc)
+        .def(
+            "unserved",
+            [](TourSearch& self) { return list_unserved(self, self.problem().n_jobs()); },
+            tour_unserved_doc)
+        .def_prop_ro(
+            "cost",
+            [](const TourSearch& self) {
+                const TourCost cost = self.best().cost();
+                return std::tuple(cost.n_missing, cost.unserved, cost.value, cost.flowtime);
+            },
+            tour_cost_doc);
+}
+
+}  // namespace rightofway::bind

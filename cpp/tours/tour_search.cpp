@@ -1,0 +1,547 @@
+#include "tours/tour_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "core/reject.hpp"
+
+namespace rightofway {
+namespace {
+
+constexpr double blinks = 0.01;  // Christiaens & Vanden Berghe, the rate of skipped gaps
+constexpr double hot = 0.1;      // temperatures, as shares of the mean cost of a job
+constexpr double cold = 0.001;
+constexpr double hot_weight = 0.3;  // the same for weights of unserved jobs
+constexpr double regret_noise = 0.1;
+constexpr std::int64_t first_cycle = 5000;  // steps
+constexpr std::int64_t cycle_growth = 2;
+constexpr std::size_t mean_removed = 10;
+constexpr std::size_t most_waiting = 30;  // unserved jobs that a step tries to insert
+constexpr std::size_t many_robots = 24;   // in larger fleets, insertions try tours nearby only
+constexpr std::size_t n_near_tours = 12;
+constexpr std::size_t n_drawn_tours = 3;
+constexpr double impossible = 1e15;  // score of an insertion that does not exist
+constexpr std::size_t settle_every = 100;
+constexpr std::uint32_t polls_per_step = 64;
+
+}  // namespace
+
+struct TourSearch::Method {
+    RemovalKind removal;
+    bool by_regret;
+    bool exchanges;
+
+    static constexpr std::size_t count = 8;
+    static const std::array<Method, count> all;
+};
+
+const std::array<TourSearch::Method, TourSearch::Method::count> TourSearch::Method::all{{
+    {RemovalKind::strings, false, false},
+    {RemovalKind::related, false, false},
+    {RemovalKind::worst, false, false},
+    {RemovalKind::random, false, false},
+    {RemovalKind::tours, false, false},
+    {RemovalKind::strings, true, false},
+    {RemovalKind::related, true, false},
+    {RemovalKind::strings, false, true},
+}};
+
+TourSearch::TourSearch(const TourProblem& problem, std::uint64_t seed)
+    : problem_(problem),
+      charges_(problem),
+      finder_(problem, charges_),
+      removals_(problem),
+      random_(seed, 0, 0),
+      trial_(problem, charges_),
+      current_(trial_),
+      best_(trial_),
+      current_cost_(trial_.cost()),
+      best_cost_(current_cost_),
+      choice_(Method::count),
+      is_tried_(problem.n_robots(), 0),
+      least_ends_(problem.n_jobs(), -1) {}
+
+void TourSearch::start(std::span<const std::int32_t> first, std::span<const std::int32_t> stops) {
+    require_length("first", first.size(), problem_.n_robots() + 1);
+    require_lists("first", first, stops.size(), "stops");
+    std::int32_t n_stops = 0;
+    for (std::int32_t job = 0; index(job) < problem_.n_jobs(); ++job) {
+        n_stops += problem_.job(job).n_stops;
+    }
+    require_ids("stops", stops, n_stops);
+    std::vector<std::int32_t> given(index(n_stops), none);  // the index of each stop
+    std::vector<RobotId> robot_of(problem_.n_jobs(), nobody);
+    std::vector<std::int32_t> jobs;
+    for (std::size_t r = 0; r < problem_.n_robots(); ++r) {
+        for (std::int32_t k = first[r]; k < first[r + 1]; ++k) {
+            const TourStop& stop = problem_.stop(stops[index(k)]);
+            given[index(stops[index(k)])] = k;
+            if (stop.is_first && problem_.may_do(static_cast<RobotId>(r), stop.job)) {
+                robot_of[index(stop.job)] = static_cast<RobotId>(r);
+                jobs.push_back(stop.job);
+            }
+        }
+    }
+    // The tour is a part of the given one, so each stop has the gap after those given before it.
+    const auto insert = [&](std::int32_t job) {
+        Insertion as_given;
+        as_given.robot = robot_of[index(job)];
+        const Tour& tour = trial_.tour(as_given.robot);
+        std::int32_t before = first[index(as_given.robot)] - 1;
+        const std::int32_t first_stop = problem_.job(job).first_stop;
+        for (std::int32_t s = first_stop; s < first_stop + problem_.job(job).n_stops; ++s) {
+            if (given[index(s)] <= before || given[index(s)] >= first[index(as_given.robot) + 1]) {
+                return false;
+            }
+            before = given[index(s)];
+            as_given.gaps.push_back(static_cast<std::int32_t>(
+                std::count_if(tour.stops().begin(), tour.stops().end(),
+                              [&](std::int32_t other) { return given[index(other)] < before; })));
+        }
+        return index(as_given.gaps.front()) >= trial_.first_gaps(job)[index(as_given.robot)] &&
+               trial_.insert(job, as_given);
+    };
+    for (bool goes_on = true; goes_on;) {
+        goes_on = false;
+        for (const std::int32_t job : jobs) {
+            goes_on = (!trial_.serves(job) && trial_.is_open(job) && insert(job)) || goes_on;
+        }
+    }
+    trial_.commit(current_);
+    best_ = current_;
+    best_cost_ = current_cost_ = current_.cost();
+}
+
+bool TourSearch::construct(const StopCondition& is_over) {
+    Poll poll(is_over);
+    std::vector<std::int32_t> jobs;
+    for (std::int32_t job = 0; index(job) < problem_.n_jobs(); ++job) {
+        if (!trial_.serves(job)) {
+            jobs.push_back(job);
+        }
+    }
+    robots_.resize(problem_.n_robots());
+    std::iota(robots_.begin(), robots_.end(), 0);
+    const bool is_done = insert_by_regret(std::move(jobs), robots_, 0, &poll);
+    trial_.commit(current_);
+    best_ = current_;
+    best_cost_ = current_cost_ = current_.cost();
+    return is_done;
+}
+
+std::int64_t TourSearch::improve(std::int64_t n_steps, const StopCondition& is_over) {
+    Poll poll(is_over);
+    std::int64_t done = 0;
+    if (problem_.n_jobs() == 0) {
+        return n_steps;
+    }
+    while (done < n_steps && !poll(polls_per_step)) {
+        step();
+        ++done;
+    }
+    return done;
+}
+
+// Starts again from the best plan, hotter than before.
+void TourSearch::begin_cycle() {
+    cycle_begin_ = n_steps_;
+    cycle_length_ = cycle_length_ == 0 ? first_cycle : cycle_growth * cycle_length_;
+    hottest_ = hot * energy(best_cost_) / static_cast<double>(best_.n_served() + 1);
+    current_ = best_;
+    trial_ = best_;
+    current_cost_ = best_cost_;
+}
+
+void TourSearch::cool() {
+    if (n_steps_ == cycle_begin_ + cycle_length_) {
+        begin_cycle();
+    }
+    heat_ = 1 - static_cast<double>(n_steps_ - cycle_begin_) / static_cast<double>(cycle_length_);
+}
+
+// What simulated annealing compares, where the same jobs are unserved.
+double TourSearch::energy(const TourCost& cost) const {
+    const auto flowtime = static_cast<double>(cost.flowtime);
+    const auto value = static_cast<double>(cost.value);
+    switch (problem_.objective()) {
+        case TourObjective::service:
+            return value + 1e-6 * flowtime;
+        case TourObjective::makespan:
+            return problem_.makespan_weight() * value + flowtime;
+        default:
+            return value;
+    }
+}
+
+bool TourSearch::accepts(const TourCost& cost) {
+    if (cost <= current_cost_) {
+        return true;
+    }
+    if (cost.n_missing != current_cost_.n_missing) {
+        return cost.n_missing < current_cost_.n_missing;
+    }
+    const double dice = -std::log(std::max(draw_share(), 1e-300));
+    const auto unserved = static_cast<double>(cost.unserved - current_cost_.unserved);
+    if (unserved != 0) {
+        const std::size_t n_unserved = problem_.n_jobs() - trial_.n_served();
+        const double mean =
+            static_cast<double>(cost.unserved) / static_cast<double>(n_unserved + 1);
+        return unserved < dice * hot_weight * heat_ * mean;
+    }
+    const double temperature = hottest_ * std::pow(cold / hot, 1 - heat_);
+    return energy(cost) - energy(current_cost_) < dice * temperature;
+}
+
+void TourSearch::step() {
+    cool();
+    const std::size_t option = choice_.draw(random_);
+    const Method& method = Method::all[option];
+    if (method.exchanges && !problem_.has_after()) {
+        exchange_tails();
+    }
+    const std::size_t n_removed = 1 + random_.below(2 * mean_removed - 1);
+    const auto& removed = removals_.choose(trial_, method.removal, n_removed, random_);
+    const auto effort = static_cast<double>(removed.size() * (method.by_regret ? 3 : 1) + 2);
+    trial_.remove(removed);
+    std::vector<std::int32_t> jobs = gather_unserved();
+    choose_robots(jobs);
+    if (method.by_regret) {
+        insert_by_regret(std::move(jobs), robots_, regret_noise, nullptr);
+    } else {
+        insert_greedily(std::move(jobs));
+    }
+    const TourCost cost = trial_.cost();
+    const double gain = cost < current_cost_ ? 1 : 0;
+    choice_.learn(option, cost < best_cost_ ? 10 : gain, effort);
+    if (accepts(cost)) {
+        trial_.commit(current_);
+        current_cost_ = cost;
+        if (cost < best_cost_) {
+            best_ = current_;
+            best_cost_ = cost;
+        }
+    } else {
+        trial_.restore(current_);
+    }
+    if (++n_steps_ % settle_every == 0) {
+        choice_.settle();
+    }
+}
+
+// Two tours exchange all stops after a job of one and before a job near it in the other, where no
+// load of a job is on board (2-opt*, Potvin & Rousseau 1995).
+void TourSearch::exchange_tails() {
+    const auto job = static_cast<std::int32_t>(random_.below(problem_.n_jobs()));
+    const auto near = removals_.near(job);
+    if (near.empty() || !trial_.serves(job)) {
+        return;
+    }
+    const std::int32_t other = near[random_.below(std::min(near.size(), n_near_tours))];
+    if (!trial_.serves(other) || trial_.robot_of(other) == trial_.robot_of(job)) {
+        return;
+    }
+    const std::array robots{trial_.robot_of(job), trial_.robot_of(other)};
+    std::array<std::vector<std::int32_t>, 2> tails;
+    std::array<std::vector<std::int32_t>, 2> heads;
+    for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+        const auto stops = trial_.tour(robots[side]).stops();
+        const std::int32_t at = side == 0 ? job : other;
+        std::size_t cut = 0;
+        while (problem_.stop(stops[cut]).job != at) {
+            ++cut;
+        }
+        std::int32_t n_open = 0;  // jobs of which a stop is behind the cut and one ahead
+        for (std::size_t k = 0; k < cut; ++k) {
+            const TourStop& stop = problem_.stop(stops[k]);
+            n_open += (stop.is_first ? 1 : 0) - (stop.is_last ? 1 : 0);
+        }
+        for (bool is_ahead = side == 0; (is_ahead || n_open > 0) && cut < stops.size(); ++cut) {
+            const TourStop& stop = problem_.stop(stops[cut]);
+            n_open += (stop.is_first ? 1 : 0) - (stop.is_last ? 1 : 0);
+            is_ahead = is_ahead && !(stop.job == at && stop.is_last);
+        }
+        heads[side].assign(stops.begin(), stops.begin() + static_cast<std::ptrdiff_t>(cut));
+        tails[side].assign(stops.begin() + static_cast<std::ptrdiff_t>(cut), stops.end());
+    }
+    for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+        for (const std::int32_t stop : tails[1 - side]) {
+            if (!problem_.may_do(robots[side], problem_.stop(stop).job)) {
+                return;
+            }
+        }
+        heads[side].insert(heads[side].end(), tails[1 - side].begin(), tails[1 - side].end());
+    }
+    if (!trial_.replace(robots, heads)) {
+        trial_.restore(current_);
+    }
+}
+
+// Unserved jobs: those that have begun, then a draw of the others.
+std::vector<std::int32_t> TourSearch::gather_unserved() {
+    std::vector<std::int32_t> jobs;
+    for (std::int32_t job = 0; index(job) < problem_.n_jobs(); ++job) {
+        if (!trial_.serves(job)) {
+            jobs.push_back(job);
+        }
+    }
+    random_.shuffle(jobs);
+    std::stable_partition(jobs.begin(), jobs.end(), [this](std::int32_t job) {
+        return problem_.job(job).begun_by != nobody || current_.serves(job);
+    });
+    if (problem_.has_after()) {
+        return jobs;
+    }
+    const auto n_fixed = std::count_if(jobs.begin(), jobs.end(), [this](std::int32_t job) {
+        return problem_.job(job).begun_by != nobody || current_.serves(job);
+    });
+    jobs.resize(std::min(jobs.size(), static_cast<std::size_t>(n_fixed) + most_waiting));
+    return jobs;
+}
+
+// The robots whose tours may get jobs: all of a small fleet; else those that have lost a job, those
+// with jobs nearby, and a few others.
+void TourSearch::choose_robots(std::span<const std::int32_t> jobs) {
+    robots_.clear();
+    if (problem_.n_robots() <= many_robots) {
+        robots_.resize(problem_.n_robots());
+        std::iota(robots_.begin(), robots_.end(), 0);
+        return;
+    }
+    const auto add = [this](RobotId robot) {
+        if (robot != nobody && !std::exchange(is_tried_[index(robot)], std::uint8_t{1})) {
+            robots_.push_back(robot);
+        }
+    };
+    if (!problem_.has_after()) {
+        for (const RobotId robot : trial_.changed()) {
+            add(robot);
+        }
+    }
+    for (const std::int32_t job : jobs) {
+        const auto near = removals_.near(job);
+        for (const std::int32_t other : near.first(std::min(near.size(), n_near_tours))) {
+            add(trial_.robot_of(other));
+        }
+        const auto& allowed = problem_.job(job).robots;
+        for (std::size_t k = 0; k < n_drawn_tours && !allowed.empty(); ++k) {
+            add(allowed[random_.below(allowed.size())]);
+        }
+    }
+    for (const RobotId robot : robots_) {
+        is_tried_[index(robot)] = 0;
+    }
+}
+
+void TourSearch::sort_jobs(std::vector<std::int32_t>& jobs) {
+    std::vector<std::pair<double, std::int32_t>> keys;
+    const std::size_t order = random_.below(12);
+    for (const std::int32_t job : jobs) {
+        const TourJob& sorted = problem_.job(job);
+        const auto stops = problem_.stops_of(sorted);
+        const TourRobot& robot = problem_.robot(sorted.robots.empty() ? 0 : sorted.robots.front());
+        const auto far = static_cast<double>(problem_.drive(robot, robot.start, stops[0].place));
+        double key = 0;
+        if (order < 5) {
+            key = draw_share();
+        } else if (order < 7) {
+            key = -far;
+        } else if (order < 8) {
+            key = far;
+        } else if (order < 9) {
+            key = static_cast<double>(stops.back().latest);
+        } else if (order < 10) {
+            key = static_cast<double>(stops.front().earliest);
+        } else {
+            key = -static_cast<double>(sorted.weight) * (1 + 0.1 * draw_share());
+        }
+        keys.emplace_back(sorted.begun_by != nobody ? -impossible : key, job);
+    }
+    std::stable_sort(keys.begin(), keys.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (std::size_t k = 0; k < jobs.size(); ++k) {
+        jobs[k] = keys[k].second;
+    }
+}
+
+void TourSearch::try_robot(std::int32_t job, RobotId robot, double skips, Insertion& best) {
+    if (problem_.may_do(robot, job)) {
+        const std::size_t first_gap =
+            problem_.has_after() ? trial_.first_gaps(job)[index(robot)] : 0;
+        finder_.improve(trial_.tour(robot), {job, trial_.release(job), trial_.makespan(), skips},
+                        first_gap, trial_.releases(), random_, best);
+    }
+}
+
+void TourSearch::insert_greedily(std::vector<std::int32_t> jobs) {
+    sort_jobs(jobs);
+    Insertion best;
+    for (bool goes_on = true; goes_on && !jobs.empty();) {
+        goes_on = false;
+        std::erase_if(jobs, [&](std::int32_t job) {
+            if (!trial_.is_open(job)) {
+                return false;
+            }
+            best.score = std::numeric_limits<double>::infinity();
+            best.robot = nobody;
+            for (const RobotId robot : robots_) {
+                try_robot(job, robot, blinks, best);
+            }
+            const bool is_inserted = best.exists() && trial_.insert(job, best);
+            goes_on = goes_on || (is_inserted && problem_.has_after());
+            return is_inserted;
+        });
+    }
+}
+
+// Ropke & Pisinger, section 3.2.2: always the job that loses most if it does not get its best tour
+// now, to the second and to the third best. False if time ran out.
+bool TourSearch::insert_by_regret(std::vector<std::int32_t> jobs, std::span<const RobotId> robots,
+                                  double noise, Poll* poll) {
+    const std::size_t n_robots = robots.size();
+    scores_.assign(jobs.size() * n_robots, std::numeric_limits<double>::quiet_NaN());
+    Insertion best;
+    const auto evaluate = [&](std::size_t j, std::size_t r) {
+        best.score = impossible;
+        best.robot = nobody;
+        try_robot(jobs[j], robots[r], 0, best);
+        const double factor = noise == 0 ? 1 : 1 + noise * draw_share();
+        scores_[j * n_robots + r] = best.exists() ? best.score * factor : impossible;
+    };
+    std::vector<std::uint8_t> is_done(jobs.size(), 0);
+    for (std::size_t n_left = jobs.size(); n_left > 0; --n_left) {
+        if (poll != nullptr && (*poll)(polls_per_step)) {
+            return false;
+        }
+        std::size_t job = jobs.size();
+        std::size_t robot = 0;
+        double most = -1;
+        for (std::size_t j = 0; j < jobs.size(); ++j) {
+            if (is_done[j] || !trial_.is_open(jobs[j])) {
+                continue;
+            }
+            std::array<double, 3> least{impossible, impossible, impossible};
+            std::size_t at = 0;
+            for (std::size_t r = 0; r < n_robots; ++r) {
+                double& score = scores_[j * n_robots + r];
+                if (std::isnan(score)) {
+                    evaluate(j, r);
+                }
+                if (score < least[0]) {
+                    least = {score, least[0], least[1]};
+                    at = r;
+                } else if (score < least[1]) {
+                    least = {least[0], score, least[1]};
+                } else if (score < least[2]) {
+                    least[2] = score;
+                }
+            }
+            const bool has_begun = problem_.job(jobs[j]).begun_by != nobody;
+            const double regret = has_begun ? 3 * impossible : least[1] + least[2] - 2 * least[0];
+            if (least[0] < impossible && regret > most) {
+                most = regret;
+                job = j;
+                robot = at;
+            }
+        }
+        if (job == jobs.size()) {
+            return true;
+        }
+        best.score = impossible;
+        best.robot = nobody;
+        try_robot(jobs[job], robots[robot], 0, best);
+        if (!best.exists() || !trial_.insert(jobs[job], best)) {
+            scores_[job * n_robots + robot] = impossible;
+            ++n_left;
+            continue;
+        }
+        is_done[job] = 1;
+        for (std::size_t j = 0; j < jobs.size(); ++j) {
+            scores_[j * n_robots + robot] = std::numeric_limits<double>::quiet_NaN();
+        }
+    }
+    return true;
+}
+
+UnservedReason TourSearch::explain(std::int32_t job) {
+    const auto& after = problem_.job(job).after;
+    if (!std::all_of(after.begin(), after.end(),
+                     [this](std::int32_t j) { return best_.serves(j); })) {
+        return UnservedReason::after;
+    }
+    Tick release = 0;
+    for (const std::int32_t earlier : after) {
+        release = std::max(release, find_least_end(earlier));
+    }
+    UnservedReason reason = UnservedReason::robot;
+    for (const RobotId robot : problem_.job(job).robots) {
+        const UnservedReason here = explain_on(job, robot, release);
+        if (here == UnservedReason::not_found || reason < here) {
+            reason = here;
+        }
+    }
+    return reason;
+}
+
+// Why a robot cannot do the job as its only one.
+UnservedReason TourSearch::explain_on(std::int32_t job, RobotId robot, Tick release) {
+    const TourRobot& alone = problem_.robot(robot);
+    std::vector<std::int32_t> stops;
+    Tick t = alone.ready;
+    std::int32_t at = alone.start;
+    std::int32_t load = 0;
+    auto reason = UnservedReason::not_found;
+    for (const TourStop& stop : problem_.stops_of(problem_.job(job))) {
+        load += stop.load;
+        if (load > alone.capacity) {
+            return UnservedReason::robot;
+        }
+        t = std::max(t + problem_.drive(alone, at, stop.place),
+                     stop.is_first ? std::max(stop.earliest, release) : stop.earliest) +
+            stop.work;
+        at = stop.place;
+        reason = t > stop.latest ? UnservedReason::latest : reason;
+        stops.push_back(problem_.job(job).first_stop + static_cast<std::int32_t>(stops.size()));
+    }
+    if (t + problem_.drive(alone, at, alone.end < 0 ? at : alone.end) >= TourProblem::no_way) {
+        return UnservedReason::way;
+    }
+    if (reason != UnservedReason::latest && alone.battery >= 0) {
+        std::vector<Tick> releases(problem_.n_jobs(), 0);
+        releases[index(job)] = release;
+        TourTimes times;
+        reason = charges_.plan(robot, stops, releases, times) ? reason : UnservedReason::battery;
+    }
+    return reason;
+}
+
+// The least tick at which the job can end on any robot, alone and without charges.
+Tick TourSearch::find_least_end(std::int32_t job) {
+    Tick& least = least_ends_[index(job)];
+    if (least >= 0) {
+        return least;
+    }
+    Tick release = 0;
+    for (const std::int32_t earlier : problem_.job(job).after) {
+        release = std::max(release, find_least_end(earlier));
+    }
+    least = TourProblem::no_way;
+    for (const RobotId robot : problem_.job(job).robots) {
+        const TourRobot& alone = problem_.robot(robot);
+        Tick t = alone.ready;
+        std::int32_t at = alone.start;
+        for (const TourStop& stop : problem_.stops_of(problem_.job(job))) {
+            t = std::max(t + problem_.drive(alone, at, stop.place),
+                         stop.is_first ? std::max(stop.earliest, release) : stop.earliest) +
+                stop.work;
+            at = stop.place;
+        }
+        least = std::min(least, t);
+    }
+    return least;
+}
+
+}  // namespace rightofway

@@ -1,0 +1,93 @@
+// Search for tours: a first assignment by regret insertion, then large neighbourhood search (LNS).
+//
+// A step removes some jobs from a copy of the current plan and inserts them again, greedily with
+// blinks or by regret, or exchanges the tails of two tours. Simulated annealing decides whether the
+// plan becomes the current one. Its temperature falls over a cycle of steps; each cycle is longer
+// than the one before and starts from the best plan, so that no limit needs to be known. The best
+// plan depends on the seed and the number of steps alone.
+//
+// Ropke & Pisinger, "An adaptive large neighborhood search heuristic for the pickup and delivery
+// problem with time windows", Transportation Science 2006. Pisinger & Ropke, "A general heuristic
+// for vehicle routing problems", Computers & Operations Research 2007. Christiaens & Vanden Berghe,
+// "Slack induction by string removals for vehicle routing problems", Transportation Science 2020.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/poll.hpp"
+#include "core/random.hpp"
+#include "lns/adaptive_choice.hpp"
+#include "tours/insertion.hpp"
+#include "tours/removals.hpp"
+#include "tours/tour_plan.hpp"
+
+namespace rightofway {
+
+// Why no tour serves a job.
+enum class UnservedReason : std::int32_t { robot, way, latest, battery, after, not_found };
+
+class TourSearch {
+  public:
+    // Borrows the problem.
+    TourSearch(const TourProblem& problem, std::uint64_t seed);
+
+    // Inserts jobs with the order that their stops have in these tours, while they are feasible.
+    // Robot r has the stops first[r] .. first[r + 1] - 1.
+    void start(std::span<const std::int32_t> first, std::span<const std::int32_t> stops);
+    // Inserts jobs that no tour serves, by regret. False if time ran out.
+    bool construct(const StopCondition& is_over);
+    // Does steps of LNS; the number of those done.
+    std::int64_t improve(std::int64_t n_steps, const StopCondition& is_over);
+
+    const TourProblem& problem() const { return problem_; }
+    const TourPlan& best() const { return best_; }
+    // Of each job: the reason for which it is in no tour.
+    UnservedReason explain(std::int32_t job);
+
+  private:
+    struct Method;
+
+    void step();
+    void exchange_tails();
+    void insert_greedily(std::vector<std::int32_t> jobs);
+    bool insert_by_regret(std::vector<std::int32_t> jobs, std::span<const RobotId> robots,
+                          double noise, Poll* poll);
+    void sort_jobs(std::vector<std::int32_t>& jobs);
+    std::vector<std::int32_t> gather_unserved();
+    void choose_robots(std::span<const std::int32_t> jobs);
+    void try_robot(std::int32_t job, RobotId robot, double skips, Insertion& best);
+    bool accepts(const TourCost& cost);
+    void begin_cycle();
+    void cool();
+    double draw_share() { return static_cast<double>(random_.next() >> 11) * 0x1.0p-53; }
+    double energy(const TourCost& cost) const;
+    UnservedReason explain_on(std::int32_t job, RobotId robot, Tick release);
+    Tick find_least_end(std::int32_t job);
+
+    const TourProblem& problem_;
+    ChargePlanner charges_;
+    InsertionFinder finder_;
+    Removals removals_;
+    Random random_;
+    TourPlan trial_;
+    TourPlan current_;
+    TourPlan best_;
+    TourCost current_cost_;
+    TourCost best_cost_;
+    AdaptiveChoice choice_;
+    std::vector<RobotId> robots_;  // that insertions try
+    std::vector<std::uint8_t> is_tried_;
+    std::vector<double> scores_;
+    std::vector<Tick> least_ends_;  // of each job alone, -1: not computed yet
+    std::int64_t n_steps_ = 0;
+    std::int64_t cycle_begin_ = 0;
+    std::int64_t cycle_length_ = 0;
+    double hottest_ = 1;
+    double heat_ = 1;  // from 1 to 0 over a cycle
+};
+
+}  // namespace rightofway
