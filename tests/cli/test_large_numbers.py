@@ -8,13 +8,14 @@ from typing import Any
 
 import pytest
 
+from rightofway.model.robot import ROBOT_ATTRIBUTES
 from tests.cli.conftest import Cli
 
 GRID = {"grid": ["...", "@.@", "..."]}
 VERTICES = {"A": [0, 0], "B": [1, 0], "C": [2, 0], "D": [1, 1]}
 LANES = [["B", "C"], ["B", "D"]]
 
-OF_ROBOTS = ("speed", "work", "turn", "turn_rate", "weight", "radius", "laps")
+OF_ROBOTS = ("work", *(it.key for it in ROBOT_ATTRIBUTES if not it.is_text))
 OF_EDGES = ("length", "max_speed", "surcharge")
 KEYS = (*OF_ROBOTS, *OF_EDGES, "headway", "cell_size", "spacing", "x", "from", "until")
 

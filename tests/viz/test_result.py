@@ -50,7 +50,7 @@ def test_it_has_a_sheet_for_each_question(door: Any) -> None:
 def test_the_summary_says_where_each_completion_time_goes(door: Any) -> None:
     rows = list(door["summary"].values)
     assert ("makespan", "22 time units") in [row[:2] for row in rows]
-    headings = rows.index(("robot", "completes", "alone", "detours", "making room", "waiting"))
+    headings = rows.index(("robot", "completes", "alone", "detours", "makes room", "waits"))
     assert rows[headings + 1 :] == [("R1", 9, 9, 0, 0, 0), ("R2", 22, 21, 0, 0, 1)]
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import chain
+from operator import attrgetter
 
 from rightofway.check import Report
 from rightofway.metrics import (
@@ -51,15 +52,15 @@ MAX_DETOURS = 8
 MAX_HOMES = 5
 """Homes on the way of other robots that a report names: those that cost most."""
 
-HEADINGS = (
-    "robot",
-    "completes",
-    "alone",
-    "detours",
-    "makes room",
-    "waits",
-)
-"""Headings of the table of robots: the first time is the sum of the others."""
+ROBOT_COLUMNS: dict[str, Callable[[LostTime], int]] = {
+    "completes": attrgetter("completion"),
+    "alone": attrgetter("alone"),
+    "detours": attrgetter("detours"),
+    "makes room": attrgetter("making_room"),
+    "waits": attrgetter("waiting"),
+}
+"""The columns of the table of robots [ticks], also of workbooks: the first is the sum of the
+others."""
 
 NOT_COMPUTED = "not computed, because the time limit is over"
 
@@ -147,16 +148,10 @@ def _robots(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
         heading = "times of the robots that lose most"
     yield words.quantities.format_heading(heading)
     rows = [
-        [
-            words.name_robot(robot),
-            *map(
-                cell,
-                (times.completion, times.alone, times.detours, times.making_room, times.waiting),
-            ),
-        ]
-        for robot, times in ((robot, lost[robot]) for robot in listed)
+        [words.name_robot(robot), *(cell(get(lost[robot])) for get in ROBOT_COLUMNS.values())]
+        for robot in listed
     ]
-    yield Table(HEADINGS, rows)
+    yield Table(("robot", *ROBOT_COLUMNS), rows)
     if len(lost) > len(listed):
         rest = say_count(len(lost) - len(listed), "more robot", "more robots")
         yield f"… and {rest} that lose less time (--json lists all)"

@@ -14,6 +14,7 @@ from rightofway.extras import load_library
 from rightofway.files import make_archive, write_whole
 from rightofway.metrics import compute_lost_time, free_running, measure, name_collisions
 from rightofway.model import Plan
+from rightofway.report.plan import ROBOT_COLUMNS
 from rightofway.report.quantities import Quantities
 from rightofway.viz.motion import Phase, make_trips
 from rightofway.viz.palette import choose_colours
@@ -143,18 +144,11 @@ def _list_figures(plan: Plan) -> Iterator[tuple[str, str]]:
 
 def _list_robots(plan: Plan) -> Listing:
     names = [robot.name for robot in plan.scenario.robots]
-    times = {"completes": list(plan.completions)}
     try:
         lost = compute_lost_time(plan)
+        times = {heading: [*map(get, lost)] for heading, get in ROBOT_COLUMNS.items()}
     except NoPlanExists:  # a robot has no way, so there is nothing to compare with
-        lost = ()
-    if lost:
-        times |= {
-            "alone": [robot.alone for robot in lost],
-            "detours": [robot.detours for robot in lost],
-            "making room": [robot.making_room for robot in lost],
-            "waiting": [robot.waiting for robot in lost],
-        }
+        times = {"completes": list(plan.completions)}
     columns = (ListColumn(heading=key, values=column, kind="time") for key, column in times.items())
     return Listing(
         title="robots",
