@@ -110,8 +110,6 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker(pytest.mark.slow)
         if item.path in NIGHTLY_FILES:
             item.add_marker(pytest.mark.nightly)
-        if "law_run" in getattr(item, "fixturenames", ()):
-            item.add_marker(pytest.mark.law)
 
 
 @pytest.fixture(scope="module")

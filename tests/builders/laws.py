@@ -263,7 +263,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         "--law-seconds",
         type=float,
         default=0.5,
-        help="seconds of the processor for the laws of each file (default: 0.5)",
+        help="seconds of the processor for the laws of each file, 0 for no laws (default: 0.5)",
     )
     group.addoption(
         "--law-seed",
@@ -292,6 +292,21 @@ def pytest_report_header(config: pytest.Config) -> str:
     return f"laws: --law-seed {config.option.law_seed}"
 
 
+def is_law(item: pytest.Item) -> bool:
+    """Return whether a test is a law."""
+    return "law_run" in getattr(item, "fixturenames", ())
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Mark the laws, or leave them out where they have no time."""
+    laws = [item for item in items if is_law(item)]
+    for item in laws:
+        item.add_marker(pytest.mark.law)
+    if not config.option.law_seconds:
+        config.hook.pytest_deselected(items=laws)
+        items[:] = [item for item in items if not is_law(item)]
+
+
 @pytest.fixture
 def law_seed(request: pytest.FixtureRequest) -> int:
     """Return the session's seed, for tests that draw by themselves."""
@@ -302,10 +317,7 @@ def law_seed(request: pytest.FixtureRequest) -> int:
 def law_run(request: pytest.FixtureRequest) -> LawRun:
     """Return the run of the requesting law, with its share of the seconds of its file."""
     item = request.node
-    laws = sum(
-        "law_run" in getattr(other, "fixturenames", ()) and other.path == item.path
-        for other in request.session.items
-    )
+    laws = sum(is_law(other) and other.path == item.path for other in request.session.items)
     option = request.config.option
     seconds = option.law_seconds / laws
     return LawRun(item.nodeid, option.law_seed, seconds, item.user_properties)
