@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from fractions import Fraction
 from itertools import accumulate
 
 from rightofway.check import check
@@ -23,15 +22,26 @@ from rightofway.control.commitments import (
 from rightofway.control.laps import build_graph_behind_released
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive
-from rightofway.control.waiting_places import ReachableStops, choose_waiting_places
 from rightofway.errors import GaveUp, InputError, NoPlanExists
-from rightofway.execution.replan import list_held
 from rightofway.facts import Fact
-from rightofway.model import Plan, PlannerRun, Robot, Scenario, Stop, Tick, Track, make_route
+from rightofway.model import (
+    Plan,
+    PlannerRun,
+    Robot,
+    RobotState,
+    Scenario,
+    Stop,
+    Tick,
+    Track,
+    make_route,
+)
 from rightofway.model.route import make_route_through
 from rightofway.precedence import ReleaseGraph, build_graph, build_timetable
 from rightofway.repair.local_search import LocalSearch
 from rightofway.repair.task import Task
+from rightofway.resume.commitment import make_robot_of_rest
+from rightofway.resume.held import list_held
+from rightofway.resume.waiting_places import ReachableStops, choose_waiting_places
 from rightofway.search import Distances
 from rightofway.site import Roadmap, VertexId
 from rightofway.site.chains import list_next_stops
@@ -451,18 +461,12 @@ class RestPlanner:
     ) -> Robot:
         """Return a robot that is busy at the end of what it keeps, and then makes its stops."""
         time = self._scenario.problem.clock.convert_to_time
-        work = [Stop(at=VertexId(end), work=time(Tick(busy)))]
-        for stop in stops:
-            vertex = self._scenario.roadmap.get_vertex(stop.place)
-            work.append(Stop(at=vertex, work=time(Tick(stop.work))))
-        return replace(
-            self._scenario.robots[robot],
-            home=VertexId(home),
-            stops=tuple(work),
-            turn=Fraction(0),
-            ends="none",
-            laps=1,
-        )
+        state = RobotState(at=VertexId(end), ready=time(Tick(busy)))
+        to_make = [
+            Stop(at=self._scenario.roadmap.get_vertex(stop.place), work=time(Tick(stop.work)))
+            for stop in stops
+        ]
+        return make_robot_of_rest(self._scenario.robots[robot], state, to_make, home=VertexId(home))
 
     @staticmethod
     def _route(

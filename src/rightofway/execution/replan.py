@@ -21,10 +21,9 @@ cycle: commitments wait only for visits that have begun, and the rest has the or
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
-from itertools import combinations, islice, pairwise
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,62 +32,26 @@ from rightofway.check import check
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.execution.forecast import Forecast
 from rightofway.model import (
-    Closure,
-    Itinerary,
     Plan,
     PlannerRun,
-    Robot,
     Route,
     Scenario,
     Stage,
-    Stop,
     Tick,
     Track,
     compute_turns_along,
     make_route,
 )
-from rightofway.native import find_clashes, list_excluded
-from rightofway.planners import Deadline, Task
+from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, build_timetable
-from rightofway.repair.fleet_search import make_fleet_search
-from rightofway.repair.moves import find_tracks_by_moves
-from rightofway.search import Distances, plan_by_lacam
-from rightofway.site import Roadmap, VertexId
+from rightofway.resume.commitment import Commitment, Stages, list_closures_after, make_rest
+from rightofway.resume.held import Held, list_held
+from rightofway.resume.other_ways import find_other_ways
+from rightofway.site import VertexId
 from rightofway.solve import improve
 
 NEIGHBOURHOODS = 20
 """Neighbourhoods per robot; five times as many hardly lower the flowtime further."""
-
-MOST_STEPS = 20_000
-"""Maximum steps of LaCAM, each a choice for every robot, for one choice of cut-off robots."""
-
-SEARCHES, SHARE = 10, 0.5
-"""Searches per robot for robots with a size, one after another, and the part of the time left."""
-
-MOST_STATES = 3_000
-"""Maximum number of states in the search for an order of their moves."""
-
-MOST_CHOICES = 200
-"""Maximum number of choices of cut-off robots, smallest choices first."""
-
-Stages = tuple[Stage, ...]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Commitment:
-    """What one robot keeps of its route, and what is left for it to do."""
-
-    visit: int  # the last one that it has booked; index in its route
-    vertex: VertexId  # of that visit
-    busy: Tick  # until that visit is expected to be done, from now
-    drives_to: VertexId | None = None  # without having booked it (``occupancy: one``)
-    begun: Stages = ()  # served until that visit is done
-    left: Stages = ()
-
-    @property
-    def free_from(self) -> VertexId:
-        """The vertex from which the robot can take a new route."""
-        return self.vertex if self.drives_to is None else self.drives_to
 
 
 def find_commitment(forecast: Forecast, robot: int, stages: Sequence[Stage]) -> Commitment:
@@ -124,23 +87,6 @@ def find_commitment(forecast: Forecast, robot: int, stages: Sequence[Stage]) -> 
     )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Held:
-    """What broken robots keep booked for ever.
-
-    Attributes
-    ----------
-    vertices
-        Booked by broken robots.
-    edges
-        Tail and head of edges that robots with a size cannot drive beside them. Where robots have
-        different sizes, what is closed to one of them counts as closed to all.
-    """
-
-    vertices: frozenset[VertexId]
-    edges: frozenset[tuple[int, int]] = frozenset()
-
-
 def find_held_by_broken(forecast: Forecast) -> Held:
     """Return what broken robots book for ever: for robots with a size, the edge driven on, too."""
     adg, booked, paths = forecast.adg, forecast.booked, dict[int, list[int]]()
@@ -148,30 +94,6 @@ def find_held_by_broken(forecast: Forecast) -> Held:
         current, end = forecast.get_visit(robot), int(adg.first_visit[robot + 1])
         paths[robot] = adg.vertex[current:end][booked[current:end]].tolist()
     return list_held(adg.scenario, paths)
-
-
-def list_held(scenario: Scenario, paths: Mapping[int, Sequence[int]]) -> Held:
-    """Return what robots exclude that stay on the vertices and edges of paths."""
-    resources, roadmap = scenario.problem.resources, scenario.roadmap
-    vertices = frozenset(VertexId(vertex) for path in paths.values() for vertex in path)
-    if resources.are_points:
-        return Held(vertices=vertices)
-    rows = set[int]()
-    for robot, path in paths.items():
-        own = [resources.get_vertex_row(robot, vertex) for vertex in path]
-        own += (
-            resources.get_edge_row(robot, edge)
-            for ends in pairwise(path)
-            if (edge := roadmap.find_edge(*ends)) is not None
-        )
-        rows.update(other for row in own for other in list_excluded(resources, row))
-    n_vertices, count = resources.n_vertices, resources.n_vertices + resources.n_edges
-    sizes = {int(resources.size_of[k]) for k in range(len(scenario.robots)) if k not in paths}
-    shut = {row % count for row in rows if row // count in sizes}
-    tails = np.repeat(np.arange(n_vertices), np.diff(roadmap.indptr)).tolist()
-    ends_of_edges = enumerate(zip(tails, roadmap.heads.tolist(), strict=True), n_vertices)
-    edges = (ends for edge, ends in ends_of_edges if edge in shut or ends[1] in shut)
-    return Held(vertices=vertices, edges=frozenset(edges))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -199,17 +121,17 @@ def replan(
     roadmap = scenario.roadmap
     if closed.vertices:
         roadmap = roadmap.exclude(closed.vertices, closed.edges)
-    closures = _closures_after(scenario, roadmap, forecast.now)
+    closures = list_closures_after(scenario, roadmap, forecast.now)
     if closures is None:
         return ()
-    rest = _rest(replace(scenario, closures=closures), roadmap, commitments)
+    rest = make_rest(replace(scenario, closures=closures), roadmap, commitments)
     tracks = _going_on(forecast, commitments, closed, rest)
     if tracks is None:
-        other_ways = _another_way(rest, forecast.broken, commitments, seed, deadline)
+        other_ways = find_other_ways(rest, forecast.broken, commitments, seed, deadline)
         if other_ways is None:
             return ()
         commitments, cut_off, tracks = other_ways
-        rest = _rest(rest, roadmap, commitments)
+        rest = make_rest(rest, roadmap, commitments)
     first = Plan(scenario=rest, tracks=tuple(tracks), run=PlannerRun(name="by right of way"))
     if closures and not check(first).ok:  # a robot is caught, or will be
         return ()
@@ -252,160 +174,6 @@ def _going_on(
             return None
         old_tracks.append(Track.of(visited, times[first:end].tolist()))
     return build_timetable(rest.problem, old_tracks)
-
-
-def _another_way(
-    rest: Scenario,
-    broken: frozenset[int],
-    commitments: Sequence[Commitment],
-    seed: int,
-    deadline: Deadline,
-) -> tuple[list[Commitment], frozenset[int], list[Track]] | None:
-    """Return commitments and stages, the smallest set of cut-off robots, and LaCAM's tracks."""
-    is_simple = rest.problem.resources.are_points and not rest.closures
-    find = _together if is_simple else _by_turns
-    for cut_off, tried in islice(_choices(rest, broken, commitments), MOST_CHOICES):
-        if deadline.measure_seconds_left() == 0:
-            return None
-        try:
-            other_routes = find(_rest(rest, rest.roadmap, tried), cut_off, seed, deadline)
-        except (NoPlanExists, GaveUp):
-            continue
-        if other_routes is None:
-            continue
-        ended = [
-            _with_end(commitment, commitment.left[:-1], int(own.vertices[-1]))
-            if robot in cut_off
-            else commitment
-            for robot, (commitment, own) in enumerate(zip(tried, other_routes, strict=True))
-        ]
-        tracks = build_timetable(_rest(rest, rest.roadmap, ended).problem, other_routes)
-        if tracks is not None:
-            return ended, cut_off, tracks
-    return None
-
-
-def _together(
-    rest: Scenario, cut_off: frozenset[int], seed: int, deadline: Deadline
-) -> Sequence[Track] | None:
-    """Return the plan that LaCAM finds in steps."""
-    return plan_by_lacam(
-        rest.problem.as_steps(),
-        seed=seed,
-        most_effort=MOST_STEPS * len(rest.robots),
-        time_limit=deadline.measure_seconds_left(),
-        spreads=False,
-        ends_anywhere=cut_off,
-    )
-
-
-def _by_turns(
-    rest: Scenario, cut_off: frozenset[int], seed: int, deadline: Deadline
-) -> Sequence[Track] | None:
-    """Return the plan for robots one after another, or else of single moves, or by LaCAM."""
-    problem = rest.problem
-    task = Task(scenario=rest, seed=seed, deadline=deadline)
-    tracks: Sequence[Track] = ()
-    ends = [itinerary.last for itinerary in problem.itineraries]
-    if not any(find_clashes(problem.resources, ends)):
-        search = make_fleet_search(task)
-        turns = sorted(range(len(rest.robots)), key=search.compute_alone().tolist().__getitem__)
-        searches, limit = SEARCHES * len(turns), deadline.shorten(SHARE).measure_seconds_left()
-        if search.prioritize(turns, searches=searches, time_limit=limit):
-            tracks = search.list_tracks()
-    if tracks:
-        return tracks
-    if problem.resources.are_points:  # its order of visits may keep the closures
-        return _together(rest, cut_off, seed, deadline)
-    return find_tracks_by_moves(task, ends_anywhere=cut_off, most_states=MOST_STATES)
-
-
-def _choices(
-    rest: Scenario, broken: frozenset[int], commitments: Sequence[Commitment]
-) -> Iterator[tuple[frozenset[int], list[Commitment]]]:
-    """Yield sets of cut-off robots, and stages of all robots: small sets, then most stages first.
-
-    The last stage of a cut-off robot is its preferred end.
-    """
-    distances = Distances(rest.roadmap)
-    reachable = [
-        replace(commitment, left=_within_reach(distances, itinerary, commitment))
-        for itinerary, commitment in zip(rest.problem.itineraries, commitments, strict=True)
-    ]
-    by_map = {
-        robot
-        for robot, commitment in enumerate(commitments)
-        if len(reachable[robot].left) < len(commitment.left)
-    }
-    others = [robot for robot in range(len(commitments)) if robot not in broken | by_map]
-    for count in range(len(others) + 1):
-        for more in combinations(others, count):
-            cut_off = frozenset(by_map.union(more))
-            for most in (None, 0) if cut_off else (None,):
-                tried = list(reachable)
-                for robot in cut_off:
-                    commitment, left = reachable[robot], reachable[robot].left[:most]
-                    tried[robot] = _with_end(
-                        commitment, left, left[-1].vertex if left else commitment.free_from
-                    )
-                yield cut_off, tried
-
-
-def _within_reach(distances: Distances, itinerary: Itinerary, commitment: Commitment) -> Stages:
-    """Return the stages that a robot can still reach, in order."""
-    at, reached = commitment.free_from, []
-    for stage in commitment.left:
-        if distances.to(stage.vertex, itinerary.edge_ticks)[at] >= 0:
-            reached.append(stage)
-            at = stage.vertex
-    return tuple(reached)
-
-
-def _with_end(commitment: Commitment, left: Stages, vertex: int) -> Commitment:
-    return replace(
-        commitment, left=(*left, Stage(vertex=VertexId(vertex), work=Tick(0), turn=Tick(0)))
-    )
-
-
-def _closures_after(scenario: Scenario, roadmap: Roadmap, now: Tick) -> tuple[Closure, ...] | None:
-    """Return the closures that are not over, from an instant on.
-
-    None where broken robots have taken the edges of a closed lane, and the radius of its closure
-    reaches farther: its place is no part of the roadmap that is left.
-    """
-    passed = scenario.problem.clock.convert_to_time(now)
-    after = []
-    for closure in scenario.closures:
-        until = None if closure.until is None else closure.until - passed
-        if until is not None and until <= 0:
-            continue
-        if closure.edge is not None and not roadmap.find_ways_along(closure.edge):
-            if closure.radius is not None:
-                return None
-            continue
-        after.append(replace(closure, from_=max(closure.from_ - passed, Fraction(0)), until=until))
-    return tuple(after)
-
-
-def _rest(scenario: Scenario, roadmap: Roadmap, commitments: Sequence[Commitment]) -> Scenario:
-    """Return the scenario of the rest; turning becomes work, since a turn may have begun."""
-    time = scenario.problem.clock.convert_to_time
-
-    def one_way(robot: Robot, commitment: Commitment) -> Robot:
-        stops = [Stop(at=commitment.vertex, work=time(commitment.busy))]
-        if commitment.drives_to is not None:
-            stops.append(Stop(at=commitment.drives_to))
-        for number, stage in enumerate(commitment.left, 1):
-            turn = stage.turn if number < len(commitment.left) else 0
-            stops.append(Stop(at=stage.vertex, work=time(Tick(stage.work + turn))))
-        if not commitment.left:
-            stops.append(Stop(at=stops[-1].at))
-        return replace(
-            robot, home=commitment.vertex, stops=tuple(stops), turn=Fraction(0), ends="none", laps=1
-        )
-
-    robots = tuple(map(one_way, scenario.robots, commitments))
-    return replace(scenario, roadmap=roadmap, robots=robots, clock=scenario.problem.clock)
 
 
 def _turn_aside(

@@ -14,10 +14,10 @@ from itertools import islice, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.execution.replan import list_held
 from rightofway.metrics.connectivity import reach_from
 from rightofway.model import Scenario
 from rightofway.native.resources import list_excluded
+from rightofway.resume.held import list_held
 from rightofway.site import Roadmap, VertexId
 
 __all__ = ["ReachableStops", "choose_waiting_places"]
