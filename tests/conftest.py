@@ -28,7 +28,10 @@ SLOW = (
     "cli/test_process.py",  # starts the command as a process, and interrupts it
     "conformance/test_execution.py",  # hundreds of runs for each planner and scenario
     "conformance/test_samples.py",  # plans on 36 real layouts
+    "control/test_chaos.py",  # five runs of each kind, and of each broken wording
+    "control/test_standstill.py",  # a hundred fleets
     "laws/test_best_timetable.py",
+    "laws/test_fixed_routes.py",  # the optimum of each planner's routes
     "laws/test_io_fuzz.py",
     "laws/test_time_limits.py",
     "planners/test_limits.py",  # limits of time, and interrupts
@@ -59,7 +62,7 @@ SLOW = (
     "viewer/",  # a browser
     "viz/test_spreadsheet.py",  # LibreOffice
 )
-"""Files and folders of the slow lane: what takes more than about two seconds."""
+"""Files and folders of the slow lane: what takes more than about four seconds."""
 
 
 NIGHTLY = (

@@ -1,4 +1,4 @@
-"""The pure modules of the pages under ``node --test``: a case for each file ``*.test.js``."""
+"""The pure modules of the pages under Node: a case for each file ``*.test.js``."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def test_the_modules_do_what_their_tests_claim(file: Path) -> None:
         assert "CI" not in os.environ, "there is no Node (install nodejs)"
         pytest.skip("there is no Node")
     run = subprocess.run(
-        [NODE, "--test", "--test-reporter=tap", file],
+        [NODE, "--test-reporter=tap", file],  # --test would start a second process for it
         capture_output=True,
         text=True,
         check=False,
