@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from rightofway.check import check
+from rightofway.check import Report, check
 from rightofway.deadline import Deadline, limit_work
 from rightofway.errors import GaveUp, InputError, InvalidPlan
 from rightofway.facts import Fact
@@ -32,6 +32,8 @@ from rightofway.model import (
 )
 from rightofway.model.outcome import classify_cost
 from rightofway.model.passing import wait_before_chains
+from rightofway.model.scenario import assign_tours
+from rightofway.model.work import Assignment, UnservedReason
 from rightofway.planners import (
     DEFAULT_PLANNER,
     IMPROVER,
@@ -46,6 +48,9 @@ from rightofway.planners.features import refuse_unknown
 from rightofway.planners.registry import name_able
 
 __all__ = ["improve", "solve"]
+
+OF_BATTERIES = frozenset({"low battery", "stranded"})
+"""Faults of plans whose tours need more than a battery holds; planners do not look for them."""
 
 JUDGING = 0.4e-6
 """The time to judge a plan, for each visit that it has at least [s]."""
@@ -121,7 +126,9 @@ def solve(
         _refuse_start(spec)
     settled = _settled(spec, options, named, seed)
     task = Task(scenario=scenario, **settled, report=report or _silent, keep_best=keep_best)
-    return _run(spec, task, limit, seconds_per_visit, on_plan, old=start)
+    if scenario.jobs is not None and scenario.tours is None:
+        return _run_rounds(spec, task, limit, seconds_per_visit, on_plan)
+    return _run(spec, task, limit, seconds_per_visit, on_plan, old=start)[0]
 
 
 @checks_arguments
@@ -169,7 +176,7 @@ def improve(
         raise InputError.at("", f"{message} ({remedy})")
     settled = _settled(spec, options, named, seed)
     task = Task(scenario=plan.scenario, **settled, report=report or _silent, keep_best=keep_best)
-    return _run(spec, replace(task, start=plan.tracks), limit, seconds_per_visit, on_plan)
+    return _run(spec, replace(task, start=plan.tracks), limit, seconds_per_visit, on_plan)[0]
 
 
 def _refuse_start(spec: PlannerSpec) -> None:
@@ -197,6 +204,43 @@ def _settled(
     return {"options": settled, "seed": SEED.read_at("seed", seed)}
 
 
+def _run_rounds(
+    spec: PlannerSpec,
+    task: Task,
+    time_limit: float | None,
+    seconds_per_visit: float,
+    on_plan: Callable[[Plan], None] | None,
+) -> Plan:
+    """Assign the jobs of a scenario, plan the tours, and keep the best plan."""
+    from rightofway.plan_work import plan_work  # loads the native core
+
+    _refuse_unknown(spec, task)
+
+    def plan_tours(assignment: Assignment, deadline: Deadline, seed: int) -> tuple[Plan, Report]:
+        toured = replace(task, scenario=assign_tours(task.scenario, assignment.tours), seed=seed)
+        limit = deadline.measure_seconds_left()
+        return _run(spec, toured, limit, seconds_per_visit, None, unserved=assignment.unserved)
+
+    return plan_work(
+        task.scenario,
+        plan_tours,
+        deadline=Deadline.after(time_limit),
+        seed=task.seed,
+        better=on_plan or (lambda _: None),
+        report=task.report,
+    )
+
+
+def _refuse_unknown(spec: PlannerSpec, task: Task) -> None:
+    """Refuse a scenario that needs more than a planner can."""
+    refuse_unknown(
+        task.scenario.problem,
+        spec.features,
+        f"planner {spec.name}",
+        lambda needed: f"choose {name_able(needed)}",
+    )
+
+
 def _run(
     spec: PlannerSpec,
     task: Task,
@@ -205,18 +249,19 @@ def _run(
     on_plan: Callable[[Plan], None] | None,
     *,
     old: Plan | None = None,
-) -> Plan:
-    """Plan and judge; ``old`` is a plan of the scenario before it was changed."""
+    unserved: Sequence[tuple[int, UnservedReason]] = (),
+) -> tuple[Plan, Report]:
+    """Plan and judge; ``old`` is a plan of the scenario before it was changed.
+
+    Only a plan with tours may come back with faults: planners know no batteries.
+    """
     # These load the native core: not for help.
     from rightofway.repair.impossible import refuse_stranded
     from rightofway.resume.warm_start import compare_with_start
     from rightofway.search import compute_least_completions
 
     seconds_per_visit = make_range(0, 3600).read_at("seconds_per_visit", seconds_per_visit)
-    planner = f"planner {spec.name}"
-    refuse_unknown(
-        task.scenario.problem, spec.features, planner, lambda needed: f"choose {name_able(needed)}"
-    )
+    _refuse_unknown(spec, task)
     began, deadline = time.perf_counter(), Deadline.after(time_limit)
     with_plan: list[float] = []  # how long planning took until there was a plan [s]
 
@@ -259,18 +304,24 @@ def _run(
         start=None if old is None else compare_with_start(old, task.scenario, draft.tracks),
         alone=tuple(alone.tolist()),
     )
-    plan = _make_plan(task, draft.tracks, run)
+    plan = _make_plan(task, draft.tracks, run, unserved)
     report = check(plan)
-    if any(kind != "swap conflict" or not draft.keeps_swaps for kind in report.counts):
+    may_have = {"swap conflict"} if draft.keeps_swaps else OF_BATTERIES
+    if not may_have.issuperset(report.counts):
         raise InvalidPlan(f"{spec.name} made a plan with {report}")
     outcome = _outcome(spec, task, draft, plan, keeps_rules=report.ok)
-    return replace(plan, run=replace(run, outcome=outcome))
+    return replace(plan, run=replace(run, outcome=outcome)), report
 
 
-def _make_plan(task: Task, tracks: Sequence[Track], run: PlannerRun) -> Plan:
+def _make_plan(
+    task: Task,
+    tracks: Sequence[Track],
+    run: PlannerRun,
+    unserved: Sequence[tuple[int, UnservedReason]] = (),
+) -> Plan:
     """Return the plan of a planner's tracks: robots wait before chains, not on them."""
     driven = wait_before_chains(task.scenario.problem, tracks)
-    return Plan(scenario=task.scenario, tracks=driven, run=run)
+    return Plan(scenario=task.scenario, tracks=driven, run=run, unserved=tuple(unserved))
 
 
 def _outcome(
