@@ -111,12 +111,10 @@ def test_the_page_on_the_command_line_has_every_command() -> None:
 
 
 def test_every_planner_of_ours_has_a_page_with_its_options_and_a_line_in_the_changelog() -> None:
-    index = (DOCS / "planners" / "index.md").read_text(encoding="utf-8")
     changelog = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     for spec in PLANNERS:
         page = (DOCS / "planners" / f"{spec.name}.md").read_text(encoding="utf-8")
         assert f"<!-- generated: planner-options {spec.name} -->\n" in page
-        assert f"\n{spec.name}\n" in index
         assert f"`{spec.name}`" in changelog
 
 
