@@ -297,15 +297,15 @@ def list_of(kind: Kind[T], *, admits: Any = Iterable) -> Kind[tuple[T, ...]]:
 def tuple_of(kinds: Kind[Any] | tuple[Kind[Any], ...], *parts: str) -> Kind[tuple[Any, ...]]:
     """Return the kind of tuples or lists with as many values as parts, all of one kind or each."""
     form = f"[{', '.join(parts)}]"
-    each = kinds if isinstance(kinds, tuple) else (kinds,) * len(parts)
+    items = kinds if isinstance(kinds, tuple) else (kinds,) * len(parts)
 
     def read(values: object) -> tuple[Any, ...]:
         if not isinstance(values, list | tuple) or len(values) != len(parts):
             raise ValueError(f"{quote(values)} does not fit (give {form})")
-        return tuple(kind.read(value) for kind, value in zip(each, values, strict=True))
+        return tuple(kind.read(value) for kind, value in zip(items, values, strict=True))
 
     length = {"minItems": len(parts), "maxItems": len(parts)}
-    return Kind(form, {"type": "array", "items": each[0].schema} | length, read)
+    return Kind(form, {"type": "array", "items": items[0].schema} | length, read)
 
 
 def mapping_of(kind: Kind[T], *, in_order: bool = False) -> Kind[tuple[tuple[str, T], ...]]:
