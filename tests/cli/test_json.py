@@ -3,45 +3,13 @@
 from __future__ import annotations
 
 import json
-import re
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from tests.builders.sentences import find_sentences
 from tests.cli.conftest import EXAMPLES, Cli
-
-PLACE_FOR_VALUE = re.compile(r"\{\w+(:\w+)?\}")
-
-KINDS = {"kind", "purpose"}
-"""Keys whose texts programs compare: kinds, and what a visit is for (``stop 1, turn``)."""
-
-FOR_PEOPLE = {"text", "sentence"}
-"""Keys of English sentences, each next to a kind."""
-
-
-def list_texts(data: Any, key: str = "") -> Iterator[tuple[str, str]]:
-    """Yield each text of plain data with its key."""
-    if isinstance(data, dict):
-        for name, value in data.items():
-            yield from list_texts(value, name)
-    elif isinstance(data, list):
-        for value in data:
-            yield from list_texts(value, key)
-    elif isinstance(data, str):
-        yield key, data
-
-
-def find_sentences(data: Any) -> list[tuple[str, str]]:
-    """Return the templates of plain data, and sentences that stand under the key of no sentence."""
-    return [
-        (key, text)
-        for key, text in list_texts(data)
-        if PLACE_FOR_VALUE.search(text)
-        or (key not in FOR_PEOPLE | KINDS and text.count(" ") > 1)
-        or (key in KINDS and not re.fullmatch(r"[\w, -]+", text))
-    ]
 
 
 def test_sentences_in_data_are_found() -> None:

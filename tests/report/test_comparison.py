@@ -22,7 +22,10 @@ def test_figures_have_the_text_of_their_own_scenario() -> None:
     flowtimes = [figures["flowtime"] for figures in data["plans"]]
     assert flowtimes[0] == 2 * flowtimes[1]
     texts = [figures["text"]["flowtime"] for figures in data["plans"]]
-    assert texts == ["19 time units", "9.5 time units"]
+    assert texts == [
+        ["n_time_units", {"number": "19"}],
+        ["n_time_units", {"number": ["figure", {"figure": "9.5"}]}],
+    ]
 
 
 def test_a_change_is_plain_data_with_its_text() -> None:

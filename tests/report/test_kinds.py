@@ -41,6 +41,30 @@ def test_every_fact_has_the_values_of_its_template() -> None:
     assert lacking == []
 
 
+ABOVE = {"bench", "cli", "control", "figures.py", "report", "studio", "viz"}
+"""Rooms that may have sentences."""
+
+GIVEN_TO = {"GaveUp", "NoPlanExists", "check", "check_work", "limit_loop", "make_check", "report"}
+"""Calls that take a fact in rooms below `report`."""
+
+
+def test_rooms_below_report_raise_and_report_facts() -> None:
+    sentences = [
+        f"{path.relative_to(SOURCES)}:{node.lineno}"
+        for path, module in parse_modules().items()
+        if path.relative_to(SOURCES).parts[0] not in ABOVE
+        for node in ast.walk(module)
+        if isinstance(node, ast.Call)
+        and getattr(node.func, "id", getattr(node.func, "attr", "")) in GIVEN_TO
+        and any(
+            isinstance(it, ast.JoinedStr) or isinstance(getattr(it, "value", 0), str)
+            for it in node.args
+            if isinstance(it, ast.Constant | ast.JoinedStr)
+        )
+    ]
+    assert sentences == []
+
+
 PAIR = grid_fleet(["...."], [("N0", "N1"), ("N3", "N2")])
 IN_THE_WAY = Fact("starts in its way", robot=1)
 

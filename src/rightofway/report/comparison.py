@@ -9,8 +9,9 @@ from rightofway.metrics.changes import Change
 from rightofway.metrics.comparison import Comparison
 from rightofway.model import Plan
 from rightofway.report.facts import FactWriter
-from rightofway.report.phrases import join_items, to_parts
-from rightofway.report.quantities import Quantities, format_decimal
+from rightofway.report.phrases import join_items, mark_figure, to_parts
+from rightofway.report.quantities import Quantities
+from rightofway.units import write_decimal
 
 COSTS = ("flowtime", "makespan", "lower_bound", "alone")
 """Figures in ticks."""
@@ -29,13 +30,13 @@ def export_comparison(comparison: Comparison) -> dict[str, Any]:
     return data
 
 
-def _write_figures(figures: dict[str, Any], plan: Plan, scale: int) -> dict[str, str]:
+def _write_figures(figures: dict[str, Any], plan: Plan, scale: int) -> dict[str, Any]:
     duration, seconds = Quantities.of(plan.scenario).format_duration, plan.run.seconds
     gap = figures["gap"]
     return {
-        **{key: duration(figures[key] // scale) for key in COSTS},
-        "gap": "" if gap is None else f"{gap:.1%}",
-        "seconds": "" if seconds is None else f"{format_decimal(seconds)} s",
+        **{key: to_parts(duration(figures[key] // scale)) for key in COSTS},
+        "gap": "" if gap is None else to_parts(mark_figure(f"{gap:.1%}")),
+        "seconds": "" if seconds is None else to_parts(mark_figure(f"{write_decimal(seconds)} s")),
     }
 
 

@@ -78,7 +78,7 @@ class Quantities:
         Raises
         ------
         InputError
-            For a value that is no scenario.
+            If the value is not a scenario.
         """
         return cls(units=scenario.units, tick=scenario.problem.clock.tick)
 
@@ -86,11 +86,11 @@ class Quantities:
     def format_duration(self, ticks: Value) -> str:
         """Return how long a number of ticks lasts: ``6 min 23 s``, ``2 time units``."""
         if self.in_ticks:
-            return Phrase("n_ticks", number=mark_figure(format_decimal(ticks)))
+            return Phrase("n_ticks", number=format_decimal(ticks))
         time = self._time(ticks)
         seconds = self.units.seconds
         if seconds is None:
-            return Phrase("n_time_units", number=mark_figure(format_decimal(time)))
+            return Phrase("n_time_units", number=format_decimal(time))
         return mark_figure(self._clock(time * seconds))
 
     @checks_arguments

@@ -249,11 +249,11 @@ export interface FactData {
 
 /** Figures as people read them. */
 export interface FigureTexts {
-  flowtime: string;
-  makespan: string;
-  lower_bound: string;
-  alone: string;
-  gap: string | null;
+  flowtime: PhraseData | string;
+  makespan: PhraseData | string;
+  lower_bound: PhraseData | string;
+  alone: PhraseData | string;
+  gap: PhraseData | string;
 }
 
 /** A file of the folder. */
@@ -693,7 +693,7 @@ export interface SpreadData {
   planned: number;
   from: number;
   to: number;
-  text: Record<string, string>;
+  text: Record<string, PhraseData | string>;
 }
 
 /** A document that somebody changes. */

@@ -196,11 +196,11 @@ class UnitNames(TypedDict):
 class FigureTexts(TypedDict):
     """Figures as people read them."""
 
-    flowtime: str
-    makespan: str
-    lower_bound: str
-    alone: str
-    gap: str | None
+    flowtime: Phrase | str
+    makespan: Phrase | str
+    lower_bound: Phrase | str
+    alone: Phrase | str
+    gap: Phrase | str
 
 
 class Kept(TypedDict):
@@ -633,7 +633,13 @@ class ByClock(TypedDict):
 
 SpreadData = TypedDict(
     "SpreadData",
-    {"counts": list[int], "planned": int, "from": float, "to": float, "text": dict[str, str]},
+    {
+        "counts": list[int],
+        "planned": int,
+        "from": float,
+        "to": float,
+        "text": dict[str, Phrase | str],
+    },
 )
 """How many runs have which flowtime [ticks]."""
 

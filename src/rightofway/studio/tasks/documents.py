@@ -34,7 +34,7 @@ from rightofway.metrics import inspect, measure
 from rightofway.model import Plan, Scenario
 from rightofway.report.facts import write_note, write_notes
 from rightofway.report.inspection import export_finding
-from rightofway.report.phrases import to_parts
+from rightofway.report.phrases import mark_figure, to_parts
 from rightofway.report.quantities import Quantities
 from rightofway.studio.messages import Blobs, Emit, as_fault_data
 from rightofway.viz.verdict import give_verdict
@@ -181,8 +181,8 @@ def compute_figures(plan: Plan) -> dict[str, Any]:
         "lower_bound": metrics.lower_bound,
         "alone": metrics.flowtime_alone,
     }
-    text = {key: duration(ticks) for key, ticks in costs.items()}
-    text["gap"] = f"{metrics.gap:.1%}" if metrics.lower_bound else ""
+    text = {key: to_parts(duration(ticks)) for key, ticks in costs.items()}
+    text["gap"] = to_parts(mark_figure(f"{metrics.gap:.1%}")) if metrics.lower_bound else ""
     tick, units = plan.scenario.problem.clock.tick, plan.scenario.units
     data = {
         **costs,

@@ -209,9 +209,9 @@ def compute_spread(outcome: SimulationResult) -> dict[str, Any] | None:
         "from": float(edges[0]),
         "to": float(edges[-1]),
         "text": {
-            "planned": duration(outcome.plan.flowtime),
-            "from": duration(round(edges[0])),
-            "to": duration(round(edges[-1])),
+            "planned": to_parts(duration(outcome.plan.flowtime)),
+            "from": to_parts(duration(round(edges[0]))),
+            "to": to_parts(duration(round(edges[-1]))),
         },
     }
 

@@ -334,12 +334,12 @@ class ChangeData(TypedDict):
 class FiguresText(TypedDict):
     """Figures as people read them."""
 
-    flowtime: str
-    makespan: str
-    lower_bound: str
-    alone: str
-    gap: str
-    seconds: str
+    flowtime: PhraseData
+    makespan: PhraseData
+    lower_bound: PhraseData
+    alone: PhraseData
+    gap: PhraseData
+    seconds: PhraseData
 
 
 class ComparedPlan(TypedDict):

@@ -96,7 +96,7 @@ function Caption({ run: { state, figures, status }, isFaulty, bound, seconds }) 
     ${state === "running" && !connection.isLost && `${figure(seconds.toFixed(1))} s `}
     ${said && html`<${Term} of="flowtime" /> <b>${said.duration(figures.flowtime)}</b>, `}
     ${said && html`<${Term} of="bound" /> ${said.duration(figures.lower_bound)}`}
-    ${said && figures.flowtime > (bound ?? Infinity) && ` (+${figure(figures.text.gap ?? "")})`}
+    ${said && figures.flowtime > (bound ?? Infinity) && ` (+${phraseText(figures.text.gap)})`}
     ${!isLive && status && html` <span class="hint">${phraseText(status)}</span>`}
   </figcaption>`;
 }

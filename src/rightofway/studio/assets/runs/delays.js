@@ -1,6 +1,7 @@
 /** What becomes of a plan with delays: how late over all runs, any of them to replay, who suffers, where. */
 
 import { html, useEffect, useState } from "../vendor/htm-preact.js";
+import { said as phraseText } from "../../../viz/page/assets/language/language.js";
 import { fraction, Quantities } from "../../../viz/page/assets/language/quantities.js";
 import { words } from "../words.js";
 /** @import { Plan } from "../../../viz/page/assets/plan/plan.js" */
@@ -122,7 +123,7 @@ function Spread({ spread: { counts, planned, from, to, text }, short, flowtime, 
   const isInside = from <= planned && planned <= to;
   const ends = [Math.min(from, planned), ...(isInside ? [planned] : []), Math.max(to, planned)];
   return html`
-    <figure class="spread"><svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" preserveAspectRatio="none" onClick=${press} aria-label=${words.spread({ from: text.from, to: text.to, planned: text.planned })}>
+    <figure class="spread"><svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" preserveAspectRatio="none" onClick=${press} aria-label=${words.spread({ from: phraseText(text.from), to: phraseText(text.to), planned: phraseText(text.planned) })}>
       ${counts.map((count, i) => {
         const height = count ? Math.max(((HEIGHT - 6) * count) / most, 1.5) : 0;
         const isChosen =

@@ -219,7 +219,7 @@ function Row({ studio, run, order, isOwn, hasUnit }) {
   const about = rest.filter(Boolean).join(" · ");
   const flowtime = figures?.tick
     ? new Quantities(figures.units, figures.tick)[hasUnit ? "cell" : "short"](figures.flowtime)
-    : figure(figures?.text.flowtime ?? "");
+    : phraseText(figures?.text.flowtime ?? "");
   /**
    * @param {PageEvent} event
    * @returns {void}
@@ -272,8 +272,8 @@ function Row({ studio, run, order, isOwn, hasUnit }) {
  */
 function Gap({ figures: { flowtime, lower_bound: bound, text } }) {
   const share = Math.min(flowtime / bound - 1, 1);
-  return html`<small title=${`${words.gap} ${figure(text.gap ?? "")}`}>
-    <span class="gap-bar" style=${{ "--gap": share }}></span>+${figure(text.gap ?? "")}</small>`;
+  return html`<small title=${`${words.gap} ${phraseText(text.gap)}`}>
+    <span class="gap-bar" style=${{ "--gap": share }}></span>+${phraseText(text.gap)}</small>`;
 }
 
 /**

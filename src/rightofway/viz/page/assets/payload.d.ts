@@ -144,12 +144,12 @@ export interface FeedData {
 
 /** Figures as people read them. */
 export interface FiguresText {
-  flowtime: string;
-  makespan: string;
-  lower_bound: string;
-  alone: string;
-  gap: string;
-  seconds: string;
+  flowtime: PhraseData;
+  makespan: PhraseData;
+  lower_bound: PhraseData;
+  alone: PhraseData;
+  gap: PhraseData;
+  seconds: PhraseData;
 }
 
 /** One thing on a site that will hurt. */

@@ -1,5 +1,5 @@
 import { element } from "../common/dom.js";
-import { figure, said, texts } from "../language/language.js";
+import { said, texts } from "../language/language.js";
 import { joined } from "../language/words.js";
 
 /** @import { Compared, ComparedFigures } from "./compared.js" */
@@ -28,7 +28,7 @@ export class ComparedTable {
       isFaulty ? this.#row("faults", ({ faults }) => this.#faults(faults)) : null,
       this.#row("planner", ({ planner }) => planner),
       ...TIMES.map((key) => this.#row(key, (figures) => compared.time(figures[key]))),
-      ...RATES_OF_PLANS.map((key) => this.#row(key, ({ text }) => figure(text[key]))),
+      ...RATES_OF_PLANS.map((key) => this.#row(key, ({ text }) => said(text[key]))),
       this.#row("seed", ({ seed }) => String(seed)),
     ];
     if (new Set(plans.map(({ robots }) => robots)).size > 1)
