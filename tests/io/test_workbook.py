@@ -262,11 +262,11 @@ BROKEN: dict[str, tuple[list[Edit], list[str]]] = {
         ["map!A1:B1: these cells are merged (unmerge them)"],
     ),
     "a heading": (
-        [put("robots", "E1", "sped"), put("robots", "M1", "name"), put("robots", "N2", "x")],
+        [put("robots", "E1", "sped"), put("robots", "AM1", "name"), put("robots", "AN2", "x")],
         [
             "robots!E1: 'sped' is no key of a robot (did you mean speed?)",
-            "robots!M1: the column 'name' is given twice (take one out)",
-            "robots!N2: a value without a heading (take it out)",
+            "robots!AM1: the column 'name' is given twice (take one out)",
+            "robots!AN2: a value without a heading (take it out)",
         ],
     ),
     "a rule": ([put("rules", "A3", "hedway")], ["rules!A3: 'hedway' is no rule (did you mean"]),
