@@ -5,13 +5,14 @@ from __future__ import annotations
 from copy import copy
 from dataclasses import replace
 from fractions import Fraction
+from itertools import combinations
 
 from hypothesis import strategies as st
 
 from rightofway.model import Arc, Itinerary, Problem, Scenario, Stage, Tick, Work
 from rightofway.model.turning import compute_first_turns
 
-__all__ = ["draw_times", "with_problem"]
+__all__ = ["LATE", "draw_arcs", "draw_times", "with_problem"]
 
 LATE = Fraction(5, 2)
 
@@ -52,6 +53,28 @@ def draw_times(
             )
         )
     return with_problem(scenario, itineraries, costs=costs)
+
+
+@st.composite
+def draw_arcs(draw: st.DrawFn, scenario: Scenario) -> Scenario:
+    """Draw stages that wait for stages of other robots, without a circle."""
+    places = [
+        (robot, stage)
+        for robot, itinerary in enumerate(scenario.problem.itineraries)
+        for stage in range(len(itinerary.stages_to_serve) - (not itinerary.ends_anywhere))
+    ]
+    # An order of all stages in which those of a robot keep theirs: arcs lead on in it.
+    mixed = draw(st.permutations([robot for robot, _ in places]))
+    left = {robot: iter(range(len(places))) for robot in mixed}
+    order = [(robot, next(left[robot])) for robot in mixed]
+    arcs = [
+        Arc(before=before, after=after)
+        for before, after in combinations(order, 2)
+        if before[0] != after[0] and draw(st.integers(0, 2)) == 0
+    ]
+    return with_problem(
+        scenario, list(scenario.problem.itineraries), tuple(arcs), costs=draw(st.booleans())
+    )
 
 
 @st.composite

@@ -205,6 +205,12 @@ class Problem:
         return self.work is not None
 
     @property
+    def minimizes_service(self) -> bool:
+        """Whether ends of stages count more than completions of robots."""
+        is_service = self.work is not None and self.work.objective == "service"
+        return is_service and any(stage.weight for one in self.itineraries for stage in one.stages)
+
+    @property
     def is_barred(self) -> bool:
         """Whether some robot may not drive along some edge."""
         return any(min(itinerary.edge_ticks, default=1) < 0 for itinerary in self.itineraries)

@@ -245,6 +245,31 @@ def compute_cost(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
     return Tick(sum(itinerary.weight * cost for itinerary, cost in costs))
 
 
+def compute_service(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
+    """Return the costs of the ends of stages, by their weights [ticks over ``late.denominator``].
+
+    These are service times and lateness of the jobs in the tours of a scenario, apart from what no
+    plan changes.
+
+    Parameters
+    ----------
+    scenario
+        The problem, with jobs.
+    tracks
+        One track for each robot, which serves all its stages.
+    """
+    work, cost = scenario.problem.work, 0
+    assert work is not None, "the scenario has jobs"
+    late, parts = work.late.as_integer_ratio()
+    for itinerary, stay in zip(
+        scenario.problem.itineraries, find_stays(scenario, tracks), strict=True
+    ):
+        for stage, end in zip(itinerary.stages, stay.ends, strict=False):
+            delay = 0 if stage.due is None else max(0, end - stage.due)
+            cost += stage.weight * (parts * end + late * delay)
+    return Tick(cost)
+
+
 def compute_costs(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Tick, ...]:
     """Return the completion time of each robot and the surcharges of its edges [ticks]."""
     costs, roadmap = compute_completions(scenario, tracks), scenario.roadmap

@@ -135,7 +135,7 @@ def _scale_costs(
     allow, `LARGEST_SLOPE` for the stages of a robot together.
     """
     work = problem.work
-    if work is None or work.objective != "service" or not any(stage.weight for stage in stages):
+    if work is None or not problem.minimizes_service:
         return None
     exact = [(stage.weight, stage.weight * work.late * (stage.due is not None)) for stage in stages]
     slope = max(

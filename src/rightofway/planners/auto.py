@@ -54,6 +54,8 @@ def auto(task: Task) -> Draft:
             raise InputError.at(("options", "swaps"), message)
         refuse_with_swaps_left(task.scenario.problem)
         return paper(task)
+    if task.scenario.problem.has_times:
+        return lns(task)  # the other methods do not know times
     return finish_optimum(task, _best(task))
 
 

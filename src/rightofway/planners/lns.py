@@ -83,7 +83,7 @@ def improve_best(
     """
     problem = task.scenario.problem
     drafts: tuple[Draft | None, ...]
-    if not problem.is_open:
+    if problem.has_times or not problem.is_open:
         drafts = (first, _if_found(task, search, needed=first is None))
     elif len(problem.itineraries) > MOST_ROBOTS and problem.resources.are_points:
         drafts = (first, _together(task))
@@ -92,7 +92,7 @@ def improve_best(
         has_plan = first is not None or together is not None
         drafts = (first, together, _in_turn(task, search, has_plan=has_plan))
     plans = [plan for plan in drafts if plan is not None]
-    if not plans:
+    if not plans and not problem.has_times:
         is_simple = problem.resources.are_points and problem.is_open
         together = _together(task) if is_simple else plan_fleet(task)
         plans = [together] if together is not None else []
@@ -166,6 +166,8 @@ def _improve(
     bound = alone if first.proof is None else max(alone, first.proof.bound)
     # Plans of one makespan may differ in flowtime.
     goal = (bound, least_cost if objective is Objective.MAKESPAN else None)
+    if task.scenario.problem.minimizes_service:
+        bound, goal = 0, (-1, None)  # alone robots are no bound of service
     before = search.value, search.cost
     patience = PATIENCE * len(task.scenario.robots)
     iterations = task.options["iterations"] or UNLIMITED
@@ -186,7 +188,7 @@ def _improve(
             rate = (done - done_before) / (time.perf_counter() - began)
             if (search.value, search.cost) < reached:
                 task.better(search.list_tracks)
-            task.report(_describe_progress(task, search.value, bound, rate))
+            task.report(_describe_progress(task, search, bound, rate))
             if search.idle >= patience or deadline.measure_seconds_left() == 0:
                 break
     except KeyboardInterrupt:
@@ -196,7 +198,7 @@ def _improve(
     tracks = _found(task, search, tuple(spaced), is_better=(search.value, search.cost) < before)
     rated = task.measure_worth
     status = Status("as fast as alone", status=first.status)
-    if rated(tracks)[1] != least_cost:
+    if rated(tracks)[1] != least_cost or task.scenario.problem.minimizes_service:
         is_better = rated(tracks) != before
         status = Status(
             "improved" if is_better else "not improved", neighbourhoods=done, status=first.status
@@ -217,9 +219,14 @@ def _is_over(search: FleetSearch, goal: tuple[int, int | None], is_enough: IsEno
     return is_enough is not None and is_enough(search.value)
 
 
-def _describe_progress(task: Task, cost: int, bound: int, rate: float) -> Fact:
+def _describe_progress(task: Task, search: FleetSearch, bound: int, rate: float) -> Fact:
     """Return the value that the search has reached, its gap, and its attempts per second."""
-    values = {"objective": task.objective.value, "value": cost, "rate": round(rate)}
+    objective, cost = task.objective.value, search.value
+    work = task.scenario.problem.work
+    if work is not None and task.scenario.problem.minimizes_service:  # in other units there
+        service = task.measure_worth(search.list_tracks())[0]
+        objective, cost = "service", Tick(service // work.late.denominator)
+    values = {"objective": objective, "value": cost, "rate": round(rate)}
     if not bound:
         return Fact("value reached", task.scenario, **values)
     return Fact("value and gap reached", task.scenario, **values, gap=cost / bound - 1)
@@ -244,6 +251,7 @@ def _retimed(task: Task, search: FleetSearch) -> tuple[Track, ...]:
     problem = task.scenario.problem
     if problem.closures is None:
         search.retime()
+    if problem.closures is None or problem.has_times:  # the graph does not know times
         return search.list_tracks()
     graph = build_graph_of_plan(task.scenario.problem, search.list_tracks())
     return tuple(graph.build_tracks())

@@ -18,6 +18,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from rightofway.deadline import Deadline
+from rightofway.errors import GaveUp
 from rightofway.facts import Fact
 from rightofway.model import Scenario, Status, Stop, compute_cost
 from rightofway.planners.lacam import plan_fleet
@@ -55,6 +56,8 @@ def prioritized(task: Task) -> Draft:
     draft = plan_in_turn(task, make_fleet_search(task), task.options["order"])
     if draft is not None:
         return draft
+    if task.scenario.problem.has_times:
+        raise GaveUp(Fact("time over without a plan"))
     task.deadline.check(Fact("planning in turn"))
     status = Status("together after in turn")
     return replace(plan_fleet(task), status=status)
@@ -71,6 +74,8 @@ def plan_in_turn(
         return None
     turns = _in_order(task.scenario, search, order, task.seed)
     problem = task.scenario.problem
+    if problem.has_times:
+        return _in_time(task, search, turns, SHARE_WITH_PLAN if has_plan else SHARE_WITH_SIZES)
     if not problem.resources.are_points or problem.closures is not None:
         return _patiently(task, search, turns, SHARE_WITH_PLAN if has_plan else SHARE_WITH_SIZES)
     searches, deadline = SEARCHES * len(turns), task.deadline
@@ -97,6 +102,20 @@ def _patiently(task: Task, search: FleetSearch, turns: Sequence[int], share: flo
     limit = _part(task.deadline, share)
     is_complete = search.prioritize(turns, searches=searches, time_limit=limit)
     return _at_own_speeds(task, search) if is_complete else None
+
+
+def _in_time(task: Task, search: FleetSearch, turns: Sequence[int], share: float) -> Draft | None:
+    """Plan robots whose stages have times one after another, or else let one move at a time."""
+    searches = SEARCHES_WITH_SIZES * len(turns)
+    limit = _part(task.deadline, share)
+    status = Status("in turn")
+    if not search.prioritize(turns, searches=searches, time_limit=limit):
+        limit = task.deadline.measure_seconds_left()
+        if not search.move_one_at_a_time(time_limit=limit):
+            return None
+        status = Status("one at a time")
+    task.has_plan()
+    return Draft(tracks=search.list_tracks(), status=status)
 
 
 def _part(deadline: Deadline, share: float) -> float | None:

@@ -87,7 +87,8 @@ def _shared_ends(scenario: Scenario) -> Iterator[Blockage]:
     # Two robots that stay at one vertex for ever can never both be there: no search is needed.
     holders: defaultdict[VertexId, list[int]] = defaultdict(list)
     for robot, itinerary in enumerate(scenario.problem.itineraries):
-        holders[itinerary.last].append(robot)
+        if not itinerary.ends_anywhere:
+            holders[itinerary.last].append(robot)
     for vertex, robots in holders.items():
         if len(robots) > 1:
             reason = Fact("shared end", robots=tuple(robots), place=vertex)
@@ -105,8 +106,9 @@ def _clashes(scenario: Scenario) -> Iterator[Blockage]:
     for when, places in (("start", homes), ("end", ends)):
         for pair in find_clashes(scenario.problem.resources, places):
             place, other_place = (places[robot] for robot in pair)
-            if place == other_place:
-                continue  # a shared end
+            may_move = any(itineraries[one].ends_anywhere for one in pair)
+            if place == other_place or (when == "end" and may_move):
+                continue  # a shared end, or none
             robot, other = map(int, pair)
             values = {"one": robot, "here": place, "other": other, "there": other_place}
             zone = next((z for z in roadmap.zones if {place, other_place} <= {*z.vertices}), None)

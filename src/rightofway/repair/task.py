@@ -26,6 +26,7 @@ from rightofway.model import (
     compute_cost,
 )
 from rightofway.model.outcome import choose_objective
+from rightofway.model.stays import compute_service
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -59,6 +60,7 @@ class Task:
         Whether an interrupt ends the planner with the best plan so far, where there is one.
     objective
         The one that the option ``objective`` asks for; flowtime for planners without that option.
+        With jobs, the one of completions that `Work.objective` names; flowtime for ``service``.
 
     Raises
     ------
@@ -82,8 +84,9 @@ class Task:
         object.__setattr__(self, "objective", self._choose_objective())
 
     def _choose_objective(self) -> Objective:
-        name = self.options.get("objective", "flowtime")
-        if name == "flowtime":
+        work = self.scenario.problem.work
+        name = self.options.get("objective", "flowtime") if work is None else work.objective
+        if name in {"flowtime", "service"}:
             return choose_objective(self.scenario)
         if self.scenario.roadmap.has_surcharges:
             message = f"{name} leaves out the surcharges of the roadmap (minimize the flowtime)"
@@ -94,6 +97,8 @@ class Task:
         """Return the value of a plan, and its cost, which decides between plans of equal value."""
         scenario, objective = self.scenario, self.objective
         cost = compute_cost(scenario, tracks)
+        if scenario.problem.minimizes_service:
+            return compute_service(scenario, tracks), cost
         return objective.compute_cost(scenario, tracks) if objective.has_makespan else cost, cost
 
 
