@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
 from fractions import Fraction
-from itertools import chain, count
+from itertools import count
 from typing import NamedTuple
 
 import numpy as np
@@ -27,6 +27,7 @@ from rightofway.check import Report
 from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.facts import Fact
+from rightofway.metrics import list_job_times
 from rightofway.model import Objective, Plan, Scenario, compute_cost
 from rightofway.model.work import Assignment, UnservedReason, Work
 from rightofway.search import Distances
@@ -69,13 +70,7 @@ class WorkCost(NamedTuple):
 
 
 def measure_work(plan: Plan) -> WorkCost:
-    """Return the objective of a plan with jobs.
-
-    Parameters
-    ----------
-    plan
-        A plan that keeps the rules, with tours.
-    """
+    """Return the objective of a plan with jobs and tours that keeps the rules."""
     work = plan.scenario.problem.work
     assert work is not None, "the scenario has jobs"
     cost = compute_cost(plan.scenario, plan.tracks)
@@ -89,7 +84,13 @@ def measure_work(plan: Plan) -> WorkCost:
 def _measure_value(plan: Plan, work: Work) -> Fraction:
     match work.objective:
         case "service":
-            return sum((_measure_job(work, *job) for job in _list_ends(plan)), Fraction(0))
+            return sum(
+                (
+                    work.jobs[done.job].weight * (done.service_time + work.late * done.late)
+                    for done in list_job_times(plan)
+                ),
+                Fraction(0),
+            )
         case "flowtime":
             return Fraction(sum(plan.completions))
         case "makespan":
@@ -97,22 +98,6 @@ def _measure_value(plan: Plan, work: Work) -> Fraction:
         case "both":
             weights = plan.scenario.problem.weights
             return Fraction(Objective.BOTH.compute_values(weights, plan.completions)[0])
-
-
-def _measure_job(work: Work, job: int, end: int) -> Fraction:
-    """Return the weighted service time of a job, with its lateness."""
-    own = work.jobs[job]
-    late = 0 if own.due is None else max(0, end - own.due)
-    return own.weight * (end - own.earliest + work.late * late)
-
-
-def _list_ends(plan: Plan) -> Iterator[tuple[int, int]]:
-    """Yield each served job with its end [ticks]."""
-    ends: dict[int, int] = {}
-    for item in chain.from_iterable(plan.tours or ()):
-        if item.job is not None:
-            ends[item.job] = max(item.end, ends.get(item.job, 0))
-    yield from ends.items()
 
 
 def plan_work(
@@ -124,32 +109,11 @@ def plan_work(
     better: Callable[[Plan], None] = lambda _: None,
     report: Callable[[Fact], None] = lambda _: None,
 ) -> Plan:
-    """Assign the jobs of a scenario, and plan the tours.
+    """Return the best judged plan of a scenario with jobs, with its tours and unserved jobs.
 
-    Parameters
-    ----------
-    scenario
-        A scenario with jobs.
-    plan_tours
-        Plans and judges one assignment.
-    deadline
-        When to stop; a first plan is looked for in any case.
-    seed
-        For all that is drawn.
-    better
-        Takes each judged plan that is better than those before.
-    report
-        Takes a fact on the progress, round by round.
-
-    Returns
-    -------
-    Plan
-        The best plan that the judge has passed, with its tours and the unserved jobs.
-
-    Raises
-    ------
-    GaveUp, NoPlanExists
-        If not even the begun jobs alone led to a plan: the error of that assignment.
+    A first plan is looked for whatever the deadline. `better` takes each plan that is better than
+    those before, `report` a fact on the progress after each round. If not even the begun jobs
+    alone lead to a plan, the error of that assignment is raised.
     """
     rounds = _Rounds(scenario, plan_tours, deadline, seed)
     for number in count(1):

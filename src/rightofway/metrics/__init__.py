@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from rightofway.metrics.alone import compute_alone_completions
+from rightofway.metrics.jobs import JobTimes, list_job_times
 from rightofway.metrics.lost_time import compute_lost_time, join_waits
 from rightofway.metrics.measure import Metrics, measure
 from rightofway.metrics.outcome import derive_outcome
@@ -75,6 +76,7 @@ __all__ = [
     "Event",
     "Finding",
     "Inspection",
+    "JobTimes",
     "Metrics",
     "NamedCollision",
     "NamedCollisions",
@@ -95,6 +97,7 @@ __all__ = [
     "inspect",
     "join_waits",
     "list_events",
+    "list_job_times",
     "make_event_columns",
     "measure",
     "name_collisions",

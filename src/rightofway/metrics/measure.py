@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict, dataclass
-from itertools import chain
 from typing import Any
 
 from rightofway.kinds.arguments import checks_arguments
 from rightofway.metrics.alone import compute_alone_completions
+from rightofway.metrics.jobs import list_job_times
 from rightofway.model import Objective, Outcome, OutcomeKind, Plan, Proof, Tick
 from rightofway.model.outcome import classify_cost
 
@@ -138,16 +138,11 @@ def _measure_plan(plan: Plan) -> Metrics:
 
 def measure_service(plan: Plan) -> dict[str, Any]:
     """Return the figures of the jobs of a plan by name; empty without jobs."""
-    work = plan.scenario.problem.work
-    if work is None or plan.tours is None:
+    if plan.tours is None:
         return {}
-    ends = dict[int, int]()
-    for item in chain.from_iterable(plan.tours):
-        if item.job is not None:
-            ends[item.job] = max(item.end, ends.get(item.job, item.end))
-    jobs = [(work.jobs[job], end) for job, end in ends.items()]
+    jobs = list_job_times(plan)
     return {
-        "service_time": Tick(sum(end - job.earliest for job, end in jobs)),
-        "lateness": Tick(sum(max(0, end - job.due) for job, end in jobs if job.due is not None)),
+        "service_time": Tick(sum(job.service_time for job in jobs)),
+        "lateness": Tick(sum(job.late for job in jobs)),
         "unserved": len({job for job, _ in plan.unserved}),
     }

@@ -19,6 +19,7 @@ from rightofway.metrics import (
 )
 from rightofway.model import ForcedLoss, Loss, LostTime, Plan, Proof, Scenario
 from rightofway.report.facts import FactWriter
+from rightofway.report.jobs import list_job_costs, list_jobs
 from rightofway.report.judgement import list_report_sentences
 from rightofway.report.lines import (
     Facts,
@@ -78,11 +79,12 @@ def summarize_plan(plan: Plan, quantities: Quantities, *, with_lost_time: bool =
         ("flowtime", _flowtime(words, metrics)),
         ("makespan", words.say_time(metrics.makespan)),
         ("lost time", lost_in_words),
+        *list_job_costs(words),
     ]
     if quantities.in_ticks:
         costs.append(("tick", replace(quantities, in_ticks=False).format_duration(1)))
     details = [*_robots(words, lost), *_losses(words, lost)] if with_lost_time else []
-    parts = [*details, *_forced_losses(words)]
+    parts = [*details, *_forced_losses(words), *list_jobs(words)]
     return lay_out([Facts(costs), "", *parts])
 
 

@@ -11,6 +11,7 @@ from rightofway.kinds.numbers import format_number
 from rightofway.metrics import compute_lost_time, derive_outcome, measure, waits
 from rightofway.model import Plan, Scenario
 from rightofway.model.outcome import classify_error
+from rightofway.report.jobs import make_jobs_data
 from rightofway.report.sentences import list_forced_losses
 
 
@@ -53,6 +54,7 @@ def make_summary_data(plan: Plan) -> dict[str, Any]:
             for wait in waits(plan)
         ],
         "rerouted": [names[reroute.robot] for reroute in run.reroutes],
+        **make_jobs_data(plan),
     }
 
 

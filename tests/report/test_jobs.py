@@ -1,0 +1,64 @@
+"""The jobs of a plan in reports: who does each of them, when and how late, and who does none."""
+
+from __future__ import annotations
+
+import pytest
+
+from rightofway.io import parse_scenario
+from rightofway.metrics import list_job_times, measure
+from rightofway.model import Plan, PlannerRun, Track
+from rightofway.model.scenario import assign_tours
+from rightofway.model.work import TourItem
+from rightofway.report.jobs import make_jobs_data
+from rightofway.report.plan import summarize_plan
+from rightofway.report.quantities import Quantities
+
+
+@pytest.fixture(scope="module")
+def plan() -> Plan:
+    """Return a plan in which R1 carries J1 too late, and nobody does J2."""
+    scenario = parse_scenario(
+        {
+            "format": "rightofway-scenario/1",
+            "map": {"grid": ["...."]},
+            "robots": [{"name": "R1", "home": "N0"}],
+            "jobs": [
+                {"name": "J1", "pickup": "N1", "dropoff": "N3", "earliest": 2, "due": 4},
+                {"name": "J2", "at": "N2", "types": ["fork"]},
+            ],
+        }
+    )
+    jobs = scenario.jobs or ()
+    tour = tuple(TourItem(job=0, stop=k, vertex=jobs[0].stops[k].at, duration=0) for k in (0, 1))
+    track = Track.of([0, 1, 2, 3, 2, 1, 0], [0, 1, 4, 5, 7, 8, 9])
+    return Plan(
+        scenario=assign_tours(scenario, [tour]),
+        tracks=(track,),
+        run=PlannerRun(name="by hand", options={}, seed=0),
+        unserved=((1, "robot"),),
+    )
+
+
+def test_times_of_jobs_follow_from_tours(plan: Plan) -> None:
+    """The service time counts from `earliest`, lateness from `due`."""
+    (job,) = list_job_times(plan)
+    assert (job.job, job.robot, job.begin, job.end) == (0, 0, 2, 5)
+    assert (job.service_time, job.late) == (3, 1)
+    metrics = measure(plan)
+    assert (metrics.service_time, metrics.lateness, metrics.unserved) == (3, 1, 1)
+
+
+def test_a_report_lists_jobs_and_says_why_others_are_not_served(plan: Plan) -> None:
+    """Costs count the jobs, a table has those that are done, a sentence each of the others."""
+    lines = str(summarize_plan(plan, Quantities.of(plan.scenario))).splitlines()
+    assert ["jobs", "1", "of", "2", "done"] in [line.split() for line in lines]
+    assert ["J1", "R1", "2", "5", "1"] in [line.split() for line in lines]
+    assert "J2 is not served: no robot may do it and can carry it" in lines
+
+
+def test_programs_read_jobs_and_reasons_as_kinds(plan: Plan) -> None:
+    """Names, ticks and kinds: no sentence."""
+    assert make_jobs_data(plan) == {
+        "jobs": [{"name": "J1", "robot": "R1", "begin": 2, "end": 5, "service_time": 3, "late": 1}],
+        "unserved": [{"job": "J2", "reason": "robot"}],
+    }
