@@ -95,7 +95,7 @@ PLANNERS = (
         "rightofway.planners.auto:auto",
         "The default: a first plan early, then better plans until time is up.",
         options.AutoOptions,
-        features=ANY_FLEET | {Feature.IMPROVES},
+        features=ANY_FLEET | {Feature.IMPROVES, Feature.JOBS},
     ),
     PlannerSpec(
         "two-level",
@@ -150,14 +150,14 @@ PLANNERS = (
         "rightofway.planners.prioritized:prioritized",
         "One robot after another, around the earlier ones; a robot in the way is replanned.",
         options.PrioritizedOptions,
-        features=ANY_FLEET,
+        features=ANY_FLEET | {Feature.JOBS},
     ),
     PlannerSpec(
         "lns",
         "rightofway.planners.lns:lns",
         "Large neighbourhood search: replans a few robots at a time until time is up.",
         options.LnsOptions,
-        features=ANY_FLEET | {Feature.IMPROVES},
+        features=ANY_FLEET | {Feature.IMPROVES, Feature.JOBS},
     ),
     PlannerSpec(
         "cbs",

@@ -1,0 +1,119 @@
+"""Jobs become plans: every assignment is planned and judged, and the best judged plan is kept."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import pytest
+
+from rightofway import check, solve
+from rightofway.check import Report
+from rightofway.deadline import NO_DEADLINE, Deadline
+from rightofway.errors import GaveUp
+from rightofway.facts import Fact
+from rightofway.io import parse_scenario
+from rightofway.metrics import list_job_times
+from rightofway.model import Plan, PlannerRun
+from rightofway.model.scenario import assign_tours
+from rightofway.model.work import Assignment
+from rightofway.plan_work import measure_work, plan_work
+from rightofway.planners import Task, find
+from tests.builders.work_scenarios import draw_work_document
+
+
+def make_document(jobs: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    """Return a scenario of two robots on an open floor."""
+    return {
+        "format": "rightofway-scenario/1",
+        "map": {"grid": ["......"] * 3},
+        "robots": [{"name": "R1", "home": "N0"}, {"name": "R2", "home": "N17"}],
+        "jobs": list(jobs),
+        "rules": {"turn": 0},
+    }
+
+
+def carry(name: str, pickup: int, dropoff: int, **more: Any) -> dict[str, Any]:
+    """Return a job from one vertex to another."""
+    return {"name": name, "pickup": f"N{pickup}", "dropoff": f"N{dropoff}", **more}
+
+
+def refuse_above(most: int, scenario: Any) -> Any:
+    """Return a planner of tours that finds no plan for more than some jobs."""
+
+    def plan_tours(assignment: Assignment, _: Deadline, seed: int) -> tuple[Plan, Report]:
+        if len({item.job for tour in assignment.tours for item in tour}) > most:
+            raise GaveUp(Fact("time over without a plan"))
+        toured, spec = assign_tours(scenario, assignment.tours), find("prioritized")
+        draft = spec.load()(Task(scenario=toured, options=spec.settle({}), seed=seed))
+        run = PlannerRun(name="prioritized", options={}, seed=seed)
+        plan = Plan(scenario=toured, tracks=draft.tracks, run=run, unserved=assignment.unserved)
+        return plan, check(plan)
+
+    return plan_tours
+
+
+def test_jobs_are_divided_among_robots_that_are_near() -> None:
+    """Each robot does the job at its side of the floor."""
+    plan = solve(parse_scenario(make_document([carry("J1", 1, 3), carry("J2", 16, 14)])))
+    assert check(plan).ok
+    assert [job.robot for job in list_job_times(plan)] == [0, 1]
+    assert plan.unserved == ()
+
+
+def test_times_and_orders_of_jobs_are_kept() -> None:
+    """A job waits for `earliest` and for those before it; one that is too late is not served."""
+    jobs = [
+        carry("J1", 1, 3, earliest=9),
+        carry("J2", 16, 14, after=["J1"]),
+        carry("J3", 5, 0, latest=1),
+    ]
+    plan = solve(parse_scenario(make_document(jobs)))
+    first, second = list_job_times(plan)
+    assert first.begin >= 9
+    assert second.begin >= first.end
+    assert plan.unserved == ((2, "latest"),)
+
+
+def test_fewer_jobs_are_planned_where_all_of_them_have_no_plan() -> None:
+    """The heaviest jobs are kept; those that are dropped, and those after them, have a reason."""
+    jobs = [carry("J1", 1, 3), carry("J2", 4, 5, weight=5), carry("J3", 16, 14, after=["J1"])]
+    scenario = parse_scenario(make_document(jobs))
+    plan = plan_work(scenario, refuse_above(1, scenario), deadline=NO_DEADLINE)
+    assert check(plan).ok
+    assert [job.job for job in list_job_times(plan)] == [1]
+    assert dict(plan.unserved)[2] in {"after", "not found"}
+
+
+def test_a_fleet_without_any_plan_has_the_error_of_its_planner() -> None:
+    """Not even robots that stay at home: the planner gave up for another reason."""
+    scenario = parse_scenario(make_document([carry("J1", 1, 3)]))
+    with pytest.raises(GaveUp):
+        plan_work(scenario, refuse_above(-1, scenario), deadline=NO_DEADLINE)
+
+
+def test_each_better_plan_is_handed_over() -> None:
+    """Costs of the plans fall, and the last one is the result."""
+    plans: list[Plan] = []
+    scenario = parse_scenario(draw_work_document(7, n_robots=3, n_jobs=6))
+    best = solve(scenario, on_plan=plans.append)
+    costs = [measure_work(plan) for plan in plans]
+    assert costs == sorted(costs, reverse=True)
+    assert costs[-1] == measure_work(best)
+
+
+@pytest.mark.parametrize("planner", ["auto", "lns", "prioritized"])
+@pytest.mark.parametrize("seed", range(4))
+def test_small_fleets_are_planned_and_judged(seed: int, planner: str) -> None:
+    """Windows, loads, batteries, orders: each plan keeps all rules."""
+    plan = solve(parse_scenario(draw_work_document(seed)), planner)
+    assert check(plan).ok
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("states", [False, True])
+def test_many_small_fleets_are_planned_and_judged(states: bool) -> None:
+    """Also from states in the middle of a shift."""
+    for seed in range(100, 200):
+        plan = solve(parse_scenario(draw_work_document(seed, states=states)))
+        assert check(plan).ok, seed
