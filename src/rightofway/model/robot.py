@@ -8,6 +8,7 @@ from typing import Literal, get_args
 
 from rightofway.errors import quote
 from rightofway.kinds.table import (
+    AMOUNT,
     COUNT,
     NAME,
     NOT_NEGATIVE,
@@ -16,7 +17,6 @@ from rightofway.kinds.table import (
     TRUTH,
     TURNING,
     VERTEX,
-    WHOLE,
     allow_none,
     coerce_fields,
     list_of,
@@ -192,7 +192,7 @@ class Robot:
             home=VERTEX,
             stops=list_of(make_class(Stop), admits=list | tuple),
             start=allow_none(make_class(RobotState)),
-            capacity=allow_none(WHOLE),
+            capacity=allow_none(AMOUNT),
             battery=allow_none(TEXT),
             charging=allow_none(list_of(VERTEX)),
             **list_kinds(Robot),

@@ -8,7 +8,10 @@ from typing import Literal
 
 from rightofway.errors import quote
 from rightofway.kinds.table import (
+    NOT_NEGATIVE,
     NUMBER,
+    POSITIVE,
+    SHARE,
     TEXT,
     VERTEX,
     WHOLE,
@@ -61,7 +64,7 @@ class JobStop:
     Raises
     ------
     InputError
-        With every value of a wrong kind; the ranges are checked by `Scenario`.
+        With every value of another kind or out of range.
     """
 
     at: VertexId
@@ -75,9 +78,9 @@ class JobStop:
             self,
             "stop",
             at=VERTEX,
-            work=NUMBER,
+            work=NOT_NEGATIVE,
             load=WHOLE,
-            earliest=NUMBER,
+            earliest=NOT_NEGATIVE,
             latest=allow_none(NUMBER),
         )
 
@@ -106,7 +109,7 @@ class Job:
     Raises
     ------
     InputError
-        With every value of a wrong kind; the ranges are checked by `Scenario`.
+        With every value of another kind or out of range.
     """
 
     name: str
@@ -123,8 +126,8 @@ class Job:
             f"job {quote(self.name)}",
             name=TEXT,
             stops=list_of(make_class(JobStop)),
-            weight=NUMBER,
-            due=allow_none(NUMBER),
+            weight=POSITIVE,
+            due=allow_none(NOT_NEGATIVE),
             types=list_of(TEXT),
             robot=allow_none(TEXT),
             after=list_of(TEXT),
@@ -156,7 +159,7 @@ class Battery:
     Raises
     ------
     InputError
-        With every value of a wrong kind; the ranges are checked by `Scenario`.
+        With every value of another kind or out of range.
     """
 
     drive: Fraction = Fraction(0)
@@ -166,8 +169,8 @@ class Battery:
     reserve: Fraction = Fraction(0)
 
     def __post_init__(self) -> None:
-        names = ("drive", "on", "work", "charge", "reserve")
-        coerce_fields(self, "battery", **dict.fromkeys(names, NUMBER))
+        rates = dict.fromkeys(("drive", "on", "work", "charge"), NOT_NEGATIVE)
+        coerce_fields(self, "battery", reserve=SHARE, **rates)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -190,7 +193,7 @@ class RobotState:
     Raises
     ------
     InputError
-        With every value of a wrong kind; the ranges are checked by `Scenario`.
+        With every value of another kind or out of range.
     """
 
     at: VertexId
@@ -204,9 +207,9 @@ class RobotState:
             self,
             "start",
             at=VERTEX,
-            ready=NUMBER,
+            ready=NOT_NEGATIVE,
             heading=allow_none(NUMBER),
-            soc=NUMBER,
+            soc=SHARE,
             begun=_BEGUN,
         )
 

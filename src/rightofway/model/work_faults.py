@@ -12,7 +12,7 @@ from rightofway.errors import InputFault, Where, find_nearest, quote
 from rightofway.model.bind_work import get_state
 from rightofway.model.problem import HEAVIEST, scale_weights
 from rightofway.model.robot import Robot
-from rightofway.model.work import Battery, Job, JobStop, RobotState
+from rightofway.model.work import Job, JobStop, RobotState
 from rightofway.site import Point, Roadmap, measure_squared_distance
 from rightofway.units import write_decimal
 
@@ -80,10 +80,6 @@ def _find_trips(scenario: Scenario) -> Iterator[InputFault]:
 def _find_job_faults(job: Job, scenario: Scenario) -> Iterator[InputFault]:
     if not job.name:
         yield InputFault("name", "is empty (give the job a name)")
-    if job.weight <= 0:
-        yield InputFault("weight", f"{job.weight} is not positive (give a number above 0)")
-    if job.due is not None and job.due < 0:
-        yield InputFault("due", f"{job.due} is negative (give 0 or more)")
     if job.robot is not None:
         yield from _find_unknown(
             "robot", job.robot, [robot.name for robot in scenario.robots], "robot"
@@ -97,10 +93,6 @@ def _find_job_faults(job: Job, scenario: Scenario) -> Iterator[InputFault]:
 
 
 def _find_stop_faults(stop: JobStop) -> Iterator[InputFault]:
-    if stop.work < 0:
-        yield InputFault("work", f"{stop.work} is negative (give 0 or more)")
-    if stop.earliest < 0:
-        yield InputFault("earliest", f"{stop.earliest} is negative (give 0 or more)")
     if stop.latest is not None and stop.latest < stop.earliest + stop.work:
         message = f"{stop.latest} is before earliest and work, {stop.earliest} + {stop.work}"
         remedy = f"give {stop.earliest + stop.work} or more, or leave it out"
@@ -171,21 +163,17 @@ def _find_order_faults(jobs: Sequence[Job]) -> Iterator[InputFault]:
 
 
 def _find_weight_faults(jobs: Sequence[Job]) -> Iterator[InputFault]:
-    if all(job.weight > 0 for job in jobs):
-        weights = scale_weights(jobs)
-        heaviest = max(weights, default=1)
-        if heaviest > HEAVIEST:
-            index = weights.index(heaviest)
-            message = f"{jobs[index].weight} makes weights too far apart or too fine: in whole"
-            message += f" numbers it is {heaviest}, above {HEAVIEST} (round weights)"
-            yield InputFault(("jobs", index, "weight"), message)
+    weights = scale_weights(jobs)
+    heaviest = max(weights, default=1)
+    if heaviest > HEAVIEST:
+        index = weights.index(heaviest)
+        message = f"{jobs[index].weight} makes weights too far apart or too fine: in whole"
+        message += f" numbers it is {heaviest}, above {HEAVIEST} (round weights)"
+        yield InputFault(("jobs", index, "weight"), message)
 
 
 def _find_battery_faults(scenario: Scenario) -> Iterator[InputFault]:
     names = [name for name, _ in scenario.batteries]
-    for name, battery in scenario.batteries:
-        of_battery = _find_share_faults(battery)
-        yield from (fault.nest(("batteries", name)) for fault in of_battery)
     for name in sorted({name for name in names if names.count(name) > 1}):
         yield InputFault(("batteries", name), "is the name of two batteries (give each its own)")
     for index, robot in enumerate(scenario.robots):
@@ -193,40 +181,17 @@ def _find_battery_faults(scenario: Scenario) -> Iterator[InputFault]:
             yield from _find_unknown(("robots", index, "battery"), robot.battery, names, "battery")
 
 
-def _find_share_faults(battery: Battery) -> Iterator[InputFault]:
-    for key in ("drive", "on", "work", "charge", "reserve"):
-        share = getattr(battery, key)
-        if share < 0:
-            yield InputFault(key, f"{share} is negative (give 0 or more)")
-    if battery.reserve > 1:
-        message = f"{battery.reserve} is more than a full battery (give 0 to 1)"
-        yield InputFault("reserve", message)
-
-
 def _find_state_faults(scenario: Scenario) -> Iterator[InputFault]:
     robots, roadmap = scenario.robots, scenario.roadmap
     jobs = {job.name: job for job in scenario.jobs or ()}
     for index, robot in enumerate(robots):
-        if robot.capacity is not None and robot.capacity < 0:
-            message = f"{robot.capacity} is negative (give 0 or more)"
-            yield InputFault(("robots", index, "capacity"), message)
         yield from _find_places(robot.charging or (), ("robots", index, "charging"), roadmap)
         if robot.start is not None:
-            of_start = [
-                *_find_number_faults(robot.start),
-                *_find_begun_faults(robot.start, robot, jobs),
-            ]
+            of_start = _find_begun_faults(robot.start, robot, jobs)
             yield from (fault.nest(("robots", index, "start")) for fault in of_start)
     yield from _find_twice_begun(robots)
     yield from _find_equal_starts(robots, roadmap)
     yield from _find_near_starts(scenario)
-
-
-def _find_number_faults(state: RobotState) -> Iterator[InputFault]:
-    if state.ready < 0:
-        yield InputFault("ready", f"{state.ready} is negative (give 0 or more)")
-    if not 0 <= state.soc <= 1:
-        yield InputFault("soc", f"{state.soc} is no state of charge (give 0 to 1; 1 is full)")
 
 
 def _find_begun_faults(
