@@ -12,9 +12,10 @@ import pytest
 
 import rightofway
 from rightofway.bench import Case, read_suite, run_here
-from rightofway.bench.process import Interrupted, Processes, count_cores, describe_machine
+from rightofway.bench.process import Interrupted, Processes, describe_machine
 from rightofway.bench.run import run
 from rightofway.errors import InputError
+from rightofway.processes import count_cores
 
 
 @pytest.fixture

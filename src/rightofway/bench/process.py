@@ -7,10 +7,8 @@ from __future__ import annotations
 
 import contextlib
 import json
-import os
 import pickle
 import platform
-import signal
 import subprocess
 import sys
 import tempfile
@@ -25,6 +23,7 @@ import rightofway
 from rightofway.bench.results import COLUMNS, Row
 from rightofway.bench.suite import Case
 from rightofway.native import name_compiler
+from rightofway.processes import count_cores, describe_end, kill_group, read_last_line
 
 GRACE = 60.0
 """A case is ended that many seconds after thrice its time limit [s]."""
@@ -85,7 +84,7 @@ class Processes:
                 process.wait(allowed)
             except subprocess.TimeoutExpired:
                 overran = True
-                _stop_process(process)
+                kill_group(process.pid)
                 process.wait()
             outcome = process.stdout.read()
             with self._lock:
@@ -96,10 +95,9 @@ class Processes:
                 return _make_row(case, json.loads(outcome))
             if overran:
                 return _make_failed_row(case, "overran", f"it was ended after {allowed:g} s")
-            stderr.seek(0)
-            lines = stderr.read().decode("utf-8", "replace").split("\n")
-            last = next((line for line in reversed(lines) if line.strip()), "")
-            return _make_failed_row(case, *_explain_death(process.returncode, last))
+            status = "defect" if process.returncode >= 0 else "killed"
+            message = f"{describe_end(process.returncode)}. {read_last_line(stderr)}"
+            return _make_failed_row(case, status, message)
 
     def _start(self, stderr: IO[bytes]) -> subprocess.Popen[bytes]:
         with self._lock:
@@ -121,21 +119,7 @@ class Processes:
         with self._lock:
             self._is_over = True
             for process in self._running:
-                _stop_process(process)
-
-
-def _stop_process(process: subprocess.Popen[bytes]) -> None:
-    with contextlib.suppress(ProcessLookupError):
-        os.killpg(process.pid, signal.SIGKILL)
-
-
-def _explain_death(code: int, words: str) -> tuple[str, str]:
-    """Return status and message of a case whose process died without an outcome."""
-    if code >= 0:
-        return "defect", f"its process ended with code {code}. {words}"
-    name = next((known.name for known in signal.Signals if known == -code), f"signal {-code}")
-    hint = ", perhaps for its memory" if -code == signal.SIGKILL else ""
-    return "killed", f"its process was ended by {name}{hint}. {words}"
+                kill_group(process.pid)
 
 
 def run_on_worker(case: Case) -> Row:
@@ -170,12 +154,6 @@ def describe_machine() -> dict[str, Any]:
         "compiler": name_compiler(),
         "python": platform.python_version(),
     }
-
-
-def count_cores() -> int:
-    """Return how many cores this process may use."""
-    affinity = getattr(os, "sched_getaffinity", None)
-    return len(affinity(0)) if affinity else os.cpu_count() or 1
 
 
 def _find_commit() -> str:

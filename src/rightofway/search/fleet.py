@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from itertools import accumulate
 
@@ -14,6 +13,7 @@ from rightofway.errors import InputError, quote
 from rightofway.kinds.table import SEED, allow_none, make_whole, require_index
 from rightofway.model import Objective, Problem, Scenario, Tick, Track
 from rightofway.native import bind_native, make_tracks
+from rightofway.processes import count_cores
 
 
 def compute_least_completions(
@@ -77,7 +77,7 @@ class FleetSearch:
         self._core = _core.FleetSearch(
             bind_native(problem),
             SEED.read_at("seed", seed),
-            n_threads or _count_cores(),
+            n_threads or count_cores(),
             alone,
             _NATIVE[objective],
         )
@@ -229,7 +229,3 @@ def list_visits(
         np.concatenate([np.zeros(0, np.int32), *(track.vertices for track in known)]),
         np.concatenate([np.zeros(0, np.int64), *(track.enter for track in known)]),
     )
-
-
-def _count_cores() -> int:
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

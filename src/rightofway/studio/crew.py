@@ -5,16 +5,14 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
-import os
-import signal
 import sys
-import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import count
 from pathlib import Path
 from typing import Any
 
+from rightofway.processes import describe_end, kill_group
 from rightofway.studio.errors import Busy, TaskFailed
 from rightofway.studio.messages import LENGTH, Blobs, pack
 
@@ -68,14 +66,12 @@ class WorkerCall:
 class Worker:
     """One process."""
 
-    def __init__(self, process: asyncio.subprocess.Process, complaints: Any) -> None:
+    def __init__(self, process: asyncio.subprocess.Process) -> None:
         self._process = process
-        self._complaints = complaints
 
     @classmethod
     async def started(cls, folder: Path, scratch: str) -> Worker:
         """Return a new process; it imports the library meanwhile."""
-        complaints = tempfile.TemporaryFile()  # noqa: SIM115 (it lives as long as the process)
         process = await asyncio.create_subprocess_exec(
             sys.executable,
             "-P",  # a module in the user's folder must not stand for one of ours
@@ -85,10 +81,10 @@ class Worker:
             scratch,
             stdin=asyncio.subprocess.PIPE,
             stdout=asyncio.subprocess.PIPE,
-            stderr=complaints,
+            stderr=asyncio.subprocess.DEVNULL,
             start_new_session=True,  # an interrupt from the keyboard is for the server
         )
-        return cls(process, complaints)
+        return cls(process)
 
     @property
     def is_alive(self) -> bool:
@@ -113,34 +109,18 @@ class Worker:
 
     def kill(self) -> None:
         """End the process, and the processes that it has started."""
-        with contextlib.suppress(ProcessLookupError):
-            if hasattr(os, "killpg"):
-                os.killpg(self._process.pid, signal.SIGKILL)
-            else:
-                self._process.kill()
+        kill_group(self._process.pid)
 
-    async def end(self) -> str:
-        """End the process, and return its last words."""
+    async def end(self) -> None:
+        """End the process."""
         self.kill()
         await self._process.wait()
         if self._process.stdin is not None:
             self._process.stdin.close()
-        self._complaints.seek(0)
-        lines = self._complaints.read().decode("utf-8", "replace").split("\n")
-        self._complaints.close()
-        return next((line.strip() for line in reversed(lines) if line.strip()), "")
 
     async def describe_end(self) -> str:
         """Return how the process ended, in words."""
-        code = await self._process.wait()
-        if code >= 0:
-            return f"its process ended with code {code}"
-        name = next(
-            (known_signal.name for known_signal in signal.Signals if known_signal == -code),
-            f"signal {-code}",
-        )
-        hint = ", perhaps for its memory" if -code == signal.SIGKILL else ""
-        return f"its process was ended by {name}{hint}"
+        return describe_end(await self._process.wait())
 
 
 class Crew:
