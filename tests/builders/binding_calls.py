@@ -143,7 +143,20 @@ def problem_arguments(kind: str) -> Arguments:
         robots |= {"paces": int32(1, 2, 3, -1), "pace_of": int32(0, 0, 0)}
     elif kind == "surcharges":
         arguments["surcharges"] = int64(0, 7)
+    elif kind == "times":
+        arguments["work"] = _work()
     return arguments
+
+
+def _work() -> Part:
+    """Return times of stages: the stop of the first robot is served before that of the second."""
+    return Part("Work", {
+        "earliest": int64(0, 0, 9, 0, 4, 0), "latest": np.full(6, _core.NEVER, np.int64),
+        "ready": int64(0, 3, 0), "first_turn_of": int32(0, 0, 2, 2), "first_turn": int32(1, 0),
+        "before": int32(0), "after": int32(2), "n_places": V,
+        "cost": int64(2, 0, 1, 0, 3, 0), "late_cost": int64(4, 0, 1, 0, 0, 0),
+        "due": int64(3, 0, 20, 0, 0, 0),
+    })  # fmt: skip
 
 
 def _roads() -> Part:
@@ -475,7 +488,7 @@ def _tour_problem(rng: random.Random) -> Arguments:
 PARTS = (
     *_tour_parts().values(),
     _roads(), problem_arguments("sizes")["robots"], _rules(), _lists().arguments["drawing"],
-    _lists(), _turning(0, -1, 1), _closures(1),
+    _lists(), _turning(0, -1, 1), _closures(1), _work(),
     _trip(_turning(0)), _horizon(), _routes(*[1] * 12), _rows_of_routes(), _closed(),
     _order([0] * 13, []), _delays(),
 )  # fmt: skip
@@ -487,7 +500,7 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
     "ExcludedRows.n_rows": _always(),
     "ExcludedRows.n_found": _always(),
     "ExcludedRows.of": lambda rng: {"row": rng.randrange(2 * (V + E))},
-    "Problem": lambda rng: problem_arguments(rng.choice(KINDS)),
+    "Problem": lambda rng: problem_arguments(rng.choice((*KINDS, "times"))),
     "Problem.rules": _always(),
     "Problem.n_robots": _always(),
     "Problem.n_vertices": _always(),
@@ -578,8 +591,8 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
     "PriceAscent.n_steps": _always(),
     "PriceAscent.is_over": _always(),
     "FleetSearch": lambda rng: {
-        "problem": _problem(rng), "seed": rng.randrange(99), "n_threads": rng.randrange(1, 4),
-        "alone": rng.choice((None, int64(14, 17, 7))),
+        "problem": _problem(rng, rng.choice((*KINDS, "times"))), "seed": rng.randrange(99),
+        "n_threads": rng.randrange(1, 4), "alone": rng.choice((None, int64(14, 17, 7))),
     },
     "FleetSearch.alone": _timed(),
     "FleetSearch.start": _always(**TRACKS),
@@ -592,6 +605,7 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
         "order": int32(*rng.sample(range(3), rng.randrange(4))), "n_searches": 50, "time_limit": 0.2
     },
     "FleetSearch.resume": _timed(n_searches=200),
+    "FleetSearch.move_one_at_a_time": _timed(),
     "FleetSearch.improve": _timed(n_tasks=40, patience=20, pause=None),
     "FleetSearch.retime": _always(),
     "FleetSearch.tracks": _always(),
