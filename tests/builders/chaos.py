@@ -619,7 +619,6 @@ class Observer:
         self._looked_at: list[object] = [None for _ in robots]
         self._laps = [0 for _ in robots]  # that are done or planned
         self._open: list[set[str]] = [set() for _ in robots]  # jobs that are not known to be done
-        self._vertex = _floor(scenario).vertex
         self._shapes = cache(self._shapes_along)
         self._seen: list[tuple[object, ...]] = []
         self._ways: list[tuple[tuple[str, ...], ...]] = [() for _ in robots]  # driven, booked
@@ -667,7 +666,7 @@ class Observer:
 
     def _shapes_along(self, places: tuple[str, ...]) -> frozenset[Shape]:
         """Return vertices, edges and zones of a way."""
-        vertices = [self._vertex[place] for place in places]
+        vertices = _floor(self.scenario).list_vertices(places)
         edges = list(pairwise(vertices))
         roadmap = self.scenario.roadmap
         shapes: list[Shape] = [*((vertex,) for vertex in vertices), *edges]
@@ -732,15 +731,15 @@ class _Floor:
         self.excludes = cache(partial(incompatible, scenario))
         self.list_heads, self._part = cache(self._heads), cache(self._booked)
         self.names = list(map(scenario.roadmap.name, range(scenario.roadmap.n_vertices)))
-        self.vertex = {name: k for k, name in enumerate(self.names)}
 
-    def list_vertices(self, route: RouteToDrive) -> list[int]:
-        """Return the vertices of a route, from its first."""
-        return [self.vertex[place] for place in route.places]
+    def list_vertices(self, places: Sequence[str]) -> list[int]:
+        """Return the vertices of a way; passed ones are drawn where it has no whole chain."""
+        roadmap = self._roadmap
+        return list(roadmap.unfold_route(list(map(roadmap.get_vertex, places))))
 
     def list_parts(self, route: RouteToDrive) -> list[tuple[Shape, ...]]:
         """Return what each visit of a route books, with the drive to it."""
-        way = self.list_vertices(route)
+        way = self.list_vertices(route.places)
         return [self._part(tail, vertex) for tail, vertex in zip([None, *way], way, strict=False)]
 
     def _booked(self, tail: int | None, vertex: int) -> tuple[Shape, ...]:
@@ -780,7 +779,9 @@ def another_plan(
     firsts = [own.arrived for own in robots]
     kept = [own.route.cut_before(own.arrived) for own in robots]
     ends = [end - first for end, first in zip(control.list_committed(), firsts, strict=True)]
-    floor = _floor(scenario)
+    roadmap, floor = scenario.roadmap, _floor(scenario)
+    if any(roadmap.is_passed(roadmap.get_vertex(route.places[0])) for route in kept):
+        return None  # the order of a chain is kept to its end
     detour = partial(_detour, floor, draw)
     for attempt in range(6):
         routes = [
@@ -811,7 +812,7 @@ def _detour(
     floor: _Floor, draw: random.Random, robot: int, route: RouteToDrive, end: int
 ) -> RouteToDrive:
     """Return the route with random ways between the places of its later jobs, and its end."""
-    vertices, heads_of = floor.list_vertices(route), partial(floor.list_heads, robot)
+    vertices, heads_of = floor.list_vertices(route.places), partial(floor.list_heads, robot)
     last = len(vertices) - 1
     laps = Counter(lap_end - route.first for lap_end in route.lap_ends)
     goals = [k for k in range(end + 1, last + 1) if route.jobs[k] or k in {*laps, last}]
