@@ -108,7 +108,7 @@ def _is_slow_drive(fault: Fault, trace: ExecutionTrace) -> bool:
     needs = int(trace.dwell[robot][visit] + trace.drive[robot][visit + 1])
     for tick, ticks in trace.stoppages[robot] if trace.stoppages else ():
         needs += max(min(end, tick + (ticks or 0)) - max(begin, tick), 0)
-    return end - begin == needs
+    return bool(end - begin == needs)
 
 
 def any_delays(draw: random.Random, scenario: Scenario) -> str:

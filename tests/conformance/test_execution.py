@@ -7,6 +7,7 @@ from itertools import product
 import pytest
 
 import rightofway
+from rightofway.model import Plan, Track
 from tests.builders.executions import judge_trace
 from tests.builders.small import SMALL, STRICT
 
@@ -27,7 +28,7 @@ def test_no_collision_and_no_deadlock_in_any_run(name: str) -> None:
     It assumes that drives take as long as planned, so where robots book ahead it is not asked about
     robots that are faster.
     """
-    plans = {}
+    plans = dict[tuple[Track, ...], Plan]()
     for planner in STRICT:
         plan = rightofway.solve(SMALL[name], planner, time_limit=1)
         plans.setdefault(plan.tracks, plan)

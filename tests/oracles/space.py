@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from functools import cache, partial
+from functools import cache, lru_cache, partial
 from itertools import combinations, pairwise, permutations, product
 from typing import NamedTuple
 
 from rightofway.model import Scenario, Track
 from rightofway.site import Roadmap
+from rightofway.site.passing import Passing
 
 Point = tuple[Fraction, Fraction]
 Shape = tuple[int, ...]
@@ -69,13 +70,25 @@ def square_between(roadmap: Roadmap, one: Shape, other: Shape) -> Fraction:
     )
 
 
-def list_parts(roadmap: Roadmap, shape: Shape) -> list[Shape]:
-    """Return the drawn shapes that are booked with one: all of the chain that it belongs to."""
-    for chain in () if roadmap.passing is None else roadmap.passing.chains:
-        if not set(chain[1:-1]).isdisjoint(shape):
-            drawn = [roadmap.get_drawn(vertex) for vertex in chain]
-            return [*((vertex,) for vertex in drawn), *pairwise(drawn)]
-    return [shape]
+def list_parts(roadmap: Roadmap, shape: Shape) -> tuple[Shape, ...]:
+    """Return the drawn shapes that are booked with one: at a vertex of a chain, the whole chain."""
+    passing = roadmap.passing
+    if passing is None or shape[0] < 0:
+        return (shape,)
+    drawn = tuple(passing.drawn[list(shape)].tolist())
+    return _list_chains(passing).get(shape[0], (drawn,)) if len(shape) == 1 else (drawn,)
+
+
+@lru_cache(maxsize=4)
+def _list_chains(passing: Passing) -> dict[int, tuple[Shape, ...]]:
+    """Return all shapes of the chain of each vertex that is on one, but for its ends."""
+    drawn = [passing.drawn[list(chain)].tolist() for chain in passing.chains]
+    shapes = [(*((vertex,) for vertex in chain), *pairwise(chain)) for chain in drawn]
+    return {
+        vertex: parts
+        for chain, parts in zip(passing.chains, shapes, strict=True)
+        for vertex in chain[1:-1]
+    }
 
 
 def incompatible(scenario: Scenario, i: int, one: Shape, j: int, other: Shape) -> bool:
