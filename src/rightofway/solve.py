@@ -290,6 +290,7 @@ def _run(
             error.lower_bound = max(int(alone.sum()), error.lower_bound or 0)
             raise
     keep()
+    start = None if old is None else compare_with_start(old, task.scenario, draft.tracks)
     run = PlannerRun(
         name=spec.name,
         options=_written_options(task),
@@ -301,7 +302,7 @@ def _run(
         reroutes=draft.reroutes,
         improvement=draft.improvement,
         forced_losses=draft.forced_losses,
-        start=None if old is None else compare_with_start(old, task.scenario, draft.tracks),
+        start=start,
         alone=tuple(alone.tolist()),
     )
     plan = _make_plan(task, draft.tracks, run, unserved)

@@ -235,7 +235,8 @@ def refuse_blocked(task: Task, robots: Iterable[int] | None = None) -> NoReturn:
 
     task.report(Fact("looking for blockages"))
     blocked = find_smallest_set(everybody, is_blocked)
-    raise NoPlanExists([_describe_blocked(scenario, blocked)], scenario)
+    blockage = _describe_blocked(scenario, blocked)
+    raise NoPlanExists([blockage], scenario)
 
 
 def find_smallest_set(

@@ -20,16 +20,14 @@ from rightofway.site.walls import find_narrowest
 
 def reaches_its_places(itinerary: Itinerary, distances: Distances) -> bool:
     """Return whether a robot has a way from each place of its trip to the next."""
-    return next(_find_legs_without_a_way(itinerary, distances), None) is None
+    legs = _list_legs(itinerary)
+    return all(distances.to(head, itinerary.edge_ticks)[tail] >= 0 for tail, head in legs)
 
 
-def _find_legs_without_a_way(
-    itinerary: Itinerary, distances: Distances
-) -> Iterator[tuple[VertexId, VertexId]]:
+def _list_legs(itinerary: Itinerary) -> list[tuple[VertexId, VertexId]]:
+    """Return each place of a trip with the next one, each pair once."""
     places = [itinerary.home, *(stage.vertex for stage in itinerary.stages)]
-    for tail, head in dict.fromkeys(pairwise(places)):
-        if distances.to(head, itinerary.edge_ticks)[tail] < 0:
-            yield tail, head
+    return list(dict.fromkeys(pairwise(places)))
 
 
 def find_missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[Blockage]:
@@ -45,11 +43,14 @@ def find_missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[B
             reason = Fact("map in parts", robot=robot, tail=home, head=apart)
             yield Blockage(reason, (robot,), (home, *apart), Fact("join the parts"))
             continue
+        legs, opened = _list_legs(itinerary), _open_all_edges(itinerary)
         distances = distances or Distances(scenario.roadmap)
-        for tail, head in _find_legs_without_a_way(itinerary, distances):
+        for tail, head in legs:
+            if distances.to(head, itinerary.edge_ticks)[tail] >= 0:
+                continue
             values: dict[str, Any] = {}
             kind, remedy = "one-way edges", "drive more both ways"
-            if distances.to(head, _open_all_edges(itinerary))[tail] >= 0:
+            if distances.to(head, opened)[tail] >= 0:
                 kind, values, remedy = _describe_barred(scenario, robot, tail, head)
             elif opening := parts.find_opening(tail, head):
                 values = {"first": opening[0], "last": opening[1]}
