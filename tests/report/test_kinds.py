@@ -7,8 +7,12 @@ from collections.abc import Iterator
 
 import pytest
 
+from rightofway.cyclic import RULES
 from rightofway.facts import Fact
+from rightofway.io import FOREIGN_FORMATS
+from rightofway.languages import find_text
 from rightofway.model import RerouteReason
+from rightofway.planners import find_all
 from tests.builders.fleets import grid_fleet
 from tests.builders.sources import SOURCES, parse_modules
 
@@ -135,3 +139,20 @@ IN_THE_WAY = Fact("starts in its way", robot=1)
 )
 def test_a_fact_of_planners_is_a_sentence(fact: Fact, sentence: str) -> None:
     assert str(fact) == sentence
+
+
+def test_summaries_of_planners_are_in_the_table() -> None:
+    """The studio shows them in its language, the command line in English."""
+    for spec in find_all().values():
+        assert find_text(f"planner {spec.name}") == spec.summary
+        for option in spec.options:
+            kinds = f"option {option.name} of {spec.name}", f"option {option.name}"
+            kind = next(kind for kind in kinds if kind in TEMPLATES)
+            assert find_text(kind) == option.summary
+
+
+def test_summaries_of_rules_and_formats_are_in_the_table() -> None:
+    for rule, summary in RULES.items():
+        assert find_text(f"rule {rule}") == summary
+    for name, form in FOREIGN_FORMATS.items():
+        assert find_text(f"format {name}") == form.summary

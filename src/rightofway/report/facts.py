@@ -17,7 +17,7 @@ from typing_extensions import TypedDict
 
 from rightofway.errors import Blockage
 from rightofway.facts import Fact
-from rightofway.languages import VALUE, find_text
+from rightofway.languages import VALUE, find_text, read_texts
 from rightofway.model import Scenario
 from rightofway.report.phrases import (
     Phrase,
@@ -278,6 +278,12 @@ def export_note(note: str | Fact) -> FactData:
 def pack_note(note: str | Fact) -> Any:
     """Return a fact for pages, which write it in their language; text stays as it is."""
     return to_parts(write_note(note))
+
+
+def pack_summary(summary: str, *kinds: str) -> Any:
+    """Return the first of some kinds that has a template; the summary of other packages is text."""
+    known = read_texts()["facts"]
+    return next((pack_note(Fact(kind)) for kind in kinds if kind in known), summary)
 
 
 def write_blockage(blockage: Blockage) -> str:

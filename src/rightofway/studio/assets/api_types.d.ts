@@ -33,9 +33,9 @@ export interface Changes {
 
 /** Rules of laps, notations of delays, formats of exports, each with a sentence. */
 export interface Choices {
-  rules: Record<string, string>;
+  rules: Record<string, PhraseData>;
   delays: DelayChoices;
-  formats: Record<string, string>;
+  formats: Record<string, PhraseData>;
 }
 
 /** A step of the circle that sets the pace of laps. */
@@ -526,7 +526,7 @@ export interface PlanSummary {
 /** A planner. */
 export interface PlannerEntry {
   name: string;
-  summary: string;
+  summary: PhraseData | string;
   features: Array<string>;
   options: Array<PlannerOption>;
 }
@@ -542,7 +542,7 @@ export interface PlannerList {
 export interface PlannerOption {
   name: string;
   default: number | string;
-  summary: string;
+  summary: PhraseData | string;
   choices: Array<string>;
   least: number | string;
   most: number | string | null;

@@ -390,7 +390,7 @@ class PlannerOption(TypedDict):
 
     name: str
     default: Exact
-    summary: str
+    summary: Phrase | str
     choices: list[str]
     least: Exact
     most: Exact | None
@@ -401,7 +401,7 @@ class PlannerEntry(TypedDict):
     """A planner."""
 
     name: str
-    summary: str
+    summary: Phrase | str
     features: list[str]
     options: list[PlannerOption]
 
@@ -424,9 +424,9 @@ class DelayChoices(TypedDict):
 class Choices(TypedDict):
     """Rules of laps, notations of delays, formats of exports, each with a sentence."""
 
-    rules: dict[str, str]
+    rules: dict[str, Phrase]
     delays: DelayChoices
-    formats: dict[str, str]
+    formats: dict[str, Phrase]
 
 
 class Because(TypedDict):

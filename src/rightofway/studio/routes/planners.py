@@ -9,6 +9,7 @@ from fastapi import APIRouter
 
 from rightofway.kinds.numbers import format_number
 from rightofway.planners import DEFAULT_PLANNER, IMPROVER, find_all
+from rightofway.report.facts import pack_summary
 from rightofway.studio.routes.models import (
     InStudio,
 )
@@ -25,13 +26,17 @@ def list_planners() -> dict[str, Any]:
         "planners": [
             {
                 "name": spec.name,
-                "summary": spec.summary,
+                "summary": pack_summary(spec.summary, f"planner {spec.name}"),
                 "features": sorted(spec.features),
                 "options": [
                     {
                         "name": option.name,
                         "default": _convert_to_plain(option.default),
-                        "summary": option.summary,
+                        "summary": pack_summary(
+                            option.summary,
+                            f"option {option.name} of {spec.name}",
+                            f"option {option.name}",
+                        ),
                         "choices": list(option.choices),
                         "least": option.kind.bounds[0] or 0,
                         "most": option.kind.bounds[1],

@@ -106,8 +106,8 @@ def list_choices(_emit: Emit, _blobs: Blobs) -> Result:
     from rightofway.cyclic import RULES, TIMETABLE
     from rightofway.execution import CAUSES, DEFAULT_DELAYS
 
-    rules = {**RULES, TIMETABLE: "all rights of way are chosen in advance"}
+    rules = {rule: pack_note(Fact(f"rule {rule}")) for rule in (*RULES, TIMETABLE)}
     delays = [example for cause in CAUSES.values() for example in cause.examples]
-    formats = {name: form.summary for name, form in FOREIGN_FORMATS.items()}
+    formats = {name: pack_note(Fact(f"format {name}")) for name in FOREIGN_FORMATS}
     choices = {"rules": rules, "delays": {"default": DEFAULT_DELAYS, "examples": dict(delays)}}
     return ({**choices, "formats": formats},)

@@ -1,6 +1,7 @@
 /** What the plan that is shown can be had as, and the command line that gives the same. */
 
 import { html, useState } from "../vendor/htm-preact.js";
+import { said as phraseText } from "../../../viz/page/assets/language/language.js";
 import { words } from "../words.js";
 import { titleOf } from "./list.js";
 /** @import { Props } from "../types.js" */
@@ -32,7 +33,7 @@ export function Exports({ studio }) {
       ${command && html`<${Command} studio=${studio} copied=${copied} copy=${copy} />`}
       <h3>${words.otherPrograms}</h3>
       <ul class="formats">
-        ${Object.entries(choices.formats).map(([form, summary]) => html`<li><a href=${studio.exportAddress(form)} download>${form}</a> <small lang="en">${summary}</small></li>`)}
+        ${Object.entries(choices.formats).map(([form, summary]) => html`<li><a href=${studio.exportAddress(form)} download>${form}</a> <small>${phraseText(summary)}</small></li>`)}
       </ul>
     </details>
   </section>`;

@@ -3,7 +3,7 @@
 import { html } from "../vendor/htm-preact.js";
 import { Field } from "../field.js";
 import { words } from "../words.js";
-import { language } from "../../../viz/page/assets/language/language.js";
+import { language, said as phraseText } from "../../../viz/page/assets/language/language.js";
 /** @import { PlannerEntry, PlannerOption } from "../api_types.js" */
 /** @import { Props, SearchForm } from "../types.js" */
 
@@ -29,11 +29,11 @@ export function Settings({ studio }) {
       <details open=${!runs.payload && !runs.running}><summary>${words.planSummary({ planner: chosen, seconds: settings.time_limit })}</summary>
       <div class="fields">
         <label>${words.planner}<select id="planner" aria-describedby="planner-summary" value=${chosen} onChange=${({ target }) => set({ planner: target.value, options: {} })}>
-          ${planners.planners.map(({ name, summary }) => html`<option value=${name} title=${summary} lang="en">${name}</option>`)}</select></label>
+          ${planners.planners.map(({ name, summary }) => html`<option value=${name} title=${phraseText(summary)} translate="no">${name}</option>`)}</select></label>
         <label>${words.limit}<input type="number" id="limit" required min="0.1" max=${studio.about.limits?.seconds} step="any" value=${settings.time_limit} onInput=${({ target }) => set({ time_limit: target.value })} /></label>
         <label>${words.seed}<input type="number" id="seed" required min="0" max="4294967295" step="1" value=${settings.seed} onInput=${({ target }) => set({ seed: target.value })} /></label>
       </div>
-      <p id="planner-summary" class="hint" lang="en">${spec?.summary}</p>
+      <p id="planner-summary" class="hint">${spec && phraseText(spec.summary)}</p>
       ${spec && spec.options.length > 0 && html`<details><summary>${words.options}</summary><${Options} spec=${spec} given=${settings.options} set=${(/** @type {Record<string, string | number>} */ options) => set({ options })} /></details>`}
       </details>
       <label class="check"><input type="checkbox" checked=${studio.isLive} onChange=${({
@@ -72,6 +72,6 @@ function Options({ spec, given, set }) {
       : html`<${Field} aria-describedby=${`option-${name}`} value=${given[name] ?? ""} placeholder=${String(usual ?? "")} inputmode=${whole ? "numeric" : "text"} onChange=${({ target }) => write(name, target.value.trim())} />`;
   return html`<div class="options">${spec.options.map(
     (option) => html`
-    <label><span lang="en">${option.name}</span>${field(option)}</label><p id=${`option-${option.name}`} class="hint" lang="en">${option.summary}</p>`,
+    <label><span lang="en">${option.name}</span>${field(option)}</label><p id=${`option-${option.name}`} class="hint">${phraseText(option.summary)}</p>`,
   )}</div>`;
 }

@@ -1,6 +1,7 @@
 /** What else a plan can be asked: how it repeats in laps, and what becomes of it with delays. */
 
 import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
+import { said as phraseText } from "../../../viz/page/assets/language/language.js";
 import { words } from "../words.js";
 import { causeOf, Causes, notation } from "./causes.js";
 import { Delays } from "./delays.js";
@@ -61,7 +62,7 @@ export function Studies({ studio }) {
         }}>
           <label>${words.rule}<select id="rule" aria-describedby="rule-summary" value=${rule} onChange=${({ target }) => setRule(target.value)}>${Object.keys(choices.rules).map((name) => html`<option value=${name}>${words.rules[name] ?? name}</option>`)}</select></label>
           <button type="submit" class="framed" disabled=${Boolean(runs.running) || !store.survey.ok}>${words.runLaps}</button>
-        </form><p id="rule-summary" class="hint" lang="en">${choices.rules[rule]}</p></details>
+        </form><p id="rule-summary" class="hint">${choices.rules[rule] && phraseText(choices.rules[rule])}</p></details>
       ${
         run?.has_plan &&
         html`<details class="delays"><summary>${words.delaysTitle}</summary>
@@ -90,7 +91,7 @@ export function Report({ studio }) {
     isWanted = false;
     section.current.scrollIntoView({ block: "start" });
   }, [report]);
-  if (!report || !("text" in report)) return null;
+  if (!report || !("groups" in report || "ranks" in report)) return null;
   return html`
     <section class="study" aria-labelledby="report-title" ref=${section}><h2 id="report-title">${"groups" in report ? words.lapsResult : words.delaysResult}</h2>
       ${"groups" in report && html`<${Laps} studio=${studio} report=${report} />`}
