@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     from pydantic_core import CoreSchema
 
 T = TypeVar("T")
-U = TypeVar("U")
 
 Schema = dict[str, Any]
 
@@ -350,14 +349,8 @@ LINE = make_kind(
     remedy="give printable text on one line",
     schema=STRING,
 )
-NAMES = make_kind(
-    "a list of texts",
-    lambda value: (
-        isinstance(value, list | tuple | set | frozenset)
-        and all(isinstance(name, str) for name in value)
-    ),
-    "are no names",
-    convert=frozenset,
+NAMES: Kind[frozenset[str]] = Kind(
+    "a list of texts", {}, lambda value: frozenset(list_of(TEXT).read(value))
 )
 PATH = make_kind("a path", (str, os.PathLike), "is no path")
 FUNCTION = make_kind("a function", callable, "is no function")

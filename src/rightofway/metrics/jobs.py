@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rightofway.kinds.arguments import checks_arguments
 from rightofway.model import Plan, Tick
 
 
@@ -33,7 +32,6 @@ class JobTimes:
     late: Tick
 
 
-@checks_arguments
 def list_job_times(plan: Plan) -> tuple[JobTimes, ...]:
     """Return when each served job of a plan is done, in the order of the scenario's jobs.
 
