@@ -35,6 +35,7 @@ SLOW = (
     "laws/test_io_fuzz.py",
     "laws/test_time_limits.py",
     "planners/test_limits.py",  # limits of time, and interrupts
+    "planners/test_passing.py",  # every planner on every site with passed vertices
     "studio/test_accessibility.py",  # a browser
     "studio/test_attacks.py",  # thousands of requests
     "studio/test_beginning.py",  # a browser

@@ -23,9 +23,10 @@ def said_by(*words: str) -> str:
 @pytest.mark.parametrize(
     ("campaign", "count"), [("judge", 2000), ("delay", 20000), ("chaos", 200), ("bound", 200)]
 )
-def test_plans_are_judged_by_the_hundred(campaign: str, count: int) -> None:
+def test_plans_are_judged_by_the_hundred(campaign: str, count: int, law_seed: int) -> None:
     """Laws hold the same in this lane; `just nightly` makes a hundred times as many."""
-    last = said_by("tests.campaigns.plans", campaign, str(count)).splitlines()[-1]
+    said = said_by("tests.campaigns.plans", campaign, str(count), "--seed", str(law_seed))
+    last = said.splitlines()[-1]
     judged = re.match(rf"{campaign}: (\d+) judged, 0 findings", last)
     assert judged, last
     assert int(judged[1]) >= count
@@ -45,8 +46,8 @@ def test_a_bound_above_a_plan_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     assert found == [f"bound proves 3, but {planner} has 2" for planner, _ in plans.PROVERS]
 
 
-def test_a_studio_that_is_killed_loses_nothing() -> None:
-    said = said_by("tests.campaigns.kills", "6")
+def test_a_studio_that_is_killed_loses_nothing(law_seed: int) -> None:
+    said = said_by("tests.campaigns.kills", "6", "--seed", str(law_seed))
     assert re.search(r"\b6 kills\b.*; nothing lost, nothing in parts; \d+ s$", said), said
 
 
