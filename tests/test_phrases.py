@@ -210,11 +210,11 @@ REFUSED = {"message", "remedy", "hint", "fault"}
 
 TERMINAL = {
     *("report/driving.py", "report/execution.py", "report/inspection.py"),
-    *("report/laps.py", "report/plan.py"),
+    *("report/jobs.py", "report/laps.py", "report/plan.py"),
 }
 """Reports of the command line, which speaks English."""
 
-MOST_LITERALS = {"planners": 11, "report": 0}
+MOST_LITERALS = {"planners": 10, "repair": 0, "report": 0, "resume": 0}
 """How many parts of errors a room makes in other ways; the numbers may only fall."""
 
 
