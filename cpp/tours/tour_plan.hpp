@@ -51,6 +51,8 @@ class TourPlan {
     void restore(const TourPlan& other);
     void commit(TourPlan& other);
     std::span<const RobotId> changed() const { return changed_; }
+    // Takes over the tours of these robots; all others are equal already.
+    void copy_from(const TourPlan& other, std::span<const RobotId> robots);
 
   private:
     void take_out(std::int32_t job);
@@ -64,7 +66,6 @@ class TourPlan {
     void prepare_all();
     void limit_ends(RobotId robot, std::vector<RobotId>& queue);
     void mark(RobotId robot);
-    void copy_from(const TourPlan& other, std::span<const RobotId> robots);
     std::int32_t position(std::int32_t stop) const;
 
     const TourProblem* problem_;

@@ -24,8 +24,9 @@ constexpr std::size_t most_waiting = 30;  // unserved jobs that a step tries to 
 constexpr std::size_t many_robots = 24;   // in larger fleets, insertions try tours nearby only
 constexpr std::size_t n_near_tours = 12;
 constexpr std::size_t n_drawn_tours = 3;
-constexpr double impossible = 1e15;  // score of an insertion that does not exist
-constexpr std::size_t settle_every = 100;
+constexpr double impossible = 1e15;         // score of an insertion that does not exist
+constexpr std::size_t most_compared = 100;  // jobs of a portion of the first assignment
+constexpr std::int64_t settle_every = 100;
 constexpr std::uint32_t polls_per_step = 64;
 
 }  // namespace
@@ -63,6 +64,7 @@ TourSearch::TourSearch(const TourProblem& problem, std::uint64_t seed)
       best_cost_(current_cost_),
       choice_(Method::count),
       is_tried_(problem.n_robots(), 0),
+      is_since_best_(problem.n_robots(), 0),
       least_ends_(problem.n_jobs(), -1) {}
 
 void TourSearch::start(std::span<const std::int32_t> first, std::span<const std::int32_t> stops) {
@@ -116,6 +118,26 @@ void TourSearch::start(std::span<const std::int32_t> first, std::span<const std:
     best_cost_ = current_cost_ = current_.cost();
 }
 
+// Portions of jobs for a first assignment: regret compares the jobs of one portion. Jobs that have
+// begun come first, then those that can end first, so that jobs rarely come before those they
+// follow.
+std::vector<std::vector<std::int32_t>> TourSearch::divide(std::vector<std::int32_t> jobs) {
+    const auto key = [this](std::int32_t job) {
+        const bool has_begun = problem_.job(job).begun_by != nobody;
+        return std::pair(has_begun ? -1 : find_least_end(job), job);
+    };
+    std::sort(jobs.begin(), jobs.end(),
+              [&](std::int32_t a, std::int32_t b) { return key(a) < key(b); });
+    std::vector<std::vector<std::int32_t>> portions;
+    for (const std::int32_t job : jobs) {
+        if (portions.empty() || portions.back().size() == most_compared) {
+            portions.emplace_back();
+        }
+        portions.back().push_back(job);
+    }
+    return portions;
+}
+
 bool TourSearch::construct(const StopCondition& is_over) {
     Poll poll(is_over);
     std::vector<std::int32_t> jobs;
@@ -126,7 +148,10 @@ bool TourSearch::construct(const StopCondition& is_over) {
     }
     robots_.resize(problem_.n_robots());
     std::iota(robots_.begin(), robots_.end(), 0);
-    const bool is_done = insert_by_regret(std::move(jobs), robots_, 0, &poll);
+    bool is_done = true;
+    for (std::vector<std::int32_t>& portion : divide(std::move(jobs))) {
+        is_done = is_done && insert_by_regret(std::move(portion), robots_, 0, &poll);
+    }
     trial_.commit(current_);
     best_ = current_;
     best_cost_ = current_cost_ = current_.cost();
@@ -151,9 +176,12 @@ void TourSearch::begin_cycle() {
     cycle_begin_ = n_steps_;
     cycle_length_ = cycle_length_ == 0 ? first_cycle : cycle_growth * cycle_length_;
     hottest_ = hot * energy(best_cost_) / static_cast<double>(best_.n_served() + 1);
-    current_ = best_;
-    trial_ = best_;
+    current_.copy_from(best_, since_best_);
+    trial_.copy_from(best_, since_best_);
     current_cost_ = best_cost_;
+    for (const RobotId robot : std::exchange(since_best_, {})) {
+        is_since_best_[index(robot)] = 0;
+    }
 }
 
 void TourSearch::cool() {
@@ -208,8 +236,8 @@ void TourSearch::step() {
     const auto effort = static_cast<double>(removed.size() * (method.by_regret ? 3 : 1) + 2);
     trial_.remove(removed);
     std::vector<std::int32_t> jobs = gather_unserved();
-    choose_robots(jobs);
     if (method.by_regret) {
+        choose_robots(jobs);
         insert_by_regret(std::move(jobs), robots_, regret_noise, nullptr);
     } else {
         insert_greedily(std::move(jobs));
@@ -218,17 +246,30 @@ void TourSearch::step() {
     const double gain = cost < current_cost_ ? 1 : 0;
     choice_.learn(option, cost < best_cost_ ? 10 : gain, effort);
     if (accepts(cost)) {
-        trial_.commit(current_);
-        current_cost_ = cost;
-        if (cost < best_cost_) {
-            best_ = current_;
-            best_cost_ = cost;
-        }
+        adopt(cost);
     } else {
         trial_.restore(current_);
     }
     if (++n_steps_ % settle_every == 0) {
         choice_.settle();
+    }
+}
+
+// Takes over the trial as the current plan, and as the best one if it is.
+void TourSearch::adopt(const TourCost& cost) {
+    for (const RobotId robot : trial_.changed()) {
+        if (!std::exchange(is_since_best_[index(robot)], std::uint8_t{1})) {
+            since_best_.push_back(robot);
+        }
+    }
+    trial_.commit(current_);
+    current_cost_ = cost;
+    if (cost < best_cost_) {
+        best_.copy_from(current_, since_best_);
+        best_cost_ = cost;
+        for (const RobotId robot : std::exchange(since_best_, {})) {
+            is_since_best_[index(robot)] = 0;
+        }
     }
 }
 
@@ -305,12 +346,12 @@ std::vector<std::int32_t> TourSearch::gather_unserved() {
 // The robots whose tours may get jobs: all of a small fleet; else those that have lost a job, those
 // with jobs nearby, and a few others.
 void TourSearch::choose_robots(std::span<const std::int32_t> jobs) {
-    robots_.clear();
     if (problem_.n_robots() <= many_robots) {
         robots_.resize(problem_.n_robots());
         std::iota(robots_.begin(), robots_.end(), 0);
         return;
     }
+    robots_.clear();
     const auto add = [this](RobotId robot) {
         if (robot != nobody && !std::exchange(is_tried_[index(robot)], std::uint8_t{1})) {
             robots_.push_back(robot);
@@ -371,7 +412,10 @@ void TourSearch::try_robot(std::int32_t job, RobotId robot, double skips, Insert
     if (problem_.may_do(robot, job)) {
         const std::size_t first_gap =
             problem_.has_after() ? trial_.first_gaps(job)[index(robot)] : 0;
-        finder_.improve(trial_.tour(robot), {job, trial_.release(job), trial_.makespan(), skips},
+        const bool needs_makespan = problem_.objective() == TourObjective::makespan ||
+                                    problem_.objective() == TourObjective::both;
+        finder_.improve(trial_.tour(robot),
+                        {job, trial_.release(job), needs_makespan ? trial_.makespan() : 0, skips},
                         first_gap, trial_.releases(), random_, best);
     }
 }
@@ -387,6 +431,7 @@ void TourSearch::insert_greedily(std::vector<std::int32_t> jobs) {
             }
             best.score = std::numeric_limits<double>::infinity();
             best.robot = nobody;
+            choose_robots(std::span(&job, 1));
             for (const RobotId robot : robots_) {
                 try_robot(job, robot, blinks, best);
             }

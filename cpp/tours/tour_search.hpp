@@ -59,6 +59,8 @@ class TourSearch {
     void sort_jobs(std::vector<std::int32_t>& jobs);
     std::vector<std::int32_t> gather_unserved();
     void choose_robots(std::span<const std::int32_t> jobs);
+    void adopt(const TourCost& cost);
+    std::vector<std::vector<std::int32_t>> divide(std::vector<std::int32_t> jobs);
     void try_robot(std::int32_t job, RobotId robot, double skips, Insertion& best);
     bool accepts(const TourCost& cost);
     void begin_cycle();
@@ -81,6 +83,8 @@ class TourSearch {
     AdaptiveChoice choice_;
     std::vector<RobotId> robots_;  // that insertions try
     std::vector<std::uint8_t> is_tried_;
+    std::vector<RobotId> since_best_;  // robots whose tours may differ from the best ones
+    std::vector<std::uint8_t> is_since_best_;
     std::vector<double> scores_;
     std::vector<Tick> least_ends_;  // of each job alone, -1: not computed yet
     std::int64_t n_steps_ = 0;
