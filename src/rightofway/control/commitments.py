@@ -4,29 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive
 from rightofway.model import Scenario
 from rightofway.model.route import compute_drives_along
+from rightofway.resume.rest_of_fleet import KeptPart, StopToMake
 
 __all__ = [
     "RobotCommitment",
-    "StopToMake",
     "find_last_open",
     "list_stops_to_make",
     "make_robot_commitment",
 ]
-
-
-class StopToMake(NamedTuple):
-    """A job that is not released yet, the end of a lap, or a place to pass."""
-
-    place: str
-    job: str = ""
-    work: int = 0  # [ticks]
-    ends_lap: bool = False
 
 
 def list_stops_to_make(own: RobotLedger, released: int) -> list[StopToMake]:
@@ -79,9 +69,7 @@ class RobotCommitment:
     """What a robot keeps, from the visit on at which it has arrived."""
 
     route: RouteToDrive  # up to the last released part
-    vertices: tuple[int, ...]
-    work: int  # that is not done yet [ticks]
-    busy: int  # until it is done at the end of it [ticks]
+    part: KeptPart
 
 
 def make_robot_commitment(
@@ -121,7 +109,5 @@ def make_robot_commitment(
             enter=route.enter[:length],
             lap_ends=tuple(end for end in route.lap_ends if end <= released),
         ),
-        vertices=vertices,
-        work=work,
-        busy=work + sum(drives),
+        part=KeptPart(vertices, work, work + sum(drives)),
     )

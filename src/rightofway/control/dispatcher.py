@@ -13,7 +13,7 @@ from functools import cache
 from itertools import pairwise
 
 from rightofway.control.clocked_closures import ClockedClosures, Closed
-from rightofway.control.commitments import StopToMake, find_last_open, list_stops_to_make
+from rightofway.control.commitments import find_last_open, list_stops_to_make
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.journal import Entry
 from rightofway.control.laps import LapsToDrive, build_graph_behind_released
@@ -27,6 +27,7 @@ from rightofway.errors import GaveUp, InputError
 from rightofway.facts import Fact
 from rightofway.model import Plan
 from rightofway.precedence import Part, ReleaseGraph
+from rightofway.resume.rest_of_fleet import StopToMake
 
 __all__ = ["Dispatcher"]
 

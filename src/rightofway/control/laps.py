@@ -18,12 +18,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rightofway.control.commitments import StopToMake
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive, make_routes_to_drive
 from rightofway.errors import InputError
 from rightofway.model import Plan, Scenario, Track
 from rightofway.precedence import Arrival, Part, ReleaseGraph
+from rightofway.resume.rest_of_fleet import StopToMake
 
 __all__ = ["LapsToDrive", "build_graph_behind_released"]
 

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from rightofway.control.commitments import StopToMake
 from rightofway.control.journal import Entry
 from rightofway.control.ledger import Edge, Ledger
 from rightofway.errors import InputError, find_nearest, quote
 from rightofway.facts import Fact
+from rightofway.resume.rest_of_fleet import StopToMake
 from rightofway.site import Roadmap
 
 __all__ = [

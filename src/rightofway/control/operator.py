@@ -19,7 +19,7 @@ from rightofway.control.commands import (
     read_time,
     refuse_nameless,
 )
-from rightofway.control.commitments import StopToMake, list_stops_to_make
+from rightofway.control.commitments import list_stops_to_make
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.fleet_control import UNSOUND
 from rightofway.control.journal import Entry
@@ -39,6 +39,7 @@ from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import make_route_from
 from rightofway.errors import GaveUp, InputError, describe_defect, quote
 from rightofway.facts import Fact
+from rightofway.resume.rest_of_fleet import StopToMake
 from rightofway.search import Distances
 from rightofway.site import VertexId
 
