@@ -57,7 +57,7 @@ class Closure:
     Raises
     ------
     InputError
-        With every value of a wrong kind; the ranges are checked by `Scenario`.
+        With every value of another kind or out of range.
     """
 
     at: VertexId | None = None
