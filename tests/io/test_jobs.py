@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from rightofway import InputError
+from rightofway import FleetBuilder, InputError
 from rightofway.io.plan.reader import parse_plan
 from rightofway.io.plan.writer import dump_plan, format_plan
 from rightofway.io.scenario.reader import parse_scenario
@@ -97,6 +97,23 @@ def test_a_scenario_with_jobs_is_written_and_read_again() -> None:
     empty = parse_scenario(read(jobs=[], robots=[{"name": "R1", "home": "N0"}], batteries=None))
     assert dump_scenario(empty)["jobs"] == []
     assert parse_scenario(dump_scenario(empty)) == empty
+
+
+def test_the_builder_makes_the_scenario_of_the_file() -> None:
+    fleet = FleetBuilder(grid=[".....", "....."], objective="flowtime", late="1/2")
+    fleet.add_job(
+        "J1", pickup="N2", dropoff="N9", pickup_work=20, dropoff_work=15, earliest=60, due=400
+    )
+    fleet.add_job("J2", at="N3", work=30, weight=3, types=["fork"], latest=900, after=["J1"])
+    stops: list[dict[str, Any]] = [{"at": "N2", "work": 10, "load": 2}]
+    stops += [{"at": at, "load": -1} for at in ("N1", (1, 0))]
+    fleet.add_job("J3", stops=stops, robot="R1", latest=500)
+    shares = {"drive": "1/2000", "on": "1/36000", "charge": "1/1800", "reserve": "1/5"}
+    fleet.add_battery("large", **shares).add_charging(["N0", (1, 1)])
+    state = {"at": "N7", "ready": 12, "heading": 90, "soc": 0.55, "begun": {"J3": 1}}
+    fleet.add_robot("R1", home="N0", capacity=2, battery="large", charging=["N0"], start=state)
+    fleet.add_robot("R2", home="N4", type="fork", start={"soc": "1/2"})
+    assert fleet.build_scenario() == parse_scenario(read())
 
 
 def test_a_pickup_with_a_deadline_is_written_as_stops() -> None:

@@ -205,8 +205,24 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
         r"robot 'R1': stops\[1\]: 2.5 is no place \(give N<k>, \[row, column\] or {x, y}\)",
     ),
     "nowhere to go": (
-        lambda: door().add_robot("R1", home="N0"),
+        lambda: door().add_robot("R1", home="N0").build_scenario(),
         r"robot 'R1': has nowhere to go \(give either target or stops\)",
+    ),
+    "a job in no form": (
+        lambda: door().add_job("J1", pickup="N0"),
+        r"job 'J1': has not exactly one form \(give at, or pickup and dropoff, or stops\)",
+    ),
+    "a stop of a job outside": (
+        lambda: door().add_job("J1", stops=[{"at": "N0"}, {"at": "N9"}]),
+        r"job 'J1': stops\[1\]: 'N9' is outside the map",
+    ),
+    "a stop of a job with another key": (
+        lambda: door().add_job("J1", stops=[{"place": "N0"}]),
+        r"job 'J1': stops\[0\]: 'place' is unknown \(give at, work, load, earliest, latest\)",
+    ),
+    "a start in a wall": (
+        lambda: door().add_robot("R1", home="N0", start={"at": "N3"}),
+        "robot 'R1': start: N3, row 1, column 0, is blocked by a wall",
     ),
     "a vertex on a grid": (lambda: door().add_vertex("A", 0, 0), "vertex 'A': the map is complete"),
     "a vertex twice": (

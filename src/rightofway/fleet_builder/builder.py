@@ -19,6 +19,7 @@ from rightofway.fleet_builder.values import (
     read_rules,
     read_units,
 )
+from rightofway.fleet_builder.work import read_job_stops, read_state
 from rightofway.kinds.numbers import Number
 from rightofway.kinds.table import (
     ANYTHING,
@@ -31,7 +32,7 @@ from rightofway.kinds.table import (
     make_words,
     tuple_of,
 )
-from rightofway.model import Robot, Scenario, Stop, TripEnd
+from rightofway.model import Battery, Job, Robot, RobotState, Scenario, Stop, TripEnd
 from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.site import Roadmap, VertexId, make_grid_roadmap
 from rightofway.site.layout import Layout, LevelRoadmap, build_roadmap_of_level
@@ -138,6 +139,9 @@ class FleetBuilder:
         self._spacing = POSITIVE.read_at("spacing", spacing) if is_length else None
         self._drawn = DrawnLanes()
         self._closures: list[Closure] = []
+        self._jobs: list[Job] = []
+        self._batteries: list[tuple[str, Battery]] = []
+        self._charging: list[VertexId] = []
         self._robots: list[Robot] = []
         self._roadmap: Roadmap | None = None
         self._level: Callable[..., LevelRoadmap] | None = None
@@ -298,6 +302,10 @@ class FleetBuilder:
         type: str | None = None,  # noqa: A002 (the key of scenario files)
         turn_rate: Number | None = None,
         weight: Number = 1,
+        start: RobotState | Mapping[str, Any] | None = None,
+        capacity: int | None = None,
+        battery: str | None = None,
+        charging: Iterable[Any] | None = None,
     ) -> Self:
         """Add a robot; the map must be complete.
 
@@ -327,6 +335,10 @@ class FleetBuilder:
             How fast it turns on the spot [degrees per time unit], if that differs from the rules.
         weight
             How much its completion time counts beside those of the other robots.
+        start, capacity, battery, charging
+            For a fleet with jobs, as for `Robot`; the robot then has neither ``target`` nor
+            ``stops``. A start may be a mapping like ``{"at": "N7", "soc": 0.5}``; without ``at`` it
+            is the home.
 
         Raises
         ------
@@ -337,18 +349,21 @@ class FleetBuilder:
         source = f"robot {quote(name)}"
         if radius is not None and size is not None:
             raise InputError.at("", "has both radius and size (give one of them)", source)
-        if (target is None) == (stops is None):
-            problem = "has nowhere to go" if target is None else "has both target and stops"
-            raise InputError.at("", f"{problem} (give either target or stops)", source)
+        if target is not None and stops is not None:
+            message = "has both target and stops (give either target or stops)"
+            raise InputError.at("", message, source)
         trip: list[tuple[Where, Any, Number]] = [("target", target, work)]
-        if stops is not None:
+        if target is None and stops is None:
+            trip = []  # in a fleet with jobs
+        elif stops is not None:
             with name_file(source):
                 given = list_of(ANYTHING).read_at("stops", stops)
             trip = [(("stops", k), *place_and_work(stop)) for k, stop in enumerate(given)]
         try:
+            at_home = HOMELESS if home is None else self._find_vertex("home", home)
             robot = Robot(
                 name=name,
-                home=HOMELESS if home is None else self._find_vertex("home", home),
+                home=at_home,
                 stops=tuple(
                     Stop(at=self._find_vertex(place, at), work=time)  # type: ignore[arg-type]
                     for place, at, time in trip
@@ -361,11 +376,133 @@ class FleetBuilder:
                 type=type,
                 turn_rate=turn_rate,  # type: ignore[arg-type]
                 weight=weight,  # type: ignore[arg-type]
+                start=read_state(self._find_vertex, start, at_home),
+                capacity=capacity,
+                battery=battery,
+                charging=None if charging is None else self._find_vertices("charging", charging),
             )
         except InputError as error:
             raise InputError(fault.name_file(source) for fault in error.faults) from None
         self._robots.append(robot)
         return self
+
+    def add_job(
+        self,
+        name: str,
+        *,
+        at: Any = None,
+        work: Number = 0,
+        pickup: Any = None,
+        dropoff: Any = None,
+        pickup_work: Number = 0,
+        dropoff_work: Number = 0,
+        load: int = 1,
+        stops: Iterable[Mapping[str, Any]] | None = None,
+        earliest: Number | None = None,
+        latest: Number | None = None,
+        due: Number | None = None,
+        weight: Number = 1,
+        types: Iterable[str] = (),
+        robot: str | None = None,
+        after: Iterable[str] = (),
+    ) -> Self:
+        """Add a job, so that robots have no trips of their own; the map must be complete.
+
+        Parameters
+        ----------
+        name
+            A name of its own.
+        at, work
+            The place to work at, as for `add_robot`, and how long [time unit].
+        pickup, dropoff, pickup_work, dropoff_work, load
+            Instead of ``at``: two places, the work at each [time unit], and the load that is
+            carried between them.
+        stops
+            Instead of both: mappings like ``{"at": "N3", "work": 2, "load": 1, "earliest": 5,
+            "latest": 9}``, in order.
+        earliest, latest
+            When the work of the first stop begins at the earliest, and that of the last one ends at
+            the latest [time unit].
+        due, weight, types, robot, after
+            As for `Job`.
+
+        Raises
+        ------
+        InputError
+            For a place that is not on the map, for not exactly one of the three forms, and for a
+            value of a wrong kind.
+        """
+        given = {"at": at, "work": work, "pickup": pickup, "dropoff": dropoff, "stops": stops}
+        given |= {"pickup_work": pickup_work, "dropoff_work": dropoff_work, "load": load}
+        given |= {"earliest": earliest, "latest": latest}
+        with name_file(f"job {quote(name)}"):
+            job = Job(
+                name=name,
+                stops=read_job_stops(self._find_vertex, given),
+                due=due,  # type: ignore[arg-type]
+                weight=weight,  # type: ignore[arg-type]
+                types=types,  # type: ignore[arg-type]
+                robot=robot,
+                after=after,  # type: ignore[arg-type]
+            )
+        self._jobs.append(job)
+        return self
+
+    def add_battery(
+        self,
+        name: str,
+        *,
+        drive: Number = 0,
+        on: Number = 0,
+        work: Number = 0,
+        charge: Number = 0,
+        reserve: Number = 0,
+    ) -> Self:
+        """Add a battery for robots of a fleet with jobs.
+
+        Parameters
+        ----------
+        name
+            The name by which robots have it.
+        drive, on, work, charge, reserve
+            As for `Battery`: shares of a full one.
+
+        Raises
+        ------
+        InputError
+            For a value of another kind, or out of range.
+        """
+        TEXT.read_at("name", name)
+        with name_file(f"battery {quote(name)}"):
+            battery = Battery(
+                drive=drive,  # type: ignore[arg-type]
+                on=on,  # type: ignore[arg-type]
+                work=work,  # type: ignore[arg-type]
+                charge=charge,  # type: ignore[arg-type]
+                reserve=reserve,  # type: ignore[arg-type]
+            )
+        self._batteries.append((name, battery))
+        return self
+
+    def add_charging(self, places: Iterable[Any]) -> Self:
+        """Add places to charge at to those of the map, for a fleet with jobs.
+
+        Parameters
+        ----------
+        places
+            A list of places, each as for `add_robot`.
+
+        Raises
+        ------
+        InputError
+            For a place that is not on the map.
+        """
+        self._charging += self._find_vertices("charging", places)
+        return self
+
+    def _find_vertices(self, key: str, places: Iterable[Any]) -> tuple[VertexId, ...]:
+        listed = list_of(ANYTHING).read_at(key, places)
+        return tuple(self._find_vertex((key, k), place) for k, place in enumerate(listed))
 
     def add_closure(
         self,
@@ -441,13 +578,24 @@ class FleetBuilder:
                 spacing=None, y_up=self._y_up, distance=Fraction(distance)
             )
         robots, _ = deal_homes(self._robots, roadmap, rules)
+        if not self._jobs:
+            self._refuse_robots_without_trip()
         return Scenario(
             roadmap=roadmap,
             robots=tuple(robots),
             rules=rules,
             units=self._units,
             closures=tuple(self._closures),
+            jobs=tuple(self._jobs) or None,
+            batteries=tuple(self._batteries),
+            charging=tuple(self._charging),
         )
+
+    def _refuse_robots_without_trip(self) -> None:
+        for robot in self._robots:
+            if not robot.stops:
+                message = "has nowhere to go (give either target or stops)"
+                raise InputError.at("", message, f"robot {quote(robot.name)}")
 
     def build_roadmap(self) -> Roadmap:
         """Return the map; vertices and edges can no longer be added.
