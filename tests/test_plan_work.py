@@ -13,8 +13,8 @@ from rightofway.deadline import NO_DEADLINE, Deadline
 from rightofway.errors import GaveUp
 from rightofway.facts import Fact
 from rightofway.io import parse_scenario
-from rightofway.metrics import list_job_times
-from rightofway.model import Plan, PlannerRun
+from rightofway.metrics import compute_lost_time, derive_outcome, list_job_times
+from rightofway.model import OutcomeKind, Plan, PlannerRun
 from rightofway.model.scenario import assign_tours
 from rightofway.model.work import Assignment
 from rightofway.plan_work import measure_work, plan_work
@@ -73,6 +73,13 @@ def test_times_and_orders_of_jobs_are_kept() -> None:
     assert first.begin >= 9
     assert second.begin >= first.end
     assert plan.unserved == ((2, "latest"),)
+
+
+def test_time_until_a_job_may_begin_is_not_lost() -> None:
+    """A robot that waits for `earliest` waits for nobody, and nothing is proven of its tour."""
+    plan = solve(parse_scenario(make_document([carry("J1", 1, 3, earliest=30)])))
+    assert [lost.lost for lost in compute_lost_time(plan)] == [0, 0]
+    assert derive_outcome(plan).kind is OutcomeKind.BEST_FOUND
 
 
 def test_fewer_jobs_are_planned_where_all_of_them_have_no_plan() -> None:

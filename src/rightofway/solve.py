@@ -17,6 +17,7 @@ from rightofway.facts import Fact
 from rightofway.kinds.arguments import checks_arguments
 from rightofway.kinds.numbers import format_number
 from rightofway.kinds.table import SEED, make_range
+from rightofway.metrics import derive_outcome
 from rightofway.model import (
     Objective,
     Outcome,
@@ -329,6 +330,8 @@ def _outcome(
     spec: PlannerSpec, task: Task, draft: Draft, plan: Plan, *, keeps_rules: bool
 ) -> Outcome:
     """Return the proof of a plan: by its planner, and by the robots alone."""
+    if plan.scenario.jobs is not None:
+        return derive_outcome(plan)  # other tours may be better, whatever is proven of these
     alone, objective = plan.lower_bound, task.objective
     if objective.has_makespan:
         weights = plan.scenario.problem.weights

@@ -104,7 +104,7 @@ def find_stays(
             dwell[own] = compute_least_dwells(stages, serves, len(track))
         else:
             serves = [item.visit for item in tours[robot]]
-            dwell[own] = _dwells_of_tour(scenario, robot, len(track), tours[robot])
+            dwell[own] = _dwells_of_tour(scenario, robot, track, tours)
         all_serves.append(tuple(serves))
     dwell += turns
     completion = (enter + dwell)[ends - 1].tolist()
@@ -129,16 +129,37 @@ def find_stays(
 
 
 def _dwells_of_tour(
-    scenario: Scenario, robot: int, n_visits: int, tour: PlannedTour
+    scenario: Scenario, robot: int, track: Track, tours: Sequence[PlannedTour]
 ) -> NDArray[np.int64]:
-    """Return the ticks of work, charges and the turn at a stop of each visit; shape (n,)."""
+    """Return the ticks of each visit in which nobody is in the way of the robot; shape (n,).
+
+    Work, charges, the turn at a stop, and the time until the robot is ready or its job may begin.
+    """
     assert scenario.problem.work is not None, "tours are of jobs"
-    dwell = np.zeros(n_visits, np.int64)
-    for item in tour:
-        dwell[item.visit] += item.end - item.begin
-    left = sorted({item.visit for item in tour if item.visit < n_visits - 1})
-    dwell[left] += scenario.problem.work.robots[robot].turn
+    state, jobs = scenario.problem.work.robots[robot], scenario.problem.work.jobs
+    dwell, free = np.zeros(len(track), np.int64), state.ready
+    dwell[0] = state.ready
+    for item in tours[robot]:
+        arrived = max(free, int(track.enter[item.visit]))
+        idle = 0
+        if item.job is not None and item.stop is not None:
+            job = jobs[item.job]
+            opens = [0]
+            if item.stop >= job.first:
+                opens.append(job.stops[item.stop - job.first].earliest)
+            if item.stop == job.first:
+                opens += (_find_end(tours, before) for before in job.after)
+            idle = max(0, min(item.begin, max(opens)) - arrived)
+        dwell[item.visit] += idle + item.end - item.begin
+        free = item.end
+    left = sorted({item.visit for item in tours[robot] if item.visit < len(track) - 1})
+    dwell[left] += state.turn
     return dwell
+
+
+def _find_end(tours: Sequence[PlannedTour], job: int) -> int:
+    """Return when a job ends [ticks]; 0 for a job that no robot does."""
+    return max((item.end for tour in tours for item in tour if item.job == job), default=0)
 
 
 def _complete_tour(scenario: Scenario, robot: int, track: Track, tour: PlannedTour) -> Tick:
