@@ -1,12 +1,14 @@
-"""Templates and sentences in plain data that programs read."""
+"""Facts as English sentences; templates and sentences in plain data that programs read."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
+from rightofway.facts import read_fact
 from rightofway.languages import read_texts
+from rightofway.report.facts import write_notes
 
 PLACE_FOR_VALUE = re.compile(r"\{\w+(:\w+)?\}")
 
@@ -44,3 +46,14 @@ def find_sentences(
         or (key not in {*for_people, *KINDS} and text.count(" ") > 1)
         or (key in KINDS and not re.fullmatch(r"[\w,.:-]+( [\w,.:-]+)*", text))
     ]
+
+
+def tell_answer(answer: Mapping[str, Any] | None) -> tuple[bool, str]:
+    """Return whether a command was carried out, and the English sentence of its answer."""
+    assert answer is not None
+    return answer["done"], str(read_fact(answer["fact"]))
+
+
+def tell_notes(found: Any) -> tuple[str, ...]:
+    """Return the notes of a layout, a map, a scenario or an example as sentences."""
+    return tuple(write_notes(found.notes))
