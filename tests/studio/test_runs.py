@@ -261,7 +261,7 @@ def test_answers_have_kinds_and_values_and_no_templates(client: httpx.Client) ->
         {"kind": "laps", "document": DOOR},
     ]
     runs = [client.post("/runs", json=body).json()["number"] for body in asked]
-    answers = {str(k): over(client, k) for k in runs}
+    answers: dict[str, Any] = {str(k): over(client, k) for k in runs}
     addresses = [f"/runs/{each}/report" for each in (number, *runs)]
     addresses += [f"/runs/{number}/losses", f"/runs/{number}/changes", "/runs"]
     answers |= {address: client.get(address).json() for address in addresses}
