@@ -6,7 +6,7 @@ import pytest
 
 from rightofway.io import parse_scenario
 from rightofway.metrics import list_job_times, measure
-from rightofway.model import Plan, PlannerRun, Track
+from rightofway.model import Plan, PlannerRun, Tick, Track
 from rightofway.model.scenario import assign_tours
 from rightofway.model.work import TourItem
 from rightofway.report.jobs import make_jobs_data
@@ -29,7 +29,9 @@ def plan() -> Plan:
         }
     )
     jobs = scenario.jobs or ()
-    tour = tuple(TourItem(job=0, stop=k, vertex=jobs[0].stops[k].at, duration=0) for k in (0, 1))
+    tour = tuple(
+        TourItem(job=0, stop=k, vertex=jobs[0].stops[k].at, duration=Tick(0)) for k in (0, 1)
+    )
     track = Track.of([0, 1, 2, 3, 2, 1, 0], [0, 1, 4, 5, 7, 8, 9])
     return Plan(
         scenario=assign_tours(scenario, [tour]),
