@@ -5,15 +5,16 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 import pytest
 
-from rightofway import FleetBuilder, InputError
+from rightofway import FleetBuilder, InputError, load
 from rightofway.io.plan.reader import parse_plan
 from rightofway.io.plan.writer import dump_plan, format_plan
 from rightofway.io.scenario.reader import parse_scenario
-from rightofway.io.scenario.writer import dump_scenario, format_scenario
+from rightofway.io.scenario.writer import dump_scenario, format_scenario, write_scenario
 from rightofway.io.yaml_text import parse_yaml
 from rightofway.model import Battery, Job, JobStop, RobotState, Rules
 from rightofway.site import VertexId
@@ -123,12 +124,52 @@ def test_a_pickup_with_a_deadline_is_written_as_stops() -> None:
     assert written["jobs"] == [{"name": "J3", "stops": stops}]
 
 
+def test_a_workbook_has_sheets_of_jobs_and_batteries(tmp_path: Path) -> None:
+    scenario = parse_scenario(read())
+    write_scenario(scenario, tmp_path / "hall.xlsx")
+    assert load(tmp_path / "hall.xlsx") == scenario
+
+
+CSV = """
+name;at;work;pickup;dropoff;due;types;after;robot;stops
+J1;;;N2;N9;400;;;;
+J2;N3;0,5;;;;fork, tug;J1;;
+J3;;;;;;;;R1;"[{at: N2, load: 2}, {at: N1, load: -2}]"
+"""
+
+
+def test_jobs_are_rows_of_a_csv_file(tmp_path: Path) -> None:
+    (tmp_path / "jobs.csv").write_text(CSV.strip())
+    first, second, third = parse_scenario(read(jobs={"table": "jobs.csv"}), tmp_path).jobs or ()
+    assert first == Job(
+        name="J1", stops=(JobStop(at=V(2), load=1), JobStop(at=V(9), load=-1)), due=F(400)
+    )
+    assert second == Job(
+        name="J2",
+        stops=(JobStop(at=V(3), work=F(1, 2)),),
+        types=("fork", "tug"),
+        after=("J1",),
+    )
+    assert [stop.load for stop in third.stops] == [2, -2]
+
+
+def test_a_fault_in_a_table_of_jobs_is_named_by_its_line(tmp_path: Path) -> None:
+    (tmp_path / "jobs.csv").write_text(CSV.strip().replace("N9", "N99"))
+    with pytest.raises(InputError) as refused:
+        parse_scenario(read(jobs={"table": "jobs.csv"}), tmp_path)
+    message = "jobs.csv:2: dropoff: 'N99' is outside the map (cells are N0 to N9)"
+    assert str(refused.value).endswith(message)
+
+
 JOB = {"name": "J3", "pickup": "N2", "dropoff": "N3"}
 
 FAULTS: list[tuple[dict[str, Any], str]] = [
     (
         {"jobs": 5},
-        "jobs: 5 is no list (give a list of {name, at or pickup and dropoff or stops, …})",
+        (
+            "jobs: 5 is no list (give a list of {name, at or pickup and dropoff or stops, …}, or"
+            " {table: file})"
+        ),
     ),
     ({"charging": "N1"}, "charging: 'N1' is no list (give a list of places)"),
     (

@@ -36,7 +36,7 @@ NOTES = {"note", "notes", "hint", "comment", "remark"}
 STOP = re.compile(r"(stop|work) ?([1-9][0-9]?)")
 """Headings of several stops and the work there."""
 
-PLACE_KEYS = {"home", "target", "at"}
+PLACE_KEYS = {"home", "target", "at", "pickup", "dropoff"}
 """Keys whose values are places."""
 
 SPOTS = ("parking", "charging")
@@ -57,9 +57,14 @@ AT_STOP = {"stop": "at", "work": "work"}
 
 WORD_KEYS = {
     "name",
+    "battery",
+    "robot",
     *(attribute.key for attribute in (*ROBOT_ATTRIBUTES, *RULE_ATTRIBUTES) if attribute.is_text),
 }
 """Keys whose values are text, also where they look like numbers."""
+
+LIST_KEYS = {"types", "after"}
+"""Keys whose values are lists of names, with commas between."""
 
 DECIMAL_COMMA = re.compile(r"[+-]?(0,[0-9]+|[0-9]+,([0-9]{1,2}|[0-9]{4,}))")
 """A decimal as half of the world writes it; 1,000 may be a thousand and is refused."""
@@ -179,6 +184,11 @@ def read_robots_of_rows(rows: Iterable[Row], cell: CellOf, known: Iterable[str])
     return table
 
 
+def read_jobs_of_rows(rows: Iterable[Row], cell: CellOf, known: Iterable[str]) -> CellDocument:
+    """Return the jobs of a table: one a row, by the keys of a job."""
+    return read_records(rows, cell, ("jobs",), known, noun="a job")
+
+
 def find_heading_key(heading: Any) -> str:
     """Return the key that a heading stands for: ``Speed [m/s]`` is ``speed``."""
     words = re.sub(r"\[[^\[\]]*\]|\([^()]*\)|\*", "", str(heading)).strip().lower()
@@ -187,15 +197,22 @@ def find_heading_key(heading: Any) -> str:
 
 def read_cell_value(key: str, value: Any, words: Collection[str] = WORD_KEYS) -> Any:
     """Return the value of a cell as a document has it under a key; ``words`` are keys of text."""
-    if not isinstance(value, str):
-        return str(value) if key in words and not isinstance(value, bool) else value
-    if key in TRUTH_KEYS:
-        return YES_NO.get(value.lower(), value)
-    if key not in words and value[0] in "[{":
+    if isinstance(value, str) and key not in words and value[0] in "[{":
         try:
             return parse_yaml(value)
         except InputError as error:  # its line is one of the cell
             raise InputError.at("", error.faults[0].words) from None
+    if key in LIST_KEYS and not isinstance(value, bool):
+        return [name.strip() for name in str(value).split(",")]
+    if isinstance(value, str):
+        return _read_text(key, value, words)
+    return str(value) if key in words and not isinstance(value, bool) else value
+
+
+def _read_text(key: str, value: str, words: Collection[str]) -> Any:
+    """Return the value of a cell with text that is no list and no mapping."""
+    if key in TRUTH_KEYS:
+        return YES_NO.get(value.lower(), value)
     if key in words or key in PLACE_KEYS or key.startswith("stop "):
         return value
     if WHOLE.fullmatch(value):
@@ -203,8 +220,8 @@ def read_cell_value(key: str, value: Any, words: Collection[str] = WORD_KEYS) ->
     return value.replace(",", ".") if DECIMAL_COMMA.fullmatch(value) else value
 
 
-def read_robots_of_csv(path: Path, known: Iterable[str], names_it: Where) -> CellDocument:
-    """Return the robots of a CSV file: columns between commas, semicolons or tabs.
+def read_csv(path: Path, names_it: Where) -> tuple[Iterator[Row], CellOf]:
+    """Return the rows of a CSV file, with columns between commas, semicolons or tabs.
 
     Raises
     ------
@@ -229,4 +246,4 @@ def read_robots_of_csv(path: Path, known: Iterable[str], names_it: Where) -> Cel
         steps = (headings[column - 1],) if is_named and headings[column - 1] else ()
         return Location(file=str(path), line=row, path=steps).nest(names_it)
 
-    return read_robots_of_rows(((number, row) for number, row in filled if row), cell, known)
+    return ((number, row) for number, row in filled if row), cell

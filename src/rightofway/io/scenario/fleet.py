@@ -48,14 +48,13 @@ HOME = f"the place it starts from: {list_kinds_of_places(None)}"
 def read_robots_in_table(data: dict[str, Any], base: Path | None) -> CellDocument:
     """Return the robots of a CSV file that the document names."""
     from rightofway.io.scenario.shape import RobotDocument, RobotTableDocument
-    from rightofway.io.tables import read_robots_of_csv
+    from rightofway.io.tables import read_csv, read_robots_of_rows
 
     with locate_faults("robots"):
         name = validate(RobotTableDocument, data).table
         with locate_faults("table"):
-            return read_robots_of_csv(
-                find_file_beside(base, name), list_keys(RobotDocument), ("robots", "table")
-            )
+            rows, cell = read_csv(find_file_beside(base, name), ("robots", "table"))
+            return read_robots_of_rows(rows, cell, list_keys(RobotDocument))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rightofway.assign import deal_homes
 from rightofway.errors import InputError, Steps, Where, find_nearest, name_file, quote
@@ -34,13 +34,16 @@ from rightofway.io.scenario.fleet import (
 from rightofway.io.scenario.loaded_map import LoadedMap, note_on_hidden_stations, note_on_rounding
 from rightofway.io.scenario.maps import map_of, map_of_file
 from rightofway.io.scenario.picture import add_picture
-from rightofway.io.scenario.work import ReadWork, read_work
+from rightofway.io.scenario.work import ReadWork, read_jobs_in_table, read_work
 from rightofway.model import Rules, Scenario
 from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 from rightofway.site import Roadmap
 from rightofway.site.scale import find_odd_sizes
 from rightofway.units import Units
+
+if TYPE_CHECKING:
+    from rightofway.io.tables import CellDocument
 
 CLASSIC = Rules(turn=Fraction(0), ends="none")
 """The rules of the classic benchmark: robots need not turn, and stay at their targets."""
@@ -112,11 +115,10 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
         )
 
     document = check_format(document, SCENARIO_FORMAT)
-    given = document.get("robots")
-    if isinstance(given, dict) and "table" in given:
-        table = read_robots_in_table(given, base)
-        with table.locate():
-            return read_scenario({**document, "robots": table.part}, base, pictures)
+    if table := _read_table(document, base):
+        key, cells = table
+        with cells.locate():
+            return read_scenario({**document, key: cells.part}, base, pictures)
     faults = Faults()
     faults.attempt("", validate, ScenarioFrame, document)
     rules = faults.read_part(document, "rules", _rules_of) or Rules()
@@ -143,6 +145,15 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
     assert loaded is not None, "or there was a fault"
     assert scenario is not None, "or there was a fault"
     return Loaded(scenario=scenario, notes=(*_notes(loaded, scenario), *notes))
+
+
+def _read_table(document: dict[str, Any], base: Path | None) -> tuple[str, CellDocument] | None:
+    """Return the key of robots or jobs that are in a table, and the table; None without one."""
+    for key, read in (("robots", read_robots_in_table), ("jobs", read_jobs_in_table)):
+        given = document.get(key)
+        if isinstance(given, dict) and "table" in given:
+            return key, read(given, base)
+    return None
 
 
 def read_classic(path: Path, count: int | None) -> Loaded:

@@ -33,7 +33,12 @@ from rightofway.io.fields import (
     finish_schema,
     make_optional,
 )
-from rightofway.io.scenario.work_shape import BatteryDocument, JobDocument, StateDocument
+from rightofway.io.scenario.work_shape import (
+    BatteryDocument,
+    JobDocument,
+    JobTableDocument,
+    StateDocument,
+)
 from rightofway.kinds.table import POSITION, make_words
 from rightofway.model import Robot, Rules, WorkObjective
 from rightofway.model.resources import circumscribe
@@ -489,9 +494,11 @@ class ScenarioFrame(Document):
         "for each battery its name and {drive, on, work, charge, reserve}, for jobs"
     )
     charging: Any = make_optional(
-        "with jobs: a list of places to charge at beside those of the map"
+        "a list of places to charge at in addition to those of the map, for jobs"
     )
-    jobs: Any = make_optional("a list of {name, at or pickup and dropoff or stops, …}")
+    jobs: Any = make_optional(
+        "a list of {name, at or pickup and dropoff or stops, …}, or {table: file}"
+    )
 
 
 class ScenarioDocument(ScenarioFrame):
@@ -510,4 +517,6 @@ class ScenarioDocument(ScenarioFrame):
         "for each battery its name and its shares"
     )
     charging: list[Place] = make_optional("a list of places to charge at, with those of the map")
-    jobs: list[JobDocument] = make_optional("a list of jobs, instead of trips of robots")
+    jobs: list[JobDocument] | JobTableDocument = make_optional(
+        "a list of jobs, instead of trips of robots"
+    )

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rightofway.errors import InputFault, Steps, quote
-from rightofway.io.faults import Faults, validate
+from rightofway.errors import InputFault, Steps, locate_faults, quote
+from rightofway.io.faults import Faults, list_keys, validate
 from rightofway.io.scenario.loaded_map import LoadedMap
+from rightofway.io.scenario.maps import find_file_beside
 from rightofway.model import Battery, Job, JobStop, RobotState
 from rightofway.site import VertexId
 
 if TYPE_CHECKING:
     from rightofway.io.scenario.work_shape import JobDocument, StateDocument
+    from rightofway.io.tables import CellDocument
 
-JOBS = "give a list of {name, at or pickup and dropoff or stops, …}"
+JOBS = "give a list of {name, at or pickup and dropoff or stops, …}, or {table: file}"
 
 CROSS_REFERENCES = ("no robot is named ", "no job is named ", "no battery is named ")
 """The begin of faults that follow from other faults where the document has the name."""
@@ -50,6 +53,18 @@ class ReadWork:
             names = (fault.words.startswith(begin + repr(name)) for name in self.names)
             if not begin or not any(names):
                 yield fault
+
+
+def read_jobs_in_table(data: dict[str, Any], base: Path | None) -> CellDocument:
+    """Return the jobs of a CSV file that the document names."""
+    from rightofway.io.scenario.work_shape import JobDocument, JobTableDocument
+    from rightofway.io.tables import read_csv, read_jobs_of_rows
+
+    with locate_faults("jobs"):
+        name = validate(JobTableDocument, data).table
+        with locate_faults("table"):
+            rows, cell = read_csv(find_file_beside(base, name), ("jobs", "table"))
+            return read_jobs_of_rows(rows, cell, list_keys(JobDocument))
 
 
 def read_work(document: Mapping[str, Any], on: LoadedMap | None, faults: Faults) -> ReadWork:

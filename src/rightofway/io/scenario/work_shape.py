@@ -106,6 +106,12 @@ class JobDocument(Document):
         return self
 
 
+class JobTableDocument(Document):
+    """Jobs from the rows of a CSV file, with the keys of a job as headings."""
+
+    table: Name = Field(description="a .csv file, relative to the scenario's own")
+
+
 class BatteryDocument(Document):
     """How robots use and charge a battery; shares are of a full one."""
 

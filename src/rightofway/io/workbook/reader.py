@@ -18,12 +18,13 @@ from rightofway.io.tables import (
     Row,
     find_heading_key,
     read_cell_value,
+    read_jobs_of_rows,
     read_records,
     read_robots_of_rows,
 )
 from rightofway.io.workbook.sheets import Sheet, find_reference, read_sheets
 
-SHEETS = ("map", "robots", "rules", "vertices", "edges", "closures")
+SHEETS = ("map", "robots", "rules", "vertices", "edges", "closures", "jobs", "batteries")
 """Sheets that are read, by lower-case name."""
 
 ATTRIBUTES = ("barred", "surcharge", "pass")
@@ -34,8 +35,8 @@ VERTEX_KEYS = ("name", "x", "y", *ATTRIBUTES, *SPOTS)
 MAX_CELLS = 1_000_000
 """Cells of a map, at most."""
 
-HOMES = "homes"
-"""The row of the rules sheet that belongs to the whole scenario."""
+OF_SCENARIO = ("homes", "charging")
+"""Rows of the rules sheet that belong to the whole scenario."""
 
 UNIT_KEYS = {"length_unit": "length", "time_unit": "time"}
 """Rows of the rules sheet that are units, and their keys there."""
@@ -107,9 +108,39 @@ def _make_document(sheets: Mapping[str, Sheet], faults: Faults, notes: list[Fact
         document["closures"] = closures.part
         cells |= closures.cells
         faults.add(closures.faults)
+    _add_work(sheets, offset, document, cells, faults)
     if not document.get("robots") or "map" not in document:
         faults.stop()
     return CellDocument(part=document, cells=cells, faults=faults.found)
+
+
+def _add_work(
+    sheets: Mapping[str, Sheet],
+    offset: tuple[int, int],
+    document: dict[str, Any],
+    cells: dict[Steps, Where],
+    faults: Faults,
+) -> None:
+    """Add the jobs and the batteries."""
+    from rightofway.io.scenario.work_shape import BatteryDocument, JobDocument
+
+    if "jobs" in sheets:
+        sheet = sheets["jobs"]
+        rows = _read_rows(sheet, offset)
+        jobs = read_jobs_of_rows(rows, sheet.locate_cell, list_keys(JobDocument))
+        document["jobs"] = jobs.part
+        cells |= {("jobs",): sheet.location, **jobs.cells}
+        faults.add(jobs.faults)
+    if "batteries" in sheets:
+        sheet, known = sheets["batteries"], ["name", *list_keys(BatteryDocument)]
+        table = read_records(
+            sheet.list_rows(), sheet.locate_cell, ("batteries",), known, noun="a battery"
+        )
+        names = [str(battery.pop("name", "")) for battery in table.part]
+        document["batteries"] = dict(zip(names, table.part, strict=True))
+        for (key, index, *steps), place in table.cells.items():
+            cells[key, names[int(index)], *steps] = place
+        faults.add(table.faults)
 
 
 def _read_grid(
@@ -180,7 +211,7 @@ def _add_rules(
 
     rules = list_keys(RulesDocument)
     of_map = [name for name in MapDocument.model_fields if name not in MAPS]
-    known = [*rules, *of_map, *UNIT_KEYS, HOMES]
+    known = [*rules, *of_map, *UNIT_KEYS, *OF_SCENARIO]
     seen = set[str]()
     parts: dict[str, dict[str, Any]] = {"rules": {}, "units": {}, "map": {}}
     for row, values in sheet.list_rows():
@@ -198,15 +229,15 @@ def _add_rules(
             continue
         seen.add(key)
         part = "units" if key in UNIT_KEYS else "map" if key in of_map else "rules"
-        path: Steps = (key,) if key == HOMES else (part, UNIT_KEYS.get(key, key))
+        path: Steps = (key,) if key in OF_SCENARIO else (part, UNIT_KEYS.get(key, key))
         cells[path] = sheet.locate_cell(row, 2)
         read = (
             faults.attempt(sheet.locate_cell(row, 2), read_cell_value, key, value)
             if value is not None
             else None
         )
-        if read is not None and key == HOMES:
-            document[HOMES] = read
+        if read is not None and key in OF_SCENARIO:
+            document[key] = read
         elif read is not None:
             parts[part][UNIT_KEYS.get(key, key)] = read
     if parts["rules"]:

@@ -70,6 +70,9 @@ HELP = (
     "rules: an empty value stands for the default. Other sheets are not read.",
 )
 
+OF_JOBS = ("jobs", "batteries", "charging")
+"""Keys of a document that only a scenario with jobs has."""
+
 NUMBER_DIGITS = 11
 """Most digits of a number in a cell; one with more is text. A spreadsheet keeps 15 digits, and the
 reader takes a number of 12 or more that is next to a simple fraction for that fraction."""
@@ -127,9 +130,15 @@ def format_workbook(document: dict[str, Any]) -> bytes:
     of_map = {key: where[key] for key in where if key not in {"grid", "roadmap", "obstacles"}}
     given = {**document.get("rules", {}), **of_map}
     given |= {f"{key} unit": unit for key, unit in document.get("units", {}).items()}
+    given |= {key: document[key] for key in ("charging",) if key in document}
     _write_rules(workbook.create_sheet("rules"), given)
     if "closures" in document:
         _write_closures(workbook.create_sheet("closures"), document["closures"])
+    if "jobs" in document:
+        _write_jobs(workbook.create_sheet("jobs"), document["jobs"])
+    if "batteries" in document:
+        batteries = [{"name": name, **own} for name, own in document["batteries"].items()]
+        _write_records(workbook.create_sheet("batteries"), ["name"], batteries)
     sheet = workbook.create_sheet("how to")
     sheet.column_dimensions["A"].width = 100
     for line in HELP:
@@ -139,7 +148,7 @@ def format_workbook(document: dict[str, Any]) -> bytes:
 
 def _refuse_more(document: dict[str, Any]) -> None:
     """Refuse a document with parts that would be lost."""
-    more = document.keys() - {"format", "map", "robots", "rules", "units", "closures"}
+    more = document.keys() - {"format", "map", "robots", "rules", "units", "closures", *OF_JOBS}
     roadmap = document["map"].get("roadmap", {})
     more |= roadmap.keys() - {"vertices", "edges", *SPOTS}
     if more:
@@ -177,11 +186,15 @@ def _write_grid(sheet: Any, lines: Sequence[str]) -> None:
 
 
 def _write_robots(sheet: Any, robots: Sequence[dict[str, Any]]) -> None:
+    from rightofway.io.scenario.shape import OF_JOBS as ROBOT_KEYS_OF_JOBS
+    from rightofway.io.scenario.shape import RobotDocument
+
     most = max((len(robot.get("stops", ())) for robot in robots), default=0)
     stops = [f"{noun} {number}" for number in range(1, most + 1) for noun in ("stop", "work")]
     hints = {key: (text, choices) for key, text, choices in ROBOT_HINTS}
     usual = [key for key in hints if not (stops and key in {"target", "work"})]
     keys = [*usual[:2], *stops, *usual[2:]]
+    keys += dict.fromkeys(key for robot in robots for key in robot if key in ROBOT_KEYS_OF_JOBS)
     rows = []
     for robot in robots:
         cells = {key: _convert_to_cell(value) for key, value in robot.items() if key != "stops"}
@@ -193,7 +206,7 @@ def _write_robots(sheet: Any, robots: Sequence[dict[str, Any]]) -> None:
     hints |= {"stop": ("a place to work at, in order", "")}
     for column, key in enumerate(keys, 1):
         kind = key.rstrip(" 0123456789")
-        text, choices = hints[kind]
+        text, choices = hints.get(kind) or (_find_description(RobotDocument, key), "")
         letter = sheet.cell(1, column).column_letter
         _add_hint(sheet, f"{letter}2:{letter}{ROWS}", key, text, choices)
 
@@ -224,6 +237,25 @@ def _write_closures(sheet: Any, closures: Sequence[dict[str, Any]]) -> None:
         _add_hint(
             sheet, f"{letter}2:{letter}{ROWS}", key, _find_description(ClosureDocument, key), ""
         )
+
+
+def _write_jobs(sheet: Any, jobs: Sequence[dict[str, Any]]) -> None:
+    from rightofway.io.scenario.work_shape import JobDocument
+
+    keys = _write_records(sheet, ["name", "at", "work", "pickup", "dropoff"], jobs)
+    for column, key in enumerate(keys, 1):
+        letter, text = sheet.cell(1, column).column_letter, _find_description(JobDocument, key)
+        _add_hint(sheet, f"{letter}2:{letter}{ROWS}", key, text, "")
+
+
+def _write_records(
+    sheet: Any, usual: Sequence[str], records: Sequence[dict[str, Any]]
+) -> Sequence[str]:
+    """Write a row for each mapping; return the headings, the usual ones and all others in use."""
+    keys = list(dict.fromkeys([*usual, *chain.from_iterable(records)]))
+    rows = [[_convert_to_cell(record.get(key)) for key in keys] for record in records]
+    _write_table(sheet, keys, rows)
+    return keys
 
 
 def _write_roadmap(workbook: Any, roadmap: dict[str, Any]) -> None:
@@ -299,8 +331,10 @@ def _convert_to_cell(value: Any) -> Any:
         return "true" if value else "false"
     if isinstance(value, float) and float(f"{value:.{NUMBER_DIGITS}g}") != value:
         return repr(value)  # text: a number would lose its last digits
-    if isinstance(value, dict):
+    if isinstance(value, dict) or (
+        isinstance(value, list) and any(isinstance(item, dict) for item in value)
+    ):
         return json.dumps(value, ensure_ascii=False)
-    if isinstance(value, list | tuple) and all(isinstance(item, str) for item in value):
+    if isinstance(value, list | tuple) and all(isinstance(item, str | dict) for item in value):
         return json.dumps(value, ensure_ascii=False)  # a name may look like a number
     return f"[{', '.join(map(str, value))}]" if isinstance(value, list | tuple) else value
