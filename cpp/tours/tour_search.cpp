@@ -140,17 +140,14 @@ std::vector<std::vector<std::int32_t>> TourSearch::divide(std::vector<std::int32
 
 bool TourSearch::construct(const StopCondition& is_over) {
     Poll poll(is_over);
-    std::vector<std::int32_t> jobs;
-    for (std::int32_t job = 0; index(job) < problem_.n_jobs(); ++job) {
-        if (!trial_.serves(job)) {
-            jobs.push_back(job);
-        }
-    }
     robots_.resize(problem_.n_robots());
     std::iota(robots_.begin(), robots_.end(), 0);
     bool is_done = true;
-    for (std::vector<std::int32_t>& portion : divide(std::move(jobs))) {
+    for (std::vector<std::int32_t>& portion : divide(list_unserved())) {
         is_done = is_done && insert_by_regret(std::move(portion), robots_, 0, &poll);
+    }
+    if (is_done && problem_.has_after()) {  // jobs that came before those they follow
+        is_done = insert_by_regret(list_unserved(), robots_, 0, &poll);
     }
     trial_.commit(current_);
     best_ = current_;
@@ -321,14 +318,20 @@ void TourSearch::exchange_tails() {
     }
 }
 
-// Unserved jobs: those that have begun, then a draw of the others.
-std::vector<std::int32_t> TourSearch::gather_unserved() {
+std::vector<std::int32_t> TourSearch::list_unserved() const {
     std::vector<std::int32_t> jobs;
     for (std::int32_t job = 0; index(job) < problem_.n_jobs(); ++job) {
         if (!trial_.serves(job)) {
             jobs.push_back(job);
         }
     }
+    return jobs;
+}
+
+// Unserved jobs in random order: those that the current plan serves or that have begun, and some of
+// the others.
+std::vector<std::int32_t> TourSearch::gather_unserved() {
+    std::vector<std::int32_t> jobs = list_unserved();
     random_.shuffle(jobs);
     std::stable_partition(jobs.begin(), jobs.end(), [this](std::int32_t job) {
         return problem_.job(job).begun_by != nobody || current_.serves(job);

@@ -57,6 +57,7 @@ class TourSearch {
     bool insert_by_regret(std::vector<std::int32_t> jobs, std::span<const RobotId> robots,
                           double noise, Poll* poll);
     void sort_jobs(std::vector<std::int32_t>& jobs);
+    std::vector<std::int32_t> list_unserved() const;
     std::vector<std::int32_t> gather_unserved();
     void choose_robots(std::span<const std::int32_t> jobs);
     void adopt(const TourCost& cost);
