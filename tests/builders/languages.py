@@ -1,63 +1,103 @@
-"""Words of a language that no page of another language may have, and phrases in German."""
+"""English that no German page may have, and phrases in German."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from rightofway.languages import VALUE, choose_text, list_values, read_texts
+from rightofway.languages import LANGUAGES, VALUE, choose_text, list_values, read_texts
 from rightofway.report.phrases import Phrase
 
 if TYPE_CHECKING:
+    from playwright.sync_api import Frame
+
     from tests.builders.browsers import Viewer
 
 ENGLISH = (
-    "alone", "and", "are", "away", "before", "booking", "bookings", "by", "choose", "close",
-    "decision", "decisions", "done", "draw", "drives", "driving", "edges", "every", "faults",
-    "finding", "findings", "first", "for", "from", "goes", "home", "is", "it", "lane",
-    "lanes", "later", "lap", "laps", "leave", "length", "lines", "lost", "more", "no", "none",
-    "nothing", "of", "on", "one", "other", "over", "place", "places", "repeats", "robots",
-    "routes", "save", "show", "speed", "stop", "stops", "that", "the", "there", "they",
-    "time", "times", "to", "turning", "turns", "units", "vertices", "vertex", "wait", "waiting",
-    "waits", "way", "what", "when", "where", "which", "who", "why", "with", "work", "working",
-    "works",
+    "above", "after", "all", "allow", "alone", "and", "another", "any", "are", "as", "at",
+    "away", "be", "because", "before", "behind", "below", "beside", "between", "both", "but",
+    "by", "came", "can", "cannot", "choose", "close", "closed", "do", "does", "done", "down",
+    "driving", "each", "either", "empty", "end", "every", "far", "fast", "faults", "few",
+    "finding", "findings", "first", "follow", "following", "for", "from", "further", "give",
+    "given", "goes", "had", "has", "have", "how", "if", "into", "is", "it", "its", "keep",
+    "lanes", "laps", "later", "least", "leave", "left", "less", "let", "lose", "made", "make",
+    "may", "mean", "more", "most", "must", "need", "never", "new", "next", "no", "none", "nor",
+    "not", "nothing", "of", "off", "on", "once", "one", "only", "or", "other", "others", "out",
+    "over", "own", "place", "places", "press", "quick", "robots", "routes", "rule", "same",
+    "see", "select", "share", "should", "show", "since", "some", "speed", "stay",
+    "such", "take", "than", "that", "the", "their", "them", "then", "there", "these",
+    "they", "this", "those", "times", "to", "together", "too", "turns", "under", "until", "use",
+    "used", "vertices", "wait", "waiting", "waits", "way", "were", "what", "when", "where",
+    "whether", "which", "while", "who", "why", "will", "with", "without", "work", "working",
+    "works", "would", "yet", "you", "your",
 )  # fmt: skip
-"""Frequent English words of these pages that are no German ones."""
+"""Frequent English words that are no German ones."""
 
-SAID = """(words) => {
+LOOK = """([words, texts, names]) => {
   const found = [];
-  const isEnglish = (node) => {
-    const spoken = node.closest("[lang]")?.lang ?? document.documentElement.lang;
-    return spoken === "en" || node.closest("code, pre, script, style, [translate=no]") !== null;
-  };
+  const isName = (node) =>
+    node.closest("code, pre, script, style, noscript, iframe, [translate=no]") !== null;
+  const isMessage = (node) => node.closest("[lang]")?.lang === "en"; // of a reader
+  const english = texts.map((text) => new RegExp(`^${text}$`, "u"));
   const look = (text, node) => {
-    const said = (text ?? "").toLowerCase().match(/\\p{L}+/gu) ?? [];
-    const foreign = said.filter((word) => words.includes(word));
-    const isPoint = /\\d\\.\\d|\\d%/.test(text ?? ""); // "1.5 s", "4.4%"
-    if ((foreign.length || isPoint) && !isEnglish(node)) found.push(text.trim().slice(0, 90));
+    let rest = (text ?? "").trim();
+    for (const name of names) rest = rest.replaceAll(name, "");
+    const said = rest.toLowerCase().match(/\\p{L}+/gu) ?? [];
+    const isEnglish =
+      said.some((word) => words.includes(word)) ||
+      english.some((text) => text.test(rest)) ||
+      /\\d\\.\\d|\\d%/.test(rest); // "1.5 s", "4.4%"
+    if (isEnglish && !isName(node) && !isMessage(node)) found.push(rest.slice(0, 120));
   };
   const tree = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
   for (let node = tree.nextNode(); node; node = tree.nextNode())
     look(node.textContent, node.parentElement);
+  const attributes = ["aria-label", "aria-valuetext", "title", "placeholder", "alt",
+    "aria-roledescription"];
   for (const node of document.querySelectorAll("*"))
-    for (const name of ["aria-label", "title", "placeholder", "alt", "aria-roledescription"])
-      look(node.getAttribute(name), node);
+    for (const name of attributes) look(node.getAttribute(name), node);
   for (const field of document.querySelectorAll("input:not([type]), input[type=search]"))
     look(field.value, field);
+  look(document.title, document.body);
   return [...new Set(found)];
 }"""
 
 
-def english_on(viewer: Viewer) -> list[str]:
+@cache
+def list_english_texts() -> list[str]:
+    """Return patterns of the English texts that differ from the German ones."""
+    english, german = (dict(_list_texts(read_texts(code))) for code in LANGUAGES)
+    same = set(german.values())
+    texts = {text for key, text in english.items() if german.get(key) != text} - same
+    return [
+        VALUE.sub(".+", re.sub(r"[.*+?^$()|[\]\\/]", r"\\\g<0>", text))
+        for text in sorted(texts)
+        if len(re.findall(r"[A-Za-z]{2,}", VALUE.sub("", text))) > ("{" in text)
+    ]
+
+
+def _list_texts(node: Any, path: str = "") -> Iterator[tuple[str, str]]:
+    if isinstance(node, str):
+        yield path, node
+        return
+    for key, each in node.items() if isinstance(node, dict) else enumerate(node):
+        yield from _list_texts(each, f"{path}.{key}")
+
+
+def english_on(viewer: Viewer | Frame, *names: str) -> list[str]:
     """Return the texts of a page, hidden ones too, that are English or have English numbers.
 
     Parameters
     ----------
     viewer
-        The page. What it marks as English may be so.
+        The page, or a frame in it.
+    *names
+        Names that people have given, which are not translated.
     """
-    found: list[str] = viewer.page.evaluate(SAID, list(ENGLISH))
+    page = viewer.page if hasattr(viewer, "complaints") else viewer
+    found: list[str] = page.evaluate(LOOK, [sorted(ENGLISH), list_english_texts(), list(names)])
     return found
 
 

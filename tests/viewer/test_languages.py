@@ -31,6 +31,9 @@ if TYPE_CHECKING:
 
 pytestmark = needs_browser
 
+NAMES = ("press",)
+"""Names of stations."""
+
 
 def states_of(viewer: Player) -> Iterator[str]:
     """Choose what can be chosen, one thing after the other; yield each time what it was."""
@@ -68,10 +71,10 @@ def test_no_state_of_the_page_says_an_english_word_to_a_german(
 ) -> None:
     viewer = opened(show)
     assert viewer.page.locator("html").get_attribute("lang") == "de"
-    assert english_on(viewer) == []
+    assert english_on(viewer, *NAMES) == []
     for state in states_of(viewer):
         viewer.painted()
-        assert english_on(viewer) == [], state
+        assert english_on(viewer, *NAMES) == [], state
     assert viewer.complaints == []
 
 

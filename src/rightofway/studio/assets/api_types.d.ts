@@ -693,7 +693,6 @@ export interface SpreadData {
   planned: number;
   from: number;
   to: number;
-  text: Record<string, PhraseData | string>;
 }
 
 /** A document that somebody changes. */

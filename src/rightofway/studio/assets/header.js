@@ -21,7 +21,7 @@ export function Header({ studio }) {
       <h1><b>rightofway</b> <span>studio</span></h1>
       ${!isStarting && html`<${File} studio=${studio} />`}
       <div class="actions last">
-        <select class="language" aria-label=${words.language} value=${language} onChange=${({ target }) => studio.speak(target.value)}>${Object.entries(LANGUAGES).map(([code, { name }]) => html`<option value=${code}>${name}</option>`)}</select>
+        <select class="language" aria-label=${words.language} value=${language} onChange=${({ target }) => studio.speak(target.value)}>${Object.entries(LANGUAGES).map(([code, { name }]) => html`<option value=${code} translate=${false}>${name}</option>`)}</select>
         <button type="button" aria-label=${words.keys} title=${`${words.keys} (?)`} onClick=${() => studio.help(true)}><${Icon} name="help" /></button>
         ${!isStarting && html`<${PlanButton} studio=${studio} />`}
       </div>
@@ -81,12 +81,12 @@ function File({ studio }) {
     <div class="actions file">
       <button type="button" class="with-icon" title=${words.toFiles} onClick=${() => studio.toStart()}><${Icon} name="files" /><span>${words.files}</span></button>
       <${Field} class="file-name" aria-label=${words.fileName} title=${store.path || words.fileName} placeholder=${words.unnamed} value=${store.path} spellcheck="false" onChange=${rename} onKeyDown=${enter} />
-      <button type="button" class="framed" title=${`${words.save} (Ctrl+S)`} onClick=${() => shelf.save()}>${words.save}</button>
+      <button type="button" class="framed" title=${`${words.save} (${words.control}+S)`} onClick=${() => shelf.save()}>${words.save}</button>
       <span class="state" role="status" title=${store.isSaved ? "" : words.draftHint}>${stateOf(store)}</span>
     </div>
     <div class="actions">
-      ${press("undo", words.undo, "Ctrl+Z", !store.canUndo, () => store.undo())}
-      ${press("redo", words.redo, "Ctrl+Shift+Z", !store.canRedo, () => store.redo())}
+      ${press("undo", words.undo, `${words.control}+Z`, !store.canUndo, () => store.undo())}
+      ${press("redo", words.redo, `${words.control}+${words.shift}+Z`, !store.canRedo, () => store.redo())}
     </div>`;
 }
 
@@ -96,5 +96,5 @@ function File({ studio }) {
  */
 export function PlanButton({ studio, text = words.plan }) {
   const reason = studio.notReady;
-  return html`<button type="button" class="framed strong" aria-disabled=${String(Boolean(reason))} title=${reason || "Ctrl+Enter"} onClick=${() => studio.plan()}>${text}</button>`;
+  return html`<button type="button" class="framed strong" aria-disabled=${String(Boolean(reason))} title=${reason || `${words.control}+Enter`} onClick=${() => studio.plan()}>${text}</button>`;
 }

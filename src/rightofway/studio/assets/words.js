@@ -9,9 +9,9 @@ import * as viewer from "../../viz/page/assets/language/language.js";
  */
 function shared({ markup, ...texts }) {
   const { planner, robot, copied, severities, noFindings, faults } = texts;
-  const { map, time, language, keys, close, zoomIn, zoomOut, fit } = markup;
+  const { map, time, language, keys, close, zoomIn, zoomOut, fit, shift } = markup;
   return {
-    ...{ map, time, language, keys, close, zoomIn, zoomOut, fit },
+    ...{ map, time, language, keys, close, zoomIn, zoomOut, fit, shift },
     ...{ planner, robot, copied, severities },
     faultCount: faults,
     nothingFound: noFindings,

@@ -633,13 +633,7 @@ class ByClock(TypedDict):
 
 SpreadData = TypedDict(
     "SpreadData",
-    {
-        "counts": list[int],
-        "planned": int,
-        "from": float,
-        "to": float,
-        "text": dict[str, Phrase | str],
-    },
+    {"counts": list[int], "planned": int, "from": float, "to": float},
 )
 """How many runs have which flowtime [ticks]."""
 

@@ -19,7 +19,6 @@ from rightofway.report.facts import pack_note, write_note
 from rightofway.report.laps_data import make_laps_data, write_reason
 from rightofway.report.phrases import to_parts
 from rightofway.report.plan_data import describe_measures
-from rightofway.report.quantities import Quantities
 from rightofway.studio.messages import Blobs, Emit
 from rightofway.studio.tasks.documents import compute_digest, compute_figures, load_document
 from rightofway.studio.tasks.planning import PlanningProgress
@@ -202,17 +201,11 @@ def compute_spread(outcome: SimulationResult) -> dict[str, Any] | None:
     if not len(whole):
         return None
     counts, edges = np.histogram(whole.sum(axis=1), bins=CLASSES)
-    duration = Quantities.of(outcome.plan.scenario).format_duration
     return {
         "counts": counts.tolist(),
         "planned": outcome.plan.flowtime,
         "from": float(edges[0]),
         "to": float(edges[-1]),
-        "text": {
-            "planned": to_parts(duration(outcome.plan.flowtime)),
-            "from": to_parts(duration(round(edges[0]))),
-            "to": to_parts(duration(round(edges[-1]))),
-        },
     }
 
 

@@ -1,7 +1,6 @@
 /** A plan beside the one before it: what was changed, both sums, who gains and who loses. */
 
 import { html, useEffect } from "../vendor/htm-preact.js";
-import { said } from "../../../viz/page/assets/language/language.js";
 import { Quantities } from "../../../viz/page/assets/language/quantities.js";
 import { changeInWords } from "../../../viz/page/assets/figures/compared_table.js";
 import { words } from "../words.js";
@@ -37,7 +36,9 @@ export function Change({ studio }) {
     studio.reveal(".change");
   }, [comparison, runs.losses]); // the waits stand above it
   if (!comparison || !stage.plan) return null;
-  const [before, after] = comparison.plans.map(({ text }) => said(text.flowtime));
+  const [before, after] = comparison.plans.map(({ flowtime, units, tick }) =>
+    new Quantities(units, tick).duration(flowtime),
+  );
   const { changes } = comparison.comparison.plans[1];
   const { start, robots } = runs.run?.figures ?? {};
   const { waits, goes_first } = runs.run?.request ?? {};

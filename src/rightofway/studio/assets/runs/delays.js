@@ -1,7 +1,6 @@
 /** What becomes of a plan with delays: how late over all runs, any of them to replay, who suffers, where. */
 
 import { html, useEffect, useState } from "../vendor/htm-preact.js";
-import { said as phraseText } from "../../../viz/page/assets/language/language.js";
 import { fraction, Quantities } from "../../../viz/page/assets/language/quantities.js";
 import { words } from "../words.js";
 /** @import { Plan } from "../../../viz/page/assets/plan/plan.js" */
@@ -59,7 +58,7 @@ export function Delays({ studio, report }) {
     ${
       report.spread &&
       html`<p class="late">${words.lateInSum({ median: late(ticks, median), most: late(short, p90), worst: late(short, max) })}</p>
-      <${Spread} spread=${report.spread} short=${short} flowtime=${flowtime} at=${at} play=${play} />`
+      <${Spread} spread=${report.spread} ticks=${ticks} short=${short} flowtime=${flowtime} at=${at} play=${play} />`
     }
     ${never > 0 && html`<p class="wrong">${words.runsNeverEnd({ count: never, all: report.runs })}</p>`}
     <label class="ranks" for="rank"><span>${words.runByRank}</span>
@@ -84,9 +83,9 @@ const late = (said, value) => (value > 0 ? said(value) : words.inTime);
 
 /**
  * How many runs have which flowtime; the plan's own is a line, the run that plays is marked; a press plays a run.
- * @param {{spread: SpreadData, short: (value: number) => string, flowtime: (number | null)[], at: number, play: (index: number) => void}} props
+ * @param {{spread: SpreadData, ticks: (value: number) => string, short: (value: number) => string, flowtime: (number | null)[], at: number, play: (index: number) => void}} props
  */
-function Spread({ spread: { counts, planned, from, to, text }, short, flowtime, at, play }) {
+function Spread({ spread: { counts, planned, from, to }, ticks, short, flowtime, at, play }) {
   const most = Math.max(...counts);
   const span = Math.max(to - from, 1); // a plan that is further away than that stands at the border
   const [first, last] = [
@@ -94,10 +93,10 @@ function Spread({ spread: { counts, planned, from, to, text }, short, flowtime, 
     Math.min(Math.max(to, planned, from + 1), to + span),
   ];
   /**
-   * @param {number} ticks
+   * @param {number} value
    * @returns {number}
    */
-  const x = (ticks) => 4 + ((WIDTH - 8) * (ticks - first)) / (last - first);
+  const x = (value) => 4 + ((WIDTH - 8) * (value - first)) / (last - first);
   const width = Math.max((x(to) - x(from)) / counts.length, 2);
   /**
    * @param {PageEvent} event
@@ -123,7 +122,7 @@ function Spread({ spread: { counts, planned, from, to, text }, short, flowtime, 
   const isInside = from <= planned && planned <= to;
   const ends = [Math.min(from, planned), ...(isInside ? [planned] : []), Math.max(to, planned)];
   return html`
-    <figure class="spread"><svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" preserveAspectRatio="none" onClick=${press} aria-label=${words.spread({ from: phraseText(text.from), to: phraseText(text.to), planned: phraseText(text.planned) })}>
+    <figure class="spread"><svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" preserveAspectRatio="none" onClick=${press} aria-label=${words.spread({ from: ticks(from), to: ticks(to), planned: ticks(planned) })}>
       ${counts.map((count, i) => {
         const height = count ? Math.max(((HEIGHT - 6) * count) / most, 1.5) : 0;
         const isChosen =

@@ -33,7 +33,7 @@ export function Exports({ studio }) {
       ${command && html`<${Command} studio=${studio} copied=${copied} copy=${copy} />`}
       <h3>${words.otherPrograms}</h3>
       <ul class="formats">
-        ${Object.entries(choices.formats).map(([form, summary]) => html`<li><a href=${studio.exportAddress(form)} download>${form}</a> <small>${phraseText(summary)}</small></li>`)}
+        ${Object.entries(choices.formats).map(([form, summary]) => html`<li><a href=${studio.exportAddress(form)} translate=${false} download>${form}</a> <small>${phraseText(summary)}</small></li>`)}
       </ul>
     </details>
   </section>`;

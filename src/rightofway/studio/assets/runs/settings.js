@@ -3,7 +3,11 @@
 import { html } from "../vendor/htm-preact.js";
 import { Field } from "../field.js";
 import { words } from "../words.js";
-import { language, said as phraseText } from "../../../viz/page/assets/language/language.js";
+import {
+  figure,
+  language,
+  said as phraseText,
+} from "../../../viz/page/assets/language/language.js";
 /** @import { PlannerEntry, PlannerOption } from "../api_types.js" */
 /** @import { Props, SearchForm } from "../types.js" */
 
@@ -29,7 +33,7 @@ export function Settings({ studio }) {
       <details open=${!runs.payload && !runs.running}><summary>${words.planSummary({ planner: chosen, seconds: settings.time_limit })}</summary>
       <div class="fields">
         <label>${words.planner}<select id="planner" aria-describedby="planner-summary" value=${chosen} onChange=${({ target }) => set({ planner: target.value, options: {} })}>
-          ${planners.planners.map(({ name, summary }) => html`<option value=${name} title=${phraseText(summary)} translate="no">${name}</option>`)}</select></label>
+          ${planners.planners.map(({ name, summary }) => html`<option value=${name} title=${phraseText(summary)} translate=${false}>${name}</option>`)}</select></label>
         <label>${words.limit}<input type="number" id="limit" required min="0.1" max=${studio.about.limits?.seconds} step="any" value=${settings.time_limit} onInput=${({ target }) => set({ time_limit: target.value })} /></label>
         <label>${words.seed}<input type="number" id="seed" required min="0" max="4294967295" step="1" value=${settings.seed} onInput=${({ target }) => set({ seed: target.value })} /></label>
       </div>
@@ -68,10 +72,10 @@ function Options({ spec, given, set }) {
   /** @param {PlannerOption} option */
   const field = ({ name, choices, whole, default: usual }) =>
     choices.length
-      ? html`<select aria-describedby=${`option-${name}`} value=${given[name] ?? usual} onChange=${({ target }) => write(name, target.value)}>${choices.map((each) => html`<option lang="en">${each}</option>`)}</select>`
-      : html`<${Field} aria-describedby=${`option-${name}`} value=${given[name] ?? ""} placeholder=${String(usual ?? "")} inputmode=${whole ? "numeric" : "text"} onChange=${({ target }) => write(name, target.value.trim())} />`;
+      ? html`<select aria-describedby=${`option-${name}`} value=${given[name] ?? usual} onChange=${({ target }) => write(name, target.value)}>${choices.map((each) => html`<option translate=${false}>${each}</option>`)}</select>`
+      : html`<${Field} aria-describedby=${`option-${name}`} value=${given[name] ?? ""} placeholder=${figure(String(usual ?? ""))} inputmode=${whole ? "numeric" : "text"} onChange=${({ target }) => write(name, target.value.trim())} />`;
   return html`<div class="options">${spec.options.map(
     (option) => html`
-    <label><span lang="en">${option.name}</span>${field(option)}</label><p id=${`option-${option.name}`} class="hint">${phraseText(option.summary)}</p>`,
+    <label><span translate=${false}>${option.name}</span>${field(option)}</label><p id=${`option-${option.name}`} class="hint">${phraseText(option.summary)}</p>`,
   )}</div>`;
 }

@@ -161,6 +161,7 @@ export function offerLanguages(select) {
   for (const [code, { name }] of Object.entries(LANGUAGES)) {
     const option = new Option(code.toUpperCase(), code);
     option.title = name;
+    option.translate = false;
     select.append(option);
   }
   select.value = language;

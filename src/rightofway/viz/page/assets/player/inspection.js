@@ -128,6 +128,7 @@ class InspectPage {
 
   #showHead() {
     const { title, description, notes, levels } = this.raw;
+    if (!this.root.isPart) document.title = [title, said(description)].filter(Boolean).join(": ");
     this.root
       .part("headline")
       .replaceChildren(
