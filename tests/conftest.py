@@ -36,6 +36,7 @@ SLOW = (
     "laws/test_time_limits.py",
     "planners/test_limits.py",  # limits of time, and interrupts
     "planners/test_passing.py",  # every planner on every site with passed vertices
+    "repair/test_flip.py",  # plans of all flips
     "studio/test_accessibility.py",  # a browser
     "studio/test_attacks.py",  # thousands of requests
     "studio/test_beginning.py",  # a browser
@@ -53,6 +54,7 @@ SLOW = (
     "studio/test_robots_table.py",  # a browser
     "studio/test_runs.py",  # plans
     "studio/test_sizes.py",  # a browser
+    "studio/test_store.py",  # studios that start and stop
     "studio/test_stories.py",  # a browser
     "studio/test_streams.py",  # a browser
     "studio/test_studies_page.py",  # a browser
