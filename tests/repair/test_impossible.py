@@ -91,7 +91,7 @@ def test_a_long_list_of_reasons_is_cut_in_the_message_only() -> None:
         fleet.add_robot(f"R{index}", home=(0, index), target=(2, index))
     error = no_plan(fleet.build_scenario())
     assert str(error).splitlines()[-1] == "and 3 more"
-    assert len(error.as_dict()["robots"]) == robots  # type: ignore[arg-type]
+    assert len(error.as_dict()["robots"]) == robots
 
 
 def test_a_blocked_part_is_found_beside_a_hall_of_other_robots() -> None:
