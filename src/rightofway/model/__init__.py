@@ -15,7 +15,7 @@ from rightofway.model.plan import (
     RobotPlan,
     StartPlan,
 )
-from rightofway.model.planned_work import PlannedItem, PlannedTour
+from rightofway.model.planned_tour import PlannedItem, PlannedTour
 from rightofway.model.problem import Arc, Itinerary, Problem, Stage, compute_least_dwell
 from rightofway.model.resources import Resources
 from rightofway.model.robot import Occupancy, Robot, Rules, Stop, TripEnd, Turn, Walls

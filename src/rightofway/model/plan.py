@@ -25,13 +25,8 @@ from rightofway.model.kept_facts import RerouteReason, Status
 from rightofway.model.lost_time import LostTime, Wait
 from rightofway.model.outcome import ForcedLoss, Objective, Outcome
 from rightofway.model.passing import unfold_tracks
-from rightofway.model.planned_work import (
-    PlannedItem,
-    PlannedTour,
-    assign_plan,
-    refuse_wrong_tours,
-    time_tours,
-)
+from rightofway.model.planned_tour import PlannedItem, PlannedTour
+from rightofway.model.planned_work import assign_plan, refuse_wrong_tours, time_tours
 from rightofway.model.robot import Robot
 from rightofway.model.route import Track
 from rightofway.model.scenario import Scenario

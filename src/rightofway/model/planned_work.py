@@ -3,61 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import zip_longest
 from typing import get_args
 
 import numpy as np
 
 from rightofway.errors import InputError, InputFault, Steps, quote
-from rightofway.kinds.table import WHOLE, allow_none, coerce_fields
+from rightofway.model.planned_tour import PlannedItem, PlannedTour
 from rightofway.model.route import Track
 from rightofway.model.scenario import Scenario, assign_tours
 from rightofway.model.stays import Stays, find_stays
 from rightofway.model.units import NEVER, Tick
 from rightofway.model.work import Job, Tour, TourItem, UnservedReason, Work
 from rightofway.site import VertexId
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PlannedItem:
-    """Work at a stop of a job, or a charge, in a visit of a robot.
-
-    Attributes
-    ----------
-    visit
-        The visit of the robot, from 0.
-    begin, end
-        When it begins and ends [ticks].
-    job, stop
-        Index of the job, and of the stop among all its stops; None and None for a charge.
-
-    Raises
-    ------
-    InputError
-        With every value that is not a whole number.
-    """
-
-    visit: int
-    begin: Tick
-    end: Tick
-    job: int | None = None
-    stop: int | None = None
-
-    def __post_init__(self) -> None:
-        coerce_fields(
-            self,
-            "",
-            visit=WHOLE,
-            begin=WHOLE,
-            end=WHOLE,
-            job=allow_none(WHOLE),
-            stop=allow_none(WHOLE),
-        )
-
-
-PlannedTour = tuple[PlannedItem, ...]
-"""What a robot does, in order."""
 
 
 def refuse_wrong_tours(

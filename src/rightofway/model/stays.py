@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.model.planned_tour import PlannedTour
 from rightofway.model.problem import Itinerary, Problem
 from rightofway.model.route import (
     Track,
@@ -20,9 +20,6 @@ from rightofway.model.scenario import Scenario
 from rightofway.model.stage_times import StageTimes, find_stage_times
 from rightofway.model.units import NEVER, Tick
 from rightofway.site import Roadmap
-
-if TYPE_CHECKING:
-    from rightofway.model.planned_work import PlannedTour
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
