@@ -97,6 +97,8 @@ def test_settings_of_all_planners_are_german(german: StudioPage) -> None:
         choice.select_option(name)
         german.settle()
         assert_german(german, f"planner-{name}")
+        values = [each.input_value() for each in german.page.locator(".options select").all()]
+        assert all(values), name  # the default of each choice is shown
 
 
 @pytest.fixture

@@ -72,7 +72,7 @@ function Options({ spec, given, set }) {
   /** @param {PlannerOption} option */
   const field = ({ name, choices, whole, default: usual }) =>
     choices.length
-      ? html`<select aria-describedby=${`option-${name}`} value=${given[name] ?? usual} onChange=${({ target }) => write(name, target.value)}>${choices.map((each) => html`<option translate=${false}>${each}</option>`)}</select>`
+      ? html`<select aria-describedby=${`option-${name}`} value=${given[name] ?? usual} onChange=${({ target }) => write(name, target.value)}>${choices.map((each) => html`<option value=${each} translate=${false}>${each}</option>`)}</select>`
       : html`<${Field} aria-describedby=${`option-${name}`} value=${given[name] ?? ""} placeholder=${figure(String(usual ?? ""))} inputmode=${whole ? "numeric" : "text"} onChange=${({ target }) => write(name, target.value.trim())} />`;
   return html`<div class="options">${spec.options.map(
     (option) => html`
