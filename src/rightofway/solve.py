@@ -125,8 +125,10 @@ def solve(
     spec, limit = find(planner), require_time_limit(time_limit)
     if start is not None:
         _refuse_start(spec)
-    settled = _settled(spec, options, named, seed)
-    task = Task(scenario=scenario, **settled, report=report or _silent, keep_best=keep_best)
+    settled = _settle_options(spec, options, named, seed)
+    task = Task(
+        scenario=scenario, **settled, report=report or _discard_progress, keep_best=keep_best
+    )
     if scenario.jobs is not None and scenario.tours is None:
         return _run_rounds(spec, task, limit, seconds_per_visit, on_plan)
     return _run(spec, task, limit, seconds_per_visit, on_plan, old=start)[0]
@@ -175,8 +177,10 @@ def improve(
         remedy = f"repair it: {start}, keeps its routes where it can"
         message = f"the plan has {judged.summary}; improving starts from a plan without faults"
         raise InputError.at("", f"{message} ({remedy})")
-    settled = _settled(spec, options, named, seed)
-    task = Task(scenario=plan.scenario, **settled, report=report or _silent, keep_best=keep_best)
+    settled = _settle_options(spec, options, named, seed)
+    task = Task(
+        scenario=plan.scenario, **settled, report=report or _discard_progress, keep_best=keep_best
+    )
     return _run(spec, replace(task, start=plan.tracks), limit, seconds_per_visit, on_plan)[0]
 
 
@@ -187,11 +191,11 @@ def _refuse_start(spec: PlannerSpec) -> None:
         raise InputError.at("planner", message)
 
 
-def _silent(_: Fact | str) -> None:
+def _discard_progress(_: Fact | str) -> None:
     """Take a fact on progress, and do nothing."""
 
 
-def _settled(
+def _settle_options(
     spec: PlannerSpec,
     options: PlannerOptions | Mapping[str, Any] | None,
     named: dict[str, Any],
@@ -274,7 +278,7 @@ def _run(
         if alone is None:
             raise GaveUp(Fact("time over", doing=Fact("measuring distances")))
         refuse_stranded(task.scenario, np.flatnonzero(alone < 0).tolist())
-        least_visits = _least_visits(task.scenario, alone.tolist())
+        least_visits = _estimate_visits(task.scenario, alone.tolist())
         task = replace(
             task,
             alone=alone,
@@ -282,7 +286,7 @@ def _run(
             has_plan=keep,
         )
         if on_plan is not None:
-            task = replace(task, better=_handing_over(on_plan, spec, task))
+            task = replace(task, better=_make_hand_over(on_plan, spec, task))
         if task.start is not None:
             keep()
         try:
@@ -294,7 +298,7 @@ def _run(
     start = None if old is None else compare_with_start(old, task.scenario, draft.tracks)
     run = PlannerRun(
         name=spec.name,
-        options=_written_options(task),
+        options=_format_options(task),
         seed=task.seed,
         status=None if draft.status is None else Status.of(draft.status),
         seconds=with_plan[-1],
@@ -311,7 +315,7 @@ def _run(
     may_have = {"swap conflict"} if draft.keeps_swaps else OF_BATTERIES
     if not may_have.issuperset(report.counts):
         raise InvalidPlan(f"{spec.name} made a plan with {report}")
-    outcome = _outcome(spec, task, draft, plan, keeps_rules=report.ok)
+    outcome = _classify_outcome(spec, task, draft, plan, keeps_rules=report.ok)
     return replace(plan, run=replace(run, outcome=outcome)), report
 
 
@@ -326,7 +330,7 @@ def _make_plan(
     return Plan(scenario=task.scenario, tracks=driven, run=run, unserved=tuple(unserved))
 
 
-def _outcome(
+def _classify_outcome(
     spec: PlannerSpec, task: Task, draft: Draft, plan: Plan, *, keeps_rules: bool
 ) -> Outcome:
     """Return the proof of a plan: by its planner, and by the robots alone."""
@@ -349,7 +353,7 @@ def _outcome(
     return classify_cost(cost, proof)
 
 
-def _written_options(task: Task) -> dict[str, Any]:
+def _format_options(task: Task) -> dict[str, Any]:
     """Return the options as files keep them: an exact number as a whole number or text."""
     return {
         name: format_number(value) if isinstance(value, Fraction) else value
@@ -377,7 +381,7 @@ def _make_draft(spec: PlannerSpec, task: Task, old: Plan | None) -> Draft:
         return Draft(tracks=tracks, status=Status("adapted"))
 
 
-def _handing_over(
+def _make_hand_over(
     on_plan: Callable[[Plan], None], spec: PlannerSpec, task: Task
 ) -> Callable[[Callable[[], Sequence[Track]]], None]:
     """Return a function that hands plans of a planner that goes on to the caller of `solve`.
@@ -388,7 +392,7 @@ def _handing_over(
     alone = tuple(task.alone.tolist())
     run = PlannerRun(
         name=spec.name,
-        options=_written_options(task),
+        options=_format_options(task),
         seed=task.seed,
         status=Status("so far"),
         alone=alone,
@@ -405,7 +409,7 @@ def _handing_over(
     return hand_over
 
 
-def _least_visits(scenario: Scenario, alone: Sequence[int]) -> int:
+def _estimate_visits(scenario: Scenario, alone: Sequence[int]) -> int:
     """Return about how many visits the shortest routes of a fleet have."""
     visits = 0
     for itinerary, ticks in zip(scenario.problem.itineraries, alone, strict=True):

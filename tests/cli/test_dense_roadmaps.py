@@ -138,7 +138,7 @@ def test_planning_leaves_time_to_write_each_lane(
     monkeypatch.setattr(planning, "SECONDS_PER_LANE", 0.1)
     lanes = load(dense).roadmap.n_edges
     for scenario, left in ((load(dense), lanes * 0.9), (load(EXAMPLES / "door.yaml"), lanes)):
-        ends = planning._leave_time_to_write(Deadline.after(lanes), scenario)
+        ends = planning._reserve_time_to_write(Deadline.after(lanes), scenario)
         assert ends.measure_seconds_left() == pytest.approx(left, abs=5)
 
 

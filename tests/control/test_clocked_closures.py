@@ -76,7 +76,7 @@ def driver_of(
     )
     letters = deque(driver.end.make_letters(driver.control.start()))
     for _ in range(12):
-        letters.extend(driver._obey())
+        letters.extend(driver._run_round())
         while letters:
             robot.receive(letters.popleft())
             letters.extend(driver.end.receive(robot.report_state()))

@@ -150,6 +150,6 @@ def test_our_own_planners_plan_without_a_search_of_installed_packages(
     def search(_path: tuple[str, ...]) -> dict[str, Any]:
         raise AssertionError("packages were searched")
 
-    monkeypatch.setattr("rightofway.planners.registry._of_other_packages", search)
+    monkeypatch.setattr("rightofway.planners.registry._list_of_other_packages", search)
     fleet = FleetBuilder(grid=[".."]).add_robot("R1", home="N0", target="N1")
     assert solve(fleet.build_scenario(), "lacam").flowtime > 0

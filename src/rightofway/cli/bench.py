@@ -99,10 +99,10 @@ def _run(cases: Sequence[Case], results: Results, *, jobs: int | None, dask: str
     )
     for number, row in enumerate(rows, start=done + 1):
         results.add(row)
-        say(f"[{number}/{len(cases)}] {left[row['key']]}: {_ending(row)}")
+        say(f"[{number}/{len(cases)}] {left[row['key']]}: {_describe_ending(row)}")
 
 
-def _ending(row: Row) -> str:
+def _describe_ending(row: Row) -> str:
     if row["solved"]:
         ratio = "" if row["ratio"] is None else f"flowtime / bound {row['ratio']:.3f} in "
         return f"{ratio}{row['wall_seconds']:.2f} s"

@@ -108,16 +108,16 @@ def collisions(
         if output:
             put_lists(lists, output)
         if as_json:
-            put_json(_collision_data(listed, plan, quantities))
+            put_json(_make_collision_data(listed, plan, quantities))
     if not output and not as_json:
         ticks = len(lists[0]) if each_tick else 0
-        parts = [_headline(listed, ticks, is_planned=plan is not None), *_texts(lists)]
+        parts = [_write_headline(listed, ticks, is_planned=plan is not None), *_write_texts(lists)]
         if len(lists) > 1:
             parts.append(LEGEND)
         if plan is not None:
             remaining = name_collisions(scenario, plan.tracks)
-            parts.append(f"Left in the plan: {_counted(remaining)}.")
-            parts += _texts([tabulate_collisions(remaining, quantities)])
+            parts.append(f"Left in the plan: {_write_counts(remaining)}.")
+            parts += _write_texts([tabulate_collisions(remaining, quantities)])
         click.echo("\n\n".join(parts))
 
 
@@ -130,8 +130,8 @@ def _refuse_length(listed: NamedCollisions) -> None:
         raise InputError.at("-o, --json", f"{message} (leave both out, or take fewer robots)")
 
 
-def _headline(listed: NamedCollisions, ticks: int, *, is_planned: bool) -> str:
-    number = _counted(listed)
+def _write_headline(listed: NamedCollisions, ticks: int, *, is_planned: bool) -> str:
+    number = _write_counts(listed)
     if ticks and listed:
         number += f", in {say_count(ticks, 'tick', 'ticks')}"
     if is_planned:
@@ -139,11 +139,11 @@ def _headline(listed: NamedCollisions, ticks: int, *, is_planned: bool) -> str:
     return f"On the shortest routes, without waits: {number}."
 
 
-def _texts(lists: Sequence[Listing]) -> list[str]:
+def _write_texts(lists: Sequence[Listing]) -> list[str]:
     return [listing.as_text() for listing in lists if len(listing)]
 
 
-def _counted(listed: NamedCollisions) -> str:
+def _write_counts(listed: NamedCollisions) -> str:
     kinds = listed.count_kinds()
     collisions = say_count(kinds["collision"], "collision", "collisions")
     swaps = say_count(kinds["swap"], "swap", "swaps")
@@ -152,7 +152,7 @@ def _counted(listed: NamedCollisions) -> str:
     return f"{text}, {near}" if kinds["too near"] else text
 
 
-def _collision_data(
+def _make_collision_data(
     listed: NamedCollisions, plan: Plan | None, quantities: Quantities
 ) -> dict[str, Any]:
     """Return collisions and decisions for programs; times in ticks."""
@@ -161,7 +161,7 @@ def _collision_data(
 
     data = {
         **describe_clock(quantities),
-        "collisions": [_pair_data(collision) for collision in listed],
+        "collisions": [_make_pair_data(collision) for collision in listed],
     }
     if plan is not None:
         names, place = [robot.name for robot in plan.scenario.robots], plan.scenario.roadmap.name
@@ -182,11 +182,11 @@ def _collision_data(
             )
         ]
         left = name_collisions(plan.scenario, plan.tracks)
-        data["left"] = [_pair_data(collision) for collision in left]
+        data["left"] = [_make_pair_data(collision) for collision in left]
     return data
 
 
-def _pair_data(collision: NamedCollision) -> dict[str, Any]:
+def _make_pair_data(collision: NamedCollision) -> dict[str, Any]:
     return {
         "robots": [collision.i, collision.j],
         "vertices": collision.places,

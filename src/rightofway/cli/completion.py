@@ -32,7 +32,7 @@ def complete_files(*suffixes: str) -> Completer:
         _context: click.Context, _parameter: click.Parameter, incomplete: str
     ) -> list[CompletionItem[str]]:
         folder, slash, stem = incomplete.rpartition("/")
-        paths = sorted(Path(folder + slash or ".").glob(f"{_literal(stem)}*"))
+        paths = sorted(Path(folder + slash or ".").glob(f"{_make_literal(stem)}*"))
         return [
             CompletionItem(f"{folder}{slash}{path.name}" + "/" * path.is_dir())
             for path in paths
@@ -43,7 +43,7 @@ def complete_files(*suffixes: str) -> Completer:
     return complete
 
 
-def _literal(text: str) -> str:
+def _make_literal(text: str) -> str:
     """Return a pattern that only the text itself fits."""
     return "".join(f"[{character}]" if character in "*?[" else character for character in text)
 

@@ -83,14 +83,14 @@ def examples(name: str | None, output: str | None, parent: str | None) -> None:
             raise click.UsageError("-o writes one example (give its name)")
         _list()
     else:
-        example = _example(name)
+        example = _locate_example(name)
         if output in {None, "-"}:
             click.echo(example.read_text(encoding="utf-8"), nl=False)
         else:
             _write(example, Path(output or ""))
 
 
-def _example(name: str) -> Path:
+def _locate_example(name: str) -> Path:
     stem = name.removesuffix(".yaml").removesuffix(".toml").removeprefix("examples/")
     known = list_example_names()
     within = [candidate for candidate in known if candidate.endswith(f"/{stem}")]
@@ -105,7 +105,7 @@ def _example(name: str) -> Path:
 
 
 def _list() -> None:
-    rows = [(name, read_first_sentence(_example(name))) for name in list_example_names()]
+    rows = [(name, read_first_sentence(_locate_example(name))) for name in list_example_names()]
     formatter = click.HelpFormatter(width=80)
     formatter.write_dl(rows)
     click.echo(formatter.getvalue(), nl=False)

@@ -49,13 +49,13 @@ def _list_formats(formatter: click.HelpFormatter) -> None:
         formatter.write_dl([(name, writer.summary) for name, writer in LAYOUT_WRITERS.items()])
 
 
-def _names() -> Iterable[str]:
+def _list_names() -> Iterable[str]:
     from rightofway.io import FOREIGN_FORMATS, LAYOUT_WRITERS, SITE_PLAN_FORMATS
 
     return dict.fromkeys((*SITE_PLAN_FORMATS, *FOREIGN_FORMATS, *LAYOUT_WRITERS))
 
 
-def _radius(
+def _read_radius(
     _context: click.Context, _parameter: click.Parameter, given: str | None
 ) -> Fraction | None:
     """Return the radius as an exact number."""
@@ -78,9 +78,9 @@ def _radius(
 @click.option("-o", "--output", metavar="TARGET", callback=require_writable(),
               help="File to write, the same as the argument TARGET; - for standard output.",
               )  # fmt: skip
-@click.option("--to", "name", metavar="FORMAT", shell_complete=complete_words(_names),
+@click.option("--to", "name", metavar="FORMAT", shell_complete=complete_words(_list_names),
               help="Write a plan or a layout for another program; see below.")  # fmt: skip
-@click.option("--radius", metavar="LENGTH", callback=_radius,
+@click.option("--radius", metavar="LENGTH", callback=_read_radius,
               help="Radius of the robots of the scenario that is written for a layout [m].",
               )  # fmt: skip
 @count_option
@@ -110,7 +110,7 @@ def convert(
     if (target is None) == (output is None):
         raise click.UsageError("give one file to write: convert SOURCE -o TARGET")
     path = target or output or ""
-    ending = _layout_ending(path) if name is None else None
+    ending = _find_layout_ending(path) if name is None else None
     if name is None and ending is None:
         _check_ending(path)
     if _is_layout(source):
@@ -132,14 +132,14 @@ def convert(
 
 def _check_format(name: str | None) -> None:
     """Refuse, before any work, a format that is not known."""
-    known = tuple(_names())
+    known = tuple(_list_names())
     if name is not None and name not in known:
         meant = find_nearest(name, known)
         hint = f"did you mean {meant}?" if meant else f"give one of {', '.join(known)}"
         raise click.BadParameter(f"{name!r} is no format ({hint})", param_hint="--to")
 
 
-def _layout_ending(path: str) -> str | None:
+def _find_layout_ending(path: str) -> str | None:
     """Return the ending of a file that only a layout of another program has."""
     return next((ending for ending in ENDINGS if path.lower().endswith(ending)), None)
 

@@ -34,7 +34,7 @@ def read_scenario(path: str, count: int | None = None) -> Scenario:
     """
     from rightofway.io import load_with_notes
 
-    return _noted(load_with_notes(path, count=count), path)
+    return _note_loaded(load_with_notes(path, count=count), path)
 
 
 def _keep_file(context: click.Context, parameter: click.Parameter, given: str | None) -> None:
@@ -54,7 +54,7 @@ def add_foreign_options(command: Any) -> Any:
     return command
 
 
-def _files() -> dict[str, str | None]:
+def _list_files() -> dict[str, str | None]:
     """Return the files of `add_foreign_options`."""
     meta = click.get_current_context().meta
     return {"map_file": meta.get(f"{FILES}map"), "scen": meta.get(f"{FILES}scen")}
@@ -64,7 +64,7 @@ def list_own(paths: Sequence[str]) -> Collection[str]:
     """Return the plans that need no files of `add_foreign_options`, as others among them do."""
     from rightofway.io import is_foreign
 
-    if len(paths) == 1 or not any(_files().values()):
+    if len(paths) == 1 or not any(_list_files().values()):
         return ()
     own = [path for path in paths if not is_foreign(path)]
     return own if len(own) < len(paths) else ()
@@ -74,18 +74,18 @@ def read_plan(path: str, own: Collection[str] = ()) -> Plan:
     """Read a plan, ours or of another program; ``-`` is standard input."""
     from rightofway.io import load_plan
 
-    return load_plan(path) if path in own else load_plan(path, **_files())
+    return load_plan(path) if path in own else load_plan(path, **_list_files())
 
 
 def read_either(path: str, count: int | None = None, own: Collection[str] = ()) -> Plan | Scenario:
     """Read a plan or a scenario; ``-`` is standard input."""
     from rightofway.io import Loaded, load_either
 
-    opened = load_either(path, count=count, **({} if path in own else _files()))
-    return _noted(opened, path) if isinstance(opened, Loaded) else opened
+    opened = load_either(path, count=count, **({} if path in own else _list_files()))
+    return _note_loaded(opened, path) if isinstance(opened, Loaded) else opened
 
 
-def _noted(loaded: Loaded, path: str) -> Scenario:
+def _note_loaded(loaded: Loaded, path: str) -> Scenario:
     from rightofway.report.facts import write_notes
 
     for note in write_notes(loaded.notes):

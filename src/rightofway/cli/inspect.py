@@ -53,7 +53,7 @@ Examples:
 @click.option(
     "--cell-size",
     metavar="SIZE",
-    callback=lambda _c, _p, given: _size(given),
+    callback=lambda _c, _p, given: _read_size(given),
     help="Side of the cells that a map in pixels is cut into [m]; 0.5 by default.",
 )
 @click.option(
@@ -96,7 +96,7 @@ def inspect(
     choice = Choice(level=level, vehicle_type=vehicle_type, cell_size=cell_size)
     sites = read_sites(source, choice, fleet)
     results = [(name, site, inspected(site)) for name, site in sites.sites]
-    data = _data(source, sites, results)
+    data = _make_data(source, sites, results)
     if page is not None:
         from rightofway.viz import write_inspection
 
@@ -118,7 +118,7 @@ def inspect(
         put_report(report)
 
 
-def _size(given: str | None) -> Fraction | None:
+def _read_size(given: str | None) -> Fraction | None:
     if given is None:
         return None
     try:
@@ -130,7 +130,9 @@ def _size(given: str | None) -> Fraction | None:
     return size
 
 
-def _data(source: str, sites: Sites, results: list[tuple[str, Site, Inspection]]) -> dict[str, Any]:
+def _make_data(
+    source: str, sites: Sites, results: list[tuple[str, Site, Inspection]]
+) -> dict[str, Any]:
     """Return the report for programs."""
     from rightofway.report.facts import export_note
     from rightofway.report.inspection import export_finding

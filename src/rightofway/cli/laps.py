@@ -56,7 +56,7 @@ def _list_rules(formatter: click.HelpFormatter) -> None:
         formatter.write_dl([*RULES.items(), (TIMETABLE, search)])
 
 
-def _share(_context: click.Context, _parameter: click.Parameter, given: str) -> Fraction:
+def _read_share(_context: click.Context, _parameter: click.Parameter, given: str) -> Fraction:
     try:
         return Fraction(given)
     except (ValueError, ZeroDivisionError):
@@ -78,7 +78,8 @@ def _share(_context: click.Context, _parameter: click.Parameter, given: str) -> 
               help="Routes of the round trips. clear: avoid other robots; direct: avoid them less;"
               " shortest: do not avoid them.  [default: clear]")  # fmt: skip
 @time_limit_option
-@click.option("--least-fairness", metavar="SHARE", default="0", show_default=True, callback=_share,
+@click.option("--least-fairness", metavar="SHARE", default="0", show_default=True,
+              callback=_read_share,
               help="With --rule timetable: least laps of each robot, as a share (0 to 1) of the"
               " laps that it makes without the others.")  # fmt: skip
 @seed_option

@@ -61,7 +61,7 @@ Start with:
 
 
 @cache
-def _command(name: str) -> click.Command:
+def _load_command(name: str) -> click.Command:
     return cast("click.Command", add_shared_options(load_command(name)))
 
 
@@ -69,7 +69,7 @@ class _Modules(Mapping[str, click.Command]):
     """The commands by name; the module of one is imported when it is looked up."""
 
     def __getitem__(self, name: str) -> click.Command:
-        return _command(name)
+        return _load_command(name)
 
     def __iter__(self) -> Iterator[str]:
         return iter(MODULES)
@@ -141,11 +141,11 @@ def main(args: Sequence[str] | None = None) -> NoReturn:
         for stream in (1, 2):
             os.dup2(nowhere, stream)
     if is_process:
-        _leave_quickly(code)
+        _end_quickly(code)
     sys.exit(code)
 
 
-def _leave_quickly(code: int) -> None:
+def _end_quickly(code: int) -> None:
     """End the process as Python does, but free no memory: of a large map that takes a second.
 
     It returns where another thread runs or output is refused, because Python handles both.
@@ -190,7 +190,7 @@ def run(args: Sequence[str] | None = None, session: _Session | None = None) -> i
     try:
         if COMPLETE in os.environ:
             import_module("rightofway.cli.completion")  # makes its script for Bash known to click
-        with _say_warnings():
+        with _show_warnings():
             ended = commands.main(args, prog_name="rightofway", standalone_mode=False, obj=session)
         return int(ended or DONE)
     except click.ClickException as error:
@@ -209,12 +209,12 @@ def run(args: Sequence[str] | None = None, session: _Session | None = None) -> i
         )
         return BAD_INPUT
     except Exception as error:  # noqa: BLE001 (whatever else goes wrong is a defect of ours)
-        _confess(error, debug=session.debug)
+        _print_confession(error, debug=session.debug)
         return DEFECT
 
 
 @contextmanager
-def _say_warnings() -> Iterator[None]:
+def _show_warnings() -> Iterator[None]:
     """Show warnings of ours as messages; those of other packages as Python does."""
     with warnings.catch_warnings():
         show = warnings.showwarning
@@ -229,7 +229,7 @@ def _say_warnings() -> Iterator[None]:
         yield
 
 
-def _confess(error: Exception, *, debug: bool) -> None:
+def _print_confession(error: Exception, *, debug: bool) -> None:
     if debug:
         complain("".join(traceback.format_exception(error)).rstrip("\n"))
     remedy = "please report it; `rightofway --debug …` says more"

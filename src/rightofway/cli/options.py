@@ -32,7 +32,7 @@ def require_writable(
     def check(_context: click.Context, _parameter: click.Parameter, path: str | None) -> str | None:
         if path is None or (path == "-" and stdout):
             return path
-        fault = _unwritable(Path(path), suffixes, instead or {})
+        fault = _explain_unwritable(Path(path), suffixes, instead or {})
         if fault:
             raise click.BadParameter(f"{path!r} {fault}")
         if Path(path).suffix.lower() == ".xlsx":
@@ -44,7 +44,9 @@ def require_writable(
     return check
 
 
-def _unwritable(path: Path, suffixes: tuple[str, ...], instead: dict[str, str]) -> str | None:
+def _explain_unwritable(
+    path: Path, suffixes: tuple[str, ...], instead: dict[str, str]
+) -> str | None:
     if path.is_dir():
         return "is a directory (give a file name in it)"
     suffix = path.suffix.lower()
@@ -107,14 +109,14 @@ def read_positive(given: str, remedy: str) -> float:
     return number
 
 
-def _seconds(_context: click.Context, _parameter: click.Parameter, given: str) -> float | None:
+def _read_seconds(_context: click.Context, _parameter: click.Parameter, given: str) -> float | None:
     """Return a time limit [s]; None for no limit."""
     remedy = "give seconds, or inf for no limit"
     seconds = read_positive(given, remedy)
     return None if seconds == math.inf else seconds
 
 
-def _seed(_context: click.Context, _parameter: click.Parameter, given: str) -> int:
+def _read_seed(_context: click.Context, _parameter: click.Parameter, given: str) -> int:
     from rightofway.kinds.numbers import parse_digits
     from rightofway.kinds.table import SEED
 
@@ -128,7 +130,7 @@ time_limit_option = click.option(
     "--time-limit",
     default="10",
     show_default=True,
-    callback=_seconds,
+    callback=_read_seconds,
     metavar="SECONDS",
     help="Time limit of the whole command; inf for none.",
 )
@@ -138,7 +140,7 @@ seed_option = click.option(
     "--seed",
     default="0",
     show_default=True,
-    callback=_seed,
+    callback=_read_seed,
     metavar="N",
     help="Seed of all random choices; the same seed gives the same result.",
 )

@@ -66,11 +66,11 @@ def paper(tables: tuple[int, ...], *, log: bool, as_json: bool) -> int:
     """
     path = find_examples_folder() / "paper" / "tables.json"
     entries = json.loads(path.read_text(encoding="utf-8"))["tables"]
-    compared = [_table(entry) for entry in entries if not tables or entry["table"] in tables]
+    compared = [_make_table(entry) for entry in entries if not tables or entry["table"] in tables]
     verdicts = _list_verdicts(compared)
     equal = sum(verdicts)
     if as_json:
-        put_json({"tables": [_data(table) for table in compared],
+        put_json({"tables": [_make_data(table) for table in compared],
                   "rows": len(verdicts), "equal": equal})  # fmt: skip
     else:
         for table in compared:
@@ -91,7 +91,7 @@ def _list_verdicts(tables: Sequence[_Table]) -> list[bool]:
     return list(verdicts.values())
 
 
-def _table(entry: dict[str, Any]) -> _Table:
+def _make_table(entry: dict[str, Any]) -> _Table:
     from rightofway.io import load
     from rightofway.solve import solve
     from rightofway.viz.table import make_table
@@ -123,13 +123,13 @@ def _print(table: _Table, *, log: bool) -> None:
     cells = [str(cell) for row in table.rows for cell in row.ours]
     width = 1 + max(len(cell) for cell in [*cells, str(ticks[-1])])
     put_report([f"{title} ({table.scenario}).", ""])
-    put_report(_line("tick", "", ticks, width))
+    put_report(_write_line("tick", "", ticks, width))
     for row in table.rows:
         head = f"{row.robot} {row.kind}"
         if row.published is not None:
-            put_report(_line(head, "published", row.published, width))
+            put_report(_write_line(head, "published", row.published, width))
             head = ""
-        put_report(f"{_line(head, 'ours', row.ours, width)}  {row.verdict}".rstrip())
+        put_report(f"{_write_line(head, 'ours', row.ours, width)}  {row.verdict}".rstrip())
     for fault in check(table.plan).faults:
         text = f"The published method leaves this: {write_fault(fault)}."
         put_report(["", text])
@@ -141,11 +141,11 @@ def _print(table: _Table, *, log: bool) -> None:
     put_report("")
 
 
-def _line(head: str, whose: str, cells: Sequence[object], width: int) -> str:
+def _write_line(head: str, whose: str, cells: Sequence[object], width: int) -> str:
     return f"{head:10}  {whose:9}" + "".join(f"{cell!s:>{width}}" for cell in cells)
 
 
-def _data(table: _Table) -> dict[str, Any]:
+def _make_data(table: _Table) -> dict[str, Any]:
     return {
         "table": table.number,
         "scenario": table.scenario,

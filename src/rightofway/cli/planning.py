@@ -101,7 +101,7 @@ def _list_improvers(formatter: click.HelpFormatter) -> None:
     )
 
 
-def _options(
+def _read_options(
     _context: click.Context, _parameter: click.Parameter, given: Sequence[str]
 ) -> dict[str, str]:
     pairs = [text.partition("=") for text in given]
@@ -111,14 +111,15 @@ def _options(
     return {name: value for name, _, value in pairs}
 
 
-def _planning_options(planner: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+def _add_planning_options(planner: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Return a decorator that adds the options of `_run` to a command."""
     options: list[Callable[[Callable[..., Any]], Callable[..., Any]]] = [
         plan_output_option("the plan"),
         click.option("--planner", default=planner, show_default=True, metavar="NAME",
                      shell_complete=complete_planners(improving=planner == IMPROVER),
                      help="Planner to use; see below."),
-        click.option("--option", "options", multiple=True, metavar="NAME=VALUE", callback=_options,
+        click.option("--option", "options", multiple=True, metavar="NAME=VALUE",
+                     callback=_read_options,
                      shell_complete=complete_planner_options,
                      help="Set an option of the planner; may be repeated."),
         time_limit_option,
@@ -144,7 +145,7 @@ def _planning_options(planner: str) -> Callable[[Callable[..., Any]], Callable[.
 @count_option
 @click.option("--start", type=click.Path(), metavar="PLAN", shell_complete=complete_files(*PLANS),
               help="Start from the PLAN of this SCENARIO before it was changed.")  # fmt: skip
-@_planning_options(DEFAULT_PLANNER)
+@_add_planning_options(DEFAULT_PLANNER)
 def plan(*, scenario: str, count: int | None, **given: Any) -> int:
     """Plan a SCENARIO (YAML, JSON, .xlsx or .scen) and check the plan.
 
@@ -159,7 +160,7 @@ def plan(*, scenario: str, count: int | None, **given: Any) -> int:
 @click.command(cls=ListingCommand, listing=_list_improvers, epilog=IMPROVE_EXAMPLES)
 @click.argument("plan", type=click.Path(), shell_complete=complete_files(*PLANS))
 @add_foreign_options
-@_planning_options(IMPROVER)
+@_add_planning_options(IMPROVER)
 def improve(*, plan: str, **given: Any) -> int:
     """Improve a PLAN of any planner, and check the result.
 
@@ -269,7 +270,7 @@ def _run(
         plan = search(
             problem,
             planner,
-            _leave_time_to_write(deadline, problem).measure_seconds_left(),
+            _reserve_time_to_write(deadline, problem).measure_seconds_left(),
             seed,
             options=options,
             report=report,
@@ -300,7 +301,7 @@ def _run(
     return 1
 
 
-def _leave_time_to_write(deadline: Deadline, problem: Any) -> Deadline:
+def _reserve_time_to_write(deadline: Deadline, problem: Any) -> Deadline:
     """Return when planning must end, so that the map of a scenario or a plan is written in time."""
     scenario: Scenario = getattr(problem, "scenario", problem)
     lanes = scenario.roadmap.n_edges if scenario.roadmap.grid is None else 0

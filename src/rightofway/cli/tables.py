@@ -42,7 +42,7 @@ Examples:
 """
 
 
-def _shown_options(command: Callable[..., Any]) -> Callable[..., Any]:
+def _add_shown_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add the options that choose the shown part of a plan."""
     for option in (
         ticks_option,
@@ -68,7 +68,7 @@ class _Shown:
     step: int
 
 
-def _shown(
+def _choose_shown(
     plan: Plan,
     *,
     first: Fraction,
@@ -116,7 +116,7 @@ def _shown(
 @click.option("--all", "everything", is_flag=True,
               help="Write everything to a workbook: summary, table, diagram, events, collisions,"
                    " decisions.")  # fmt: skip
-@_shown_options
+@_add_shown_options
 @as_json_option("table")
 def table(
     *,
@@ -147,12 +147,14 @@ def table(
         _write_all(opened, output or "", given)
         return
     if events:
-        _events(opened, _shown(opened, **given), output, as_json=as_json)
+        _show_events(opened, _choose_shown(opened, **given), output, as_json=as_json)
         return
     if decision is None:
-        _put_table(_time_space_table(opened, _shown(opened, **given)), output, as_json=as_json)
+        _put_table(
+            _make_time_space_table(opened, _choose_shown(opened, **given)), output, as_json=as_json
+        )
         return
-    shown = _shown(opened, **given)
+    shown = _choose_shown(opened, **given)
     _print_groups(opened, decision, shown, output, as_json=as_json)
 
 
@@ -166,7 +168,7 @@ def _write_all(plan: Plan, path: str, given: dict[str, Any]) -> None:
     say_written(path)
 
 
-def _time_space_table(plan: Plan, shown: _Shown) -> TimeSpaceTable:
+def _make_time_space_table(plan: Plan, shown: _Shown) -> TimeSpaceTable:
     from rightofway.viz.table import make_table
 
     return make_table(
@@ -203,7 +205,7 @@ def _put_table(
     if output and output != "-":
         say_written(output)
     if as_json:
-        put_json({**_table_data(table), **(more or {})})
+        put_json({**_make_table_data(table), **(more or {})})
     elif not output:
         texts = [*words[:1], as_text(table, measure_width()), *words[1:]]
         click.echo("\n\n".join(texts))
@@ -215,7 +217,7 @@ def _write(path: str, content: str | bytes) -> None:
     write_whole(path, content)
 
 
-def _table_data(table: TimeSpaceTable) -> dict[str, Any]:
+def _make_table_data(table: TimeSpaceTable) -> dict[str, Any]:
     """Return the table for programs: for each row its runs of equal cells."""
     return {
         "first_tick": table.first_tick,
@@ -244,7 +246,7 @@ def describe_clock(quantities: Quantities) -> dict[str, Any]:
     }
 
 
-def _events(plan: Plan, shown: _Shown, output: str | None, *, as_json: bool) -> None:
+def _show_events(plan: Plan, shown: _Shown, output: str | None, *, as_json: bool) -> None:
     from rightofway.metrics import make_event_columns
     from rightofway.viz.table import choose_events, tabulate_events
 

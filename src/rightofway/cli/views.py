@@ -189,10 +189,10 @@ def show(
             opened = solve(opened, time_limit=LIMIT, report=report)
         text = describe_planning(opened, choose_quantities(opened.scenario))
         say(f"{plan}: {text}")
-    first, *titles = _titles([plan, *others])
+    first, *titles = _choose_titles([plan, *others])
     extras: dict[str, Any] = {
         "title": first,
-        "background": _background(background, background_scale, opened),
+        "background": _read_background(background, background_scale, opened),
         "others": list(zip((read_plan(path, own) for path in others), titles, strict=True)),
     }
     if page:
@@ -213,7 +213,7 @@ def show(
         _write(opened, output, extras)
 
 
-def _titles(paths: list[str]) -> list[str]:
+def _choose_titles(paths: list[str]) -> list[str]:
     """Return the names of files; the whole paths where two have one name."""
     titles = list(map(make_title, paths))
     return titles if len(set(titles)) == len(titles) else paths
@@ -241,7 +241,7 @@ def _check_background(picture: str | None, scale: float | None, outputs: list[st
         raise click.UsageError(f"--background-scale is for pictures; {picture} says its own scale")
 
 
-def _background(path: str | None, scale: float | None, plan: Plan) -> Background | None:
+def _read_background(path: str | None, scale: float | None, plan: Plan) -> Background | None:
     """Return a picture, or where a layout says that its picture lies."""
     from rightofway.viz import Background
 

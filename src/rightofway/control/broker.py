@@ -118,7 +118,7 @@ class Broker:
             raise InputError.at("broker", f"a password is in the address ({remedy})")
         password = os.environ.get(PASSWORD)
         if password_file is not None:
-            password = _content(password_file, "password-file").rstrip("\r\n")
+            password = _read_content(password_file, "password-file").rstrip("\r\n")
         user = unquote(parts.username) if parts.username else None
         if user is None and password is not None:
             message = "a password is given without a user (write mqtt://user@host)"
@@ -126,7 +126,7 @@ class Broker:
         if parts.scheme == "mqtt" and ca_file is not None:
             message = "certificates are given without TLS (write mqtts://host)"
             raise InputError.at("ca-file", message)
-        tls = _tls(ca_file) if parts.scheme == "mqtts" else None
+        tls = _make_tls(ca_file) if parts.scheme == "mqtts" else None
         return cls(host=parts.hostname, port=port, user=user, password=password, tls=tls)
 
     @property
@@ -195,10 +195,10 @@ def check_cancellation() -> None:
         raise asyncio.CancelledError
 
 
-def _tls(ca_file: str | None) -> ssl.SSLContext:
+def _make_tls(ca_file: str | None) -> ssl.SSLContext:
     tls = ssl.create_default_context()
     if ca_file is not None:
-        _content(ca_file, "ca-file")
+        _read_content(ca_file, "ca-file")
         try:
             tls.load_verify_locations(ca_file)
         except ssl.SSLError as error:
@@ -207,7 +207,7 @@ def _tls(ca_file: str | None) -> ssl.SSLContext:
     return tls
 
 
-def _content(path: str, option: str) -> str:
+def _read_content(path: str, option: str) -> str:
     try:
         return Path(path).read_text(encoding="utf-8")
     except (OSError, ValueError) as error:

@@ -165,12 +165,14 @@ class _Demo:
         self._clock, self._record, self._report = clock, record, report
         maps = make_order_maps(plan.scenario, identities)
         names = [robot.name for robot in plan.scenario.robots]
-        notices = Notices(names, self._tell, keep=record.write if record else lambda _: None)
-        self._end = ControlEnd(control, maps, self._timestamp, notices)
+        notices = Notices(names, self._write_fact, keep=record.write if record else lambda _: None)
+        self._end = ControlEnd(control, maps, self._write_timestamp, notices)
         stoppages = durations.round(0).stoppages or ((),) * len(identities)
         self._robots = [
             TimedRobot(
-                RobotEnd(SimulatedRobot(own.route.places[0]), number, identity, self._timestamp),
+                RobotEnd(
+                    SimulatedRobot(own.route.places[0]), number, identity, self._write_timestamp
+                ),
                 partial(durations.stay, number, own),
                 partial(durations.drive, number, own),
                 stoppages[number],
@@ -198,10 +200,10 @@ class _Demo:
     def _now(self) -> int:
         return self._clock.now
 
-    def _tell(self, fact: Fact) -> None:
+    def _write_fact(self, fact: Fact) -> None:
         self._report(Tick(self._now), fact)
 
-    def _timestamp(self) -> str:
+    def _write_timestamp(self) -> str:
         """Return the simulated time as messages have it: a time unit is a second after 1970."""
         if self._stamp[0] != self._now:
             seconds = float(self._plan.scenario.problem.clock.convert_to_time(self._now))
@@ -216,12 +218,12 @@ class _Demo:
         except KeyboardInterrupt:
             if laps is None:
                 raise
-        return self._result(is_endless=laps is not None)
+        return self._make_result(is_endless=laps is not None)
 
     def _take_steps(self, wait_until: Callable[[Fraction], None]) -> None:
         """Have robots do one thing after another, as long as there is something."""
         agenda: list[tuple[int, int]] = []  # when the next step of a robot ends
-        self._exchange(self._end.make_letters(self._control.start()))
+        self._deliver(self._end.make_letters(self._control.start()))
         while True:
             for number in sorted(self._may_begin):
                 robot = self._robots[number]
@@ -235,15 +237,15 @@ class _Demo:
             if not agenda and change is None and not self._waits_for_people:
                 return
             moment = Fraction(min(moments)) if moments else self._moment + self._step
-            if not self._come_to(moment, wait_until):
+            if not self._wait_for(moment, wait_until):
                 continue
             if moment == change:
-                self._exchange(self._end.make_letters(self._supervisor.take_turn()))
+                self._deliver(self._end.make_letters(self._supervisor.take_turn()))
             elif agenda:
                 _, number = heapq.heappop(agenda)
                 self._robots[number].end_step(self._now)
                 self._may_begin.add(number)
-                self._exchange([self._robots[number].end.report_state()])
+                self._deliver([self._robots[number].end.report_state()])
 
     def _find_next_change(self) -> int | None:
         """Return when a closure of the scenario may let robots go on [ticks]; None if none does."""
@@ -265,26 +267,26 @@ class _Demo:
     def _end_instant(self) -> None:
         """Show new events and keep them."""
         for happening in self._story.go_on():
-            self._tell(happening.fact)
+            self._write_fact(happening.fact)
         self._supervisor.tell_closures()
         if self._record:
             self._record.journal.flush()
 
-    def _come_to(self, moment: Fraction, wait_until: Callable[[Fraction], None]) -> bool:
+    def _wait_for(self, moment: Fraction, wait_until: Callable[[Fraction], None]) -> bool:
         """Let time pass until a moment; return false where something comes before."""
         if moment == self._moment:
             return True
         if self.switches:
-            self._exchange(self._end.make_letters(self._dispatcher.switch()))
+            self._deliver(self._end.make_letters(self._dispatcher.switch()))
         while self._moment < moment:
             self._moment = min(self._moment + self._step, moment) if self._record else moment
             wait_until(self._moment)
             self._clock.now = math.floor(self._moment)
-            if self._supervise():
+            if self._run_supervisor():
                 return False
         return True
 
-    def _supervise(self) -> bool:
+    def _run_supervisor(self) -> bool:
         """Carry out commands, and look after robots; return whether anything has changed."""
         if self._record is None:
             return False
@@ -295,12 +297,12 @@ class _Demo:
             self._record.journal.flush()  # pages show what was reported, also where nobody drives
         is_asked = self._supervisor.has_answers
         if messages or is_asked:
-            self._exchange(self._end.make_letters(messages))
+            self._deliver(self._end.make_letters(messages))
             self._end_instant()
             self._supervisor.answer()
         return bool(messages) or is_asked
 
-    def _exchange(self, letters: list[Letter]) -> None:
+    def _deliver(self, letters: list[Letter]) -> None:
         """Deliver letters, and all that is answered, in their order."""
         queue = deque(letters)
         while queue:
@@ -315,7 +317,7 @@ class _Demo:
                 self._robots[number].end.receive(letter)
                 queue.append(self._robots[number].end.report_state())
 
-    def _result(self, *, is_endless: bool) -> DriveResult:
+    def _make_result(self, *, is_endless: bool) -> DriveResult:
         robots = self._control.ledger.robots
         trace = None if is_endless or not self._is_as_planned else self._trace()
         return DriveResult(

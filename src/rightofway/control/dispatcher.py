@@ -89,7 +89,7 @@ class Dispatcher:
         self._is_new = True  # `pass_stuck` was not called since the start
         self.closures: ClockedClosures | None = None
         self._planned_round = set[Edge]()  # what closures closed when the rest was planned
-        control.dispatch, control.may_drive = self._dispatch, cache(self._may_drive)
+        control.dispatch, control.may_drive = self._add_laps, cache(self._may_drive)
         control.may_stop = self._rest.may_stop
 
     @property
@@ -129,7 +129,7 @@ class Dispatcher:
             return False
         return any(ticks[roadmap.class_of_edge[edge]] >= 0 for edge in edges)
 
-    def _dispatch(self) -> list[Message]:
+    def _add_laps(self) -> list[Message]:
         """Add laps where robots come to the end of theirs."""
         robots = list(map(self._rest.begin_at_stop, self.ledger.robots))
         more = self._laps.extend(robots) if self._laps else None
@@ -240,7 +240,7 @@ class Dispatcher:
         """
         stops = self.list_stops() if stops is None else stops
         messages = self._plan_rest(stops, withdrawn=withdrawn, notes=notes, placed=placed)
-        return [*messages, *self._dispatch()]
+        return [*messages, *self._add_laps()]
 
     def _plan_rest(
         self,
@@ -308,7 +308,7 @@ class Dispatcher:
             return []
         closed, planned_round = self.closures.list_closed_edges(), self._planned_round
         for_good = self.closures.list_closed_edges(forever=True) - planned_round
-        if self._leads_over(for_good) or not planned_round <= closed:
+        if self._is_led_over(for_good) or not planned_round <= closed:
             return self.replan_if_possible() or []
         return self.control.note()
 
@@ -324,7 +324,7 @@ class Dispatcher:
         if self._is_new:
             self._is_new = False
             self.report(None, True)  # what had failed before a start is not known
-            if self._leads_over(self.ledger.closed_edges):
+            if self._is_led_over(self.ledger.closed_edges):
                 return self.replan_if_possible() or []
         self._stuck_for = {k: self._stuck_for.get(k, 0) + 1 for k in self.control.list_stuck()}
         long = frozenset(k for k, times in self._stuck_for.items() if times >= self._patience)
@@ -349,7 +349,7 @@ class Dispatcher:
         """Plan the rest as things are now; where that is not possible, report it, return None."""
         return self._try(self.replan)
 
-    def _leads_over(self, closed: Collection[Edge]) -> bool:
+    def _is_led_over(self, closed: Collection[Edge]) -> bool:
         """Return whether the way of a robot leads over edges, after its released parts."""
         return bool(closed) and any(
             not set(closed).isdisjoint(pairwise(own.route.stretch(own.released, own.route.end)))

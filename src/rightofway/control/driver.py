@@ -112,7 +112,7 @@ class Driver:
         self._tick = float(plan.scenario.problem.clock.tick * (plan.scenario.units.seconds or 1))
         self._supervisor = Supervisor(dispatcher, notices, self._read_ticks, commands)
         self.operator, self._switches = self._supervisor.operator, switch
-        ledger, digest = self.control.ledger, _digest(plan, maps)
+        ledger, digest = self.control.ledger, _compute_digest(plan, maps)
         if not ledger.run:
             dispatcher.begin(f"{digest}-{secrets.token_hex(4)}")
             self._journal.flush()
@@ -222,7 +222,10 @@ class Driver:
                         await self._news.wait()
                     fresh = []
                 except TimeoutError:
-                    reminded, fresh = time.monotonic(), [*self._obey(), *self._remind()]
+                    reminded, fresh = (
+                        time.monotonic(),
+                        [*self._run_round(), *self._list_reminders()],
+                    )
                 self._news.clear()
                 await self._turn(client, fresh)
             reader.cancel()
@@ -234,14 +237,14 @@ class Driver:
             self._inbox[letter.topic] = (time.perf_counter(), letter)
             self._news.set()
 
-    def _obey(self) -> list[Letter]:
+    def _run_round(self) -> list[Letter]:
         """Keep closures, pass robots that are stuck, switch rights of way, carry out commands."""
         changes = self._supervisor.take_turn()
         if self._switches:
             changes = [*changes, *self._dispatcher.switch()]
         return self.end.make_letters([*changes, *self._supervisor.obey()])
 
-    def _remind(self) -> list[Letter]:
+    def _list_reminders(self) -> list[Letter]:
         """Return the messages to send again; robots that are silent are lost."""
         if self._metrics is not None:
             self._metrics.survey(self.control)
@@ -298,7 +301,7 @@ class Driver:
         return True
 
 
-def _digest(plan: Plan, maps: Sequence[OrderMap]) -> str:
+def _compute_digest(plan: Plan, maps: Sequence[OrderMap]) -> str:
     """Return a name of all that decides on the content of orders."""
     document = json.dumps([order_map.to_document() for order_map in maps], sort_keys=True)
     return hashlib.sha256(f"{format_plan(plan)}\n{document}".encode()).hexdigest()[:12]

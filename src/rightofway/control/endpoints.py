@@ -396,7 +396,7 @@ class RobotEnd:
         """
         if letter.topic == self._identity.get_topic("order"):
             message = _read(vda5050.OrderMessage, letter)
-            self._learn(message)
+            self._keep_order(message)
             self.robot.take_order(message.to_order(self._number))
             return []
         actions = _read(vda5050.InstantActions, letter).to_instant_actions(self._number)
@@ -404,7 +404,7 @@ class RobotEnd:
             self.robot.take_action(action)
         return [self.report_factsheet() for action in actions if action.kind == "factsheetRequest"]
 
-    def _learn(self, message: vda5050.OrderMessage) -> None:
+    def _keep_order(self, message: vda5050.OrderMessage) -> None:
         """Keep how long and how fast the edges of an order are, and where its nodes are."""
         names = {node.sequenceId: node.nodeId for node in message.nodes}
         for node in message.nodes:

@@ -121,13 +121,13 @@ class Identity:
         return f"{self.interface}/{major}/{self.manufacturer}/{self.serial_number}/{name}"
 
 
-def _topic_part(value: str) -> str:
+def _check_topic_part(value: str) -> str:
     if not value or FORBIDDEN & set(value):
         raise ValueError(f"{quote(value)} cannot be part of a topic (leave out / + # $)")
     return value
 
 
-TopicPart = Annotated[str, AfterValidator(_topic_part)]
+TopicPart = Annotated[str, AfterValidator(_check_topic_part)]
 
 
 class _FrameDocument(Document):
@@ -216,7 +216,7 @@ def load_identities(path: Path | str, names: Sequence[str]) -> list[Identity]:
             if own is None:
                 faults.note("robots", f"{name} is missing (give its manufacturer and serial)")
                 continue
-            identity = faults.attempt(("robots", name), _identity, own, document)
+            identity = faults.attempt(("robots", name), _read_identity, own, document)
             if identity is None:
                 continue
             identities.append(identity)
@@ -228,7 +228,7 @@ def load_identities(path: Path | str, names: Sequence[str]) -> list[Identity]:
         return identities
 
 
-def _identity(own: _RobotDocument, shared: _SharedDocument) -> Identity:
+def _read_identity(own: _RobotDocument, shared: _SharedDocument) -> Identity:
     keys = _SharedDocument.model_fields
     given = {**shared.get_given(*keys), **own.get_given(*keys)}
     if "manufacturer" not in given:
@@ -239,7 +239,7 @@ def _identity(own: _RobotDocument, shared: _SharedDocument) -> Identity:
     if work is not None:
         given["work"] = WorkAction(
             action=work.action,
-            parameters=_as_json(work.get_given("parameters").get("parameters", {})),
+            parameters=_convert_to_json(work.get_given("parameters").get("parameters", {})),
         )
     if "map" in given:
         given["map_id"] = given.pop("map")
@@ -248,12 +248,12 @@ def _identity(own: _RobotDocument, shared: _SharedDocument) -> Identity:
     return Identity(serial_number=own.serial, **given)
 
 
-def _as_json(value: Any) -> Any:
+def _convert_to_json(value: Any) -> Any:
     """Return plain data with numbers as JSON has them."""
     if isinstance(value, dict):
-        return {key: _as_json(item) for key, item in value.items()}
+        return {key: _convert_to_json(item) for key, item in value.items()}
     if isinstance(value, list):
-        return [_as_json(item) for item in value]
+        return [_convert_to_json(item) for item in value]
     return float(value) if isinstance(value, Decimal) else value
 
 

@@ -98,15 +98,15 @@ class SqliteJournal:
     def __init__(self, path: Path, now: Callable[[], float] = time.time) -> None:
         self._path, self._now = path, now
         try:
-            self._lock = sqlite3.connect(_lock_of(path), timeout=0.5, isolation_level=None)
+            self._lock = sqlite3.connect(_locate_lock(path), timeout=0.5, isolation_level=None)
         except sqlite3.Error as error:
-            raise self._refused(path, str(error)) from error
+            raise self._refuse_journal(path, str(error)) from error
         try:
             self._lock.execute("BEGIN EXCLUSIVE")  # the lock ends with the process
             self._database = sqlite3.connect(path, timeout=5, isolation_level=None)
         except sqlite3.Error as error:
             self._lock.close()
-            raise self._refused(path, _find_owner(path) or str(error)) from error
+            raise self._refuse_journal(path, _find_owner(path) or str(error)) from error
         try:
             _refuse_other_version(self._database, path)
             self._database.execute("PRAGMA journal_mode = WAL")
@@ -124,13 +124,13 @@ class SqliteJournal:
             self._database.execute("INSERT INTO owner VALUES (?, ?)", (os.getpid(), gethostname()))
         except sqlite3.Error as error:
             self.close()
-            raise self._refused(path, str(error)) from error
+            raise self._refuse_journal(path, str(error)) from error
         except InputError:
             self.close()
             raise
 
     @staticmethod
-    def _refused(path: Path, reason: str) -> InputError:
+    def _refuse_journal(path: Path, reason: str) -> InputError:
         remedy = "name another file, or stop the process that has it open"
         return InputError.at(str(path), f"cannot be used as a journal: {reason} ({remedy})")
 
@@ -138,7 +138,7 @@ class SqliteJournal:
         """Yield all entries in their order, from the last snapshot on."""
         with _report_damage(self._path):
             last = self._database.execute("SELECT max(number) FROM snapshots").fetchone()[0]
-        return self._entries(last or 0)
+        return self._read_entries(last or 0)
 
     def read_begin(self) -> float | None:
         """Return the moment of the first entry of the run [s]; None if none is known."""
@@ -148,9 +148,9 @@ class SqliteJournal:
 
     def read_history(self) -> Iterator[Entry]:
         """Yield all entries that are still kept, in their order."""
-        return self._entries(0)
+        return self._read_entries(0)
 
-    def _entries(self, first: int) -> Iterator[Entry]:
+    def _read_entries(self, first: int) -> Iterator[Entry]:
         query = "SELECT number, entry FROM entries WHERE number >= ? ORDER BY 1"
         with _report_damage(self._path):
             rows = self._database.execute(query, (first,)).fetchall()
@@ -159,9 +159,9 @@ class SqliteJournal:
 
     def commit(self, entries: Iterable[Entry]) -> None:
         """Append entries in one transaction."""
-        with self._transaction() as database:
+        with self._open_transaction() as database:
             moment = self._now()
-            rows = [(_text_of(entry), moment) for entry in entries]
+            rows = [(_write_entry(entry), moment) for entry in entries]
             database.executemany("INSERT INTO entries (entry, moment) VALUES (?, ?)", rows)
 
     def begin_again(self, snapshot: Entry) -> None:
@@ -169,9 +169,9 @@ class SqliteJournal:
 
         The snapshot gets the moment at which the run began, as the first entry may go.
         """
-        with self._transaction() as database:
+        with self._open_transaction() as database:
             query = "INSERT INTO entries (entry, moment) VALUES (?, ?)"
-            text = _text_of({**snapshot, **_find_begin(database)})
+            text = _write_entry({**snapshot, **_find_begin(database)})
             number = database.execute(query, (text, self._now())).lastrowid
             last = database.execute("SELECT max(number) FROM snapshots").fetchone()[0] or 0
             database.execute("DELETE FROM entries WHERE number < ?", (last,))
@@ -179,7 +179,7 @@ class SqliteJournal:
             database.execute("INSERT INTO snapshots VALUES (?)", (number,))
 
     @contextmanager
-    def _transaction(self) -> Iterator[sqlite3.Connection]:
+    def _open_transaction(self) -> Iterator[sqlite3.Connection]:
         """Write all that is executed, or nothing of it."""
         try:
             self._database.execute("BEGIN IMMEDIATE")
@@ -243,7 +243,7 @@ class JournalReader:
     @property
     def is_written(self) -> bool:
         """Whether a process has the journal open to write it."""
-        lock = _lock_of(self._path)
+        lock = _locate_lock(self._path)
         if not lock.exists():
             return False
         with closing(sqlite3.connect(lock, timeout=0)) as database:
@@ -371,7 +371,7 @@ def _find_owner(path: Path) -> str:
     return f"another control has it open, process {row[0]} on {row[1]}" if row else ""
 
 
-def _text_of(entry: Entry) -> str:
+def _write_entry(entry: Entry) -> str:
     return json.dumps(entry, separators=(",", ":"))
 
 
@@ -386,5 +386,5 @@ def _find_begin(database: sqlite3.Connection) -> Entry:
     return {"began": began} if isinstance(began, int | float) else {}
 
 
-def _lock_of(path: Path) -> Path:
+def _locate_lock(path: Path) -> Path:
     return path.with_name(f"{path.name}-lock")

@@ -89,7 +89,9 @@ class LapsToDrive:
             if route.places[0] != route.places[-1]:
                 message = f"{name} ends at {route.places[-1]}, not at {route.places[0]}"
                 raise InputError.at("plan", f"{message} (laps need robots that return home)")
-        self._groups = [*self._steady_groups(plan, names)] if plan.steady else [self._whole()]
+        self._groups = (
+            [*self._list_steady_groups(plan, names)] if plan.steady else [self._make_whole_group()]
+        )
         robots = [RobotLedger(route) for route in self._routes]
         for own, route in zip(robots, self._routes, strict=True):
             own.take_route(route)
@@ -104,12 +106,12 @@ class LapsToDrive:
             raise InputError.at("plan", f"{message} (plan with rotations: false)")
         self._count = count
 
-    def _whole(self) -> _Group:
+    def _make_whole_group(self) -> _Group:
         moving = [robot for robot, route in enumerate(self._routes) if route.end > 1]
         period = max(route.enter[-1] for route in self._routes) + 1
         return self._group(moving, period, [self._routes[robot].end - 1 for robot in moving])
 
-    def _steady_groups(self, plan: Plan, names: Sequence[str]) -> list[_Group]:
+    def _list_steady_groups(self, plan: Plan, names: Sequence[str]) -> list[_Group]:
         groups = []
         for group in plan.steady:
             visits = []
@@ -156,7 +158,7 @@ class LapsToDrive:
             )
             and not any(robots[robot].is_off for robot in group.robots)
         ]
-        if not needy or self._are_enough(robots):
+        if not needy or self._has_enough(robots):
             return None
         latest = max(route.enter[-1] for route in routes)
         for group in needy:
@@ -174,11 +176,11 @@ class LapsToDrive:
                 ]
                 if first and robots[robot].released == route.end - 1:
                     missed[robot], first = first, []
-                routes[robot] = route.join(_next_lap(route, lap, begin, first, numbers), later)
+                routes[robot] = route.join(_make_next_lap(route, lap, begin, first, numbers), later)
         rows = zip(robots, routes, strict=True)
         return MoreLaps([route.cut_before(own.arrived) for own, route in rows], missed)
 
-    def _are_enough(self, robots: Sequence[RobotLedger]) -> bool:
+    def _has_enough(self, robots: Sequence[RobotLedger]) -> bool:
         """Return whether each robot has made as many laps as are wanted, or will on its route."""
         if not self._count:
             return False
@@ -222,7 +224,7 @@ def _is_short(own: RobotLedger, visits: int, jobs: int) -> bool:
     return sum(map(len, left)) <= jobs
 
 
-def _next_lap(
+def _make_next_lap(
     route: RouteToDrive,
     lap: RouteToDrive,
     begin: int,
@@ -273,10 +275,10 @@ def build_graph_behind_released(
     if not present:
         return ReleaseGraph(ends, {}, [route.first for route in routes])
     if len(present) == len(routes):
-        return _graph_of_present(scenario, routes, released)
+        return _make_present_graph(scenario, routes, released)
     robots = tuple(scenario.robots[robot] for robot in present)
     fleet = replace(scenario, robots=robots, clock=scenario.problem.clock)
-    graph = _graph_of_present(fleet, [routes[k] for k in present], [released[k] for k in present])
+    graph = _make_present_graph(fleet, [routes[k] for k in present], [released[k] for k in present])
     waits = {
         Part(present[part.robot], part.number): [
             Arrival(present[arrival.robot], arrival.visit) for arrival in graph.waits(part)
@@ -286,7 +288,7 @@ def build_graph_behind_released(
     return ReleaseGraph(ends, waits, [route.first for route in routes])
 
 
-def _graph_of_present(
+def _make_present_graph(
     scenario: Scenario, routes: Sequence[RouteToDrive], released: Sequence[int]
 ) -> ReleaseGraph:
     roadmap = scenario.roadmap

@@ -100,7 +100,7 @@ class Operator:
                 continue
             self._number = number
             try:
-                more, reply = self._obey(read_command(text))
+                more, reply = self._run_command(read_command(text))
             except (InputError, GaveUp) as error:
                 refusal = Fact("refused", reason=explain_error(error))
                 more, reply = [], {"done": False, "fact": refusal.as_dict()}
@@ -119,10 +119,10 @@ class Operator:
         refusal = Fact("refused", reason=defect)
         if number > self._ledger.commands:  # else it was committed before it has raised
             self._number = number
-            self._dispatcher.control.commit(*self._answer(refusal, failed=True))
+            self._dispatcher.control.commit(*self._record_answer(refusal, failed=True))
         return [], {"done": False, "fact": refusal.as_dict()}
 
-    def _obey(self, command: Mapping[str, Any]) -> tuple[list[Message], Answer]:
+    def _run_command(self, command: Mapping[str, Any]) -> tuple[list[Message], Answer]:
         """Carry out a command; return the messages to send, and the answer."""
         refuse_nameless(command)
         ledger = self._ledger
@@ -142,7 +142,9 @@ class Operator:
             "close": lambda: self.close(*places),
             "open": lambda: self.open(*places),
             "place": lambda: self.place_robot(name, at),
-            "replan": lambda: self._replan(self._dispatcher.list_stops(), fact=Fact("replanned")),
+            "replan": lambda: self._plan_rest(
+                self._dispatcher.list_stops(), fact=Fact("replanned")
+            ),
         }
         change = changes.get(kind) or partial(self.operate, kind, texts.get("name"))
         messages = change()
@@ -211,7 +213,7 @@ class Operator:
         begun = replace(own, route=make_route_from(own.route, place), is_off=False)
         begun.arrived = begun.released = first
         fact = Fact("robot placed", robot=name, place=place)
-        return self._replan(stops, placed={robot: begun}, fact=fact)
+        return self._plan_rest(stops, placed={robot: begun}, fact=fact)
 
     # --- jobs ------------------------------------------------------------------------------------
 
@@ -259,7 +261,7 @@ class Operator:
             number, index = owner, 0 if place_of_job is None else place_of_job + 1
         else:
             _, index, number = min(
-                (*self._detour(number, stops[number], at), number) for number in on_floor
+                (*self._measure_detour(number, stops[number], at), number) for number in on_floor
             )
         job = f"job{robots[number].next_job}"
         stops[number].insert(index, StopToMake(at, job, work))
@@ -267,7 +269,7 @@ class Operator:
         fact = Fact("only job added", job=name, place=at)
         if neighbours := self._list_neighbours(number, stops[number], index):
             fact = Fact("job added", job=name, place=at, neighbours=neighbours)
-        return name, self._replan(stops, fact=fact)
+        return name, self._plan_rest(stops, fact=fact)
 
     def _list_neighbours(
         self, robot: int, stops: Sequence[StopToMake], index: int
@@ -316,7 +318,7 @@ class Operator:
         stops[number][index] = old._replace(
             place=old.place if at is None else at, work=old.work if work is None else work
         )
-        return self._replan(stops, fact=Fact("job changed", job=name))
+        return self._plan_rest(stops, fact=Fact("job changed", job=name))
 
     def withdraw_job(self, name: str) -> list[Message]:
         """Take a job back that is not released.
@@ -337,7 +339,7 @@ class Operator:
         number, index = find_open_job(self._ledger, stops, name)
         job = stops[number].pop(index).job
         fact = Fact("job withdrawn", job=name)
-        return self._replan(stops, withdrawn=[(number, job)], fact=fact)
+        return self._plan_rest(stops, withdrawn=[(number, job)], fact=fact)
 
     def retry_job(self, name: str) -> list[Message]:
         """Have a robot do a job again that has failed: by a new order from where it stands.
@@ -386,7 +388,7 @@ class Operator:
             raise InputError.at("place", message)
         return vertex
 
-    def _detour(self, robot: int, stops: Sequence[StopToMake], at: str) -> tuple[int, int]:
+    def _measure_detour(self, robot: int, stops: Sequence[StopToMake], at: str) -> tuple[int, int]:
         """Return how much longer a robot drives for a job at best, and before which stop."""
         own, roadmap = self._ledger.robots[robot], self._scenario.roadmap
         itinerary = self._scenario.problem.itineraries[robot]
@@ -460,9 +462,9 @@ class Operator:
 
     def _note(self, *entries: Entry, fact: Fact) -> list[Message]:
         """Commit the changes of a command, with its answer."""
-        return self._dispatcher.control.note(*entries, *self._answer(fact))
+        return self._dispatcher.control.note(*entries, *self._record_answer(fact))
 
-    def _replan(
+    def _plan_rest(
         self,
         stops: Sequence[Sequence[StopToMake]],
         *,
@@ -471,10 +473,10 @@ class Operator:
         placed: Mapping[int, RobotLedger] | None = None,
     ) -> list[Message]:
         """Plan the rest with these stops; commit it with the answer."""
-        notes = self._answer(fact)
+        notes = self._record_answer(fact)
         return self._dispatcher.replan(stops, withdrawn=withdrawn, placed=placed, notes=notes)
 
-    def _answer(self, fact: Fact, *, failed: bool = False) -> list[Entry]:
+    def _record_answer(self, fact: Fact, *, failed: bool = False) -> list[Entry]:
         """Return the entry of the command that is under way, with its answer."""
         if self._number is None:
             return []

@@ -130,7 +130,7 @@ class OrderMap:
             Its name.
         """
         if name not in self._places:
-            vertex = self._vertex(name)
+            vertex = self._find_vertex(name)
             self._places[name] = (
                 None
                 if vertex is None
@@ -151,12 +151,12 @@ class OrderMap:
             The names of its ends.
         """
         if (tail, head) not in self._lanes:
-            self._lanes[tail, head] = self._made_lane(tail, head)
+            self._lanes[tail, head] = self._make_lane(tail, head)
         return self._lanes[tail, head]
 
-    def _made_lane(self, tail: str, head: str) -> OrderLane | None:
+    def _make_lane(self, tail: str, head: str) -> OrderLane | None:
         scenario, roadmap = self.scenario, self.scenario.roadmap
-        start, end = self._vertex(tail), self._vertex(head)
+        start, end = self._find_vertex(tail), self._find_vertex(head)
         edges = [] if start is None or end is None else roadmap.list_edges(start, end)
         if start is None or end is None or not edges:
             return None
@@ -175,7 +175,7 @@ class OrderMap:
             is_bezier=shape is not None and shape[1],
         )
 
-    def _vertex(self, name: str) -> VertexId | None:
+    def _find_vertex(self, name: str) -> VertexId | None:
         try:
             return self.scenario.roadmap.get_vertex(name)
         except InputError:

@@ -127,7 +127,7 @@ class Recording:
             group.append(row)
         if group:
             self._take(group)
-        self.now = max(self.now, self._tick(self._present()))
+        self.now = max(self.now, self._convert_to_tick(self._get_present()))
         if len(self._rows) > MAX_ROWS:
             self._begin_again()
 
@@ -151,7 +151,7 @@ class Recording:
 
     # --- moments ---------------------------------------------------------------------------------
 
-    def _present(self) -> float:
+    def _get_present(self) -> float:
         """Return the moment of the journal at which it is now [s]."""
         if not self.is_running or self._pace is None or self._began is None:
             return self._moment
@@ -159,7 +159,7 @@ class Recording:
             return self._moment + (self._clock() - self._seen) * self._pace
         return self._clock()
 
-    def _tick(self, moment: float) -> float:
+    def _convert_to_tick(self, moment: float) -> float:
         return 0.0 if self._began is None else (moment - self._began) * self._per_second
 
     # --- from entries to rows --------------------------------------------------------------------
@@ -171,7 +171,8 @@ class Recording:
             self._began = group[0].entry.get("began", moment)  # a snapshot knows it
         self._moment, self._seen = max(self._moment, moment), self._clock()
         tick = round(
-            max(self._tick(self._moment), self._rows[-1][0] if self._rows else 0), DECIMALS
+            max(self._convert_to_tick(self._moment), self._rows[-1][0] if self._rows else 0),
+            DECIMALS,
         )
         self.now = max(self.now, tick)
         changed = set[int]()
@@ -194,7 +195,7 @@ class Recording:
         self._ledger.read(row.number, entry)
         if kind == "notice":
             try:
-                self._notice(entry, tick)
+                self._show_notice(entry, tick)
             except Exception as error:
                 raise refuse_entry(row.number, entry, error) from error
             return ()
@@ -211,9 +212,11 @@ class Recording:
             return range(len(self._shown))
         robot = int(entry.get("robot", -1))
         if kind == "fault":
-            self._alarm(robot, "fault", self._told.get(robot) or self._write(entry["fault"]), tick)
+            self._update_alarm(
+                robot, "fault", self._told.get(robot) or self._write(entry["fault"]), tick
+            )
         elif kind == "failed":
-            self._alarm(robot, "failed", self._told.get(robot, entry["job"]), tick)
+            self._update_alarm(robot, "failed", self._told.get(robot, entry["job"]), tick)
         return () if robot < 0 else (robot,)
 
     def _refuse_another_plan(self) -> None:
@@ -235,7 +238,7 @@ class Recording:
         fact = fact if isinstance(fact, Fact) else read_fact(fact)
         return to_parts(self._writer.write(fact))
 
-    def _notice(self, entry: Entry, tick: float) -> None:
+    def _show_notice(self, entry: Entry, tick: float) -> None:
         """Show a notice."""
         robot, about, fact = entry["robot"], entry["about"], entry["fact"]
         text = None if fact is None else self._write(fact)
@@ -246,11 +249,11 @@ class Recording:
         if about == EVERY_KIND:
             for number, known in ((-1, self._general), *enumerate(self._shown)):
                 for kind in known.alarms.keys() - OF_LEDGER:
-                    self._alarm(number, kind, None, tick)
+                    self._update_alarm(number, kind, None, tick)
         elif about:
-            self._alarm(robot, about, None if entry["over"] else text, tick)
+            self._update_alarm(robot, about, None if entry["over"] else text, tick)
 
-    def _alarm(self, robot: int, kind: str, text: Any, tick: float) -> None:
+    def _update_alarm(self, robot: int, kind: str, text: Any, tick: float) -> None:
         """Show that trouble of a kind begins, or with None that it ends."""
         alarms = (self._shown[robot] if 0 <= robot < len(self._shown) else self._general).alarms
         if text is None and kind not in alarms:
@@ -283,9 +286,9 @@ class Recording:
             known.is_off = own.is_off
             self._rows.append((tick, robot, "off", own.is_off))
         if own.fault is None or own.is_off:  # a person has looked after it
-            self._alarm(robot, "fault", None, tick)
+            self._update_alarm(robot, "fault", None, tick)
         if not own.failed:
-            self._alarm(robot, "failed", None, tick)
+            self._update_alarm(robot, "failed", None, tick)
 
     def _show_route(self, robot: int, route: RouteToDrive, known: _Shown, tick: float) -> None:
         """Show a route from the first visit on that differs from the one known."""

@@ -149,7 +149,10 @@ class RestPlanner:
         reason: Fact | str | None = None
         for attempt in range(MOST_ASIDE + 1):
             try:
-                ways = {k: self._way(robots[k], commitments[k], stops[k], attempt) for k in moving}
+                ways = {
+                    k: self._choose_way(robots[k], commitments[k], stops[k], attempt)
+                    for k in moving
+                }
                 parts = {k: commitments[k].part for k in moving}
                 whole, tracks = self._rest.plan(parts, ways, passable, standing, attempt)
                 planned_routes = [
@@ -269,7 +272,7 @@ class RestPlanner:
             return roadmap
         return roadmap.exclude(held.vertices, {*shut, *held.edges})
 
-    def _way(
+    def _choose_way(
         self, own: RobotLedger, commitment: RobotCommitment, stops: Sequence[StopToMake], aside: int
     ) -> list[StopToMake]:
         """Return the stops behind what is kept, with one beside it where the robot comes back.

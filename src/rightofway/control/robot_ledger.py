@@ -158,7 +158,7 @@ class RobotLedger:
         )
 
 
-def _arrive(own: RobotLedger, entry: Entry) -> None:
+def _record_arrival(own: RobotLedger, entry: Entry) -> None:
     before, own.arrived = own.arrived, max(own.arrived, entry["visit"])
     own.laps_done += sum(before < visit <= own.arrived for visit in own.route.lap_ends)
 
@@ -184,14 +184,14 @@ def _order(own: RobotLedger, entry: Entry) -> None:
         own.failed.discard(job)
 
 
-def _acknowledge(own: RobotLedger, _: Entry) -> None:
+def _record_acknowledgement(own: RobotLedger, _: Entry) -> None:
     own.is_acknowledged = True
     # Rule 9: only now does the robot give up the parts after the node where it stopped.
     if own.cancel is not None and own.cancel.stands_at is not None:
         own.released, own.cancel = own.cancel.stands_at, None
 
 
-def _doubt(own: RobotLedger, entry: Entry) -> None:
+def _record_doubt(own: RobotLedger, entry: Entry) -> None:
     own.token, own.tokens = entry["token"], own.tokens + 1
 
 
@@ -199,7 +199,7 @@ def _end_doubt(own: RobotLedger, _: Entry) -> None:
     own.token = None
 
 
-def _want_cancel(own: RobotLedger, _: Entry) -> None:
+def _record_cancel(own: RobotLedger, _: Entry) -> None:
     own.cancel = own.cancel or Cancel()
 
 
@@ -246,7 +246,7 @@ def _place(own: RobotLedger, entry: Entry) -> None:
     own.failed.clear()
 
 
-def _retry(own: RobotLedger, entry: Entry) -> None:
+def _record_retry(own: RobotLedger, entry: Entry) -> None:
     own.attempts[entry["job"]] += 1
     own.failed.discard(entry["job"])
     if own.cancel is not None and own.cancel.stands_at is not None:
@@ -259,12 +259,12 @@ def _skip(own: RobotLedger, entry: Entry) -> None:
 
 
 APPLY_TO_ROBOT: Mapping[str, Callable[[RobotLedger, Entry], None]] = {
-    "arrived": _arrive,
+    "arrived": _record_arrival,
     "order": _order,
-    "acknowledged": _acknowledge,
-    "doubt": _doubt,
+    "acknowledged": _record_acknowledgement,
+    "doubt": _record_doubt,
     "certain": _end_doubt,
-    "cancel wanted": _want_cancel,
+    "cancel wanted": _record_cancel,
     "cancel asked": _ask_cancel,
     "finished": _finish,
     "failed": _fail,
@@ -273,7 +273,7 @@ APPLY_TO_ROBOT: Mapping[str, Callable[[RobotLedger, Entry], None]] = {
     "hold": _hold,
     "taken off": _take_off,
     "placed": _place,
-    "again": _retry,
+    "again": _record_retry,
     "skipped": _skip,
 }
 """How a robot changes by each kind of entry on it."""

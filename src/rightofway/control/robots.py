@@ -231,7 +231,7 @@ class _Arrivals:
             self.on_failure(error)
 
 
-def _ignore_cut_cables(loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
+def _skip_cut_cables(loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
     """Report errors in the loop, but for sockets that `have_trouble` has shut down."""
     if not isinstance(context.get("exception"), OSError):
         loop.default_exception_handler(context)
@@ -243,7 +243,7 @@ async def _publish(client: aiomqtt.Client, letter: Letter) -> None:
     check_cancellation()
 
 
-def _works(plan: Plan, number: int) -> dict[str, float]:
+def _list_works(plan: Plan, number: int) -> dict[str, float]:
     """Return how long a robot works at each of its stops [s]."""
     scenario = plan.scenario
     second = scenario.units.seconds or 1
@@ -294,7 +294,7 @@ async def run_robots(
                 make_timestamp,
             ),
             identity=identity,
-            works=_works(plan, number),
+            works=_list_works(plan, number),
             time_scale=time_scale,
             draw=random.Random(f"{seed} {number}"),  # noqa: S311 (a simulation)
             trouble=trouble or {},
@@ -305,7 +305,7 @@ async def run_robots(
     ]
     names = {identity.serial_number for identity in identities}
     arrivals = _Arrivals(missing=names, is_up=is_up, on_failure=on_failure)
-    asyncio.get_running_loop().set_exception_handler(_ignore_cut_cables)
+    asyncio.get_running_loop().set_exception_handler(_skip_cut_cables)
     async with asyncio.TaskGroup() as tasks:
         for robot in robots:
             tasks.create_task(robot.carry_out_orders())

@@ -80,9 +80,11 @@ class Story:
         robots = sorted(self._ledger.changed)
         self._ledger.changed.clear()
         for robot in robots:
-            yield from self._of_robot(robot, self._ledger.robots[robot], self._chapters[robot])
+            yield from self._list_of_robot(robot, self._ledger.robots[robot], self._chapters[robot])
 
-    def _of_robot(self, robot: int, own: RobotLedger, chapter: _Chapter) -> Iterator[Happening]:
+    def _list_of_robot(
+        self, robot: int, own: RobotLedger, chapter: _Chapter
+    ) -> Iterator[Happening]:
         name, place = self._names[robot], own.route.get_place(own.arrived)
         if own.jobs_done > chapter.finished:
             chapter.finished = own.jobs_done

@@ -39,7 +39,7 @@ class Durations:
 
     def stay(self, robot: int, own: RobotLedger, visit: int) -> int:
         """Return how long a robot works and turns in a visit [ticks]."""
-        number, planned = self._planned(robot, visit)
+        number, planned = self._find_planned(robot, visit)
         sample, lap = self.round(number).dwell[robot], self._routes[robot]
         more = int(sample[planned]) - sum(lap.get_work(planned))
         if planned == lap.end - 1 and self._laps:  # it goes on, and turns for that
@@ -48,12 +48,12 @@ class Durations:
 
     def drive(self, robot: int, own: RobotLedger, visit: int) -> int:
         """Return how long a robot drives into a visit [ticks]."""
-        number, planned = self._planned(robot, visit)
+        number, planned = self._find_planned(robot, visit)
         sample, lap = self.round(number).drive[robot], self._routes[robot]
-        more = int(sample[planned]) - self._ticks(robot, lap, planned) if planned else 0
-        return self._ticks(robot, own.route, visit) + max(more, 0)
+        more = int(sample[planned]) - self._measure_drive(robot, lap, planned) if planned else 0
+        return self._measure_drive(robot, own.route, visit) + max(more, 0)
 
-    def _ticks(self, robot: int, route: RouteToDrive, visit: int) -> int:
+    def _measure_drive(self, robot: int, route: RouteToDrive, visit: int) -> int:
         """Return how long the drive into a visit lasts without delays [ticks]."""
         edge_class = self._class_of_edge(route.get_place(visit - 1), route.get_place(visit))
         return self._plan.scenario.problem.itineraries[robot].edge_ticks[edge_class]
@@ -65,7 +65,7 @@ class Durations:
         assert edges, "a control has its routes from a dispatcher, which knows the map"
         return int(roadmap.class_of_edge[edges[0]])
 
-    def _planned(self, robot: int, visit: int) -> tuple[int, int]:
+    def _find_planned(self, robot: int, visit: int) -> tuple[int, int]:
         """Return the run that has the delays of a visit, and a visit of the plan."""
         if self._laps:
             return self._laps.find_planned_visit(robot, visit)

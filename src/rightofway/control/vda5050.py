@@ -156,15 +156,17 @@ class OrderMessage(_Model):
                 nodeId=node.place,
                 sequenceId=node.sequence_id,
                 released=True,
-                nodePosition=_position(order_map.get_place(node.place)),
+                nodePosition=_make_position(order_map.get_place(node.place)),
                 actions=tuple(
-                    _work(action, order_map.work) for action in node.actions if action not in done
+                    _make_work(action, order_map.work)
+                    for action in node.actions
+                    if action not in done
                 ),
             )
             for node in order.nodes
         )
         edges = tuple(
-            _edge(tail.place, head.place, head.sequence_id - 1, order_map)
+            _make_edge(tail.place, head.place, head.sequence_id - 1, order_map)
             for tail, head in pairwise(order.nodes)
         )
         return cls(orderId=order.order_id, orderUpdateId=order.update_id, nodes=nodes, edges=edges)
@@ -189,14 +191,14 @@ class OrderMessage(_Model):
         return Order(robot=robot, order_id=self.orderId, update_id=self.orderUpdateId, nodes=nodes)
 
 
-def _position(place: Place | None) -> _NodePosition | None:
+def _make_position(place: Place | None) -> _NodePosition | None:
     if place is None:
         return None
     x, y = place.point
     return _NodePosition(x=x, y=y, mapId=place.map_id, allowedDeviationXY=place.deviation)
 
 
-def _work(action_id: str, work: WorkAction) -> _Action:
+def _make_work(action_id: str, work: WorkAction) -> _Action:
     parameters = tuple(_Parameter(key=key, value=value) for key, value in work.parameters.items())
     return _Action(
         actionId=action_id,
@@ -206,7 +208,7 @@ def _work(action_id: str, work: WorkAction) -> _Action:
     )
 
 
-def _edge(tail: str, head: str, sequence_id: int, order_map: OrderMap) -> _Edge:
+def _make_edge(tail: str, head: str, sequence_id: int, order_map: OrderMap) -> _Edge:
     lane = order_map.find_lane(tail, head)
     return _Edge(
         edgeId=name_edge(tail, head),
@@ -216,11 +218,11 @@ def _edge(tail: str, head: str, sequence_id: int, order_map: OrderMap) -> _Edge:
         endNodeId=head,
         maxSpeed=None if lane is None else lane.max_speed,
         length=None if lane is None else lane.length,
-        trajectory=_trajectory(lane),
+        trajectory=_make_trajectory(lane),
     )
 
 
-def _trajectory(lane: OrderLane | None) -> _Trajectory | None:
+def _make_trajectory(lane: OrderLane | None) -> _Trajectory | None:
     """Return the shape of a lane as a clamped NURBS: straight pieces, or one Bézier curve."""
     if lane is None or not lane.points:
         return None

@@ -111,10 +111,10 @@ def read_delays(given: str | Iterable[str], scenario: Scenario) -> tuple[Delay, 
     """
     several = [given] if isinstance(given, str) else list_of(TEXT).read_at("delays", given)
     causes = chain.from_iterable(map(_BETWEEN.split, several))
-    return tuple(_delay(cause.strip(), scenario) for cause in causes)
+    return tuple(_read_delay(cause.strip(), scenario) for cause in causes)
 
 
-def _delay(text: str, scenario: Scenario) -> Delay:
+def _read_delay(text: str, scenario: Scenario) -> Delay:
     def wrong(message: str) -> InputError:
         return InputError.at("delays", f"{text}: {message}")
 
@@ -136,13 +136,13 @@ def _delay(text: str, scenario: Scenario) -> Delay:
     if robot and robot not in names:
         few = ", ".join(names[:5]) + (", …" if len(names) > 5 else "")  # noqa: PLR2004
         raise wrong(f"there is no robot {robot!r} (there are {few})")
-    for complaint, is_wrong in _complaints(delay):
+    for complaint, is_wrong in _list_complaints(delay):
         if is_wrong:
             raise wrong(complaint)
     return delay
 
 
-def _complaints(delay: Delay) -> list[tuple[str, bool]]:
+def _list_complaints(delay: Delay) -> list[tuple[str, bool]]:
     first, second, kind = delay.first, delay.second or 0, delay.kind
     return [
         (f"{first} is not positive (give a factor above 0)",

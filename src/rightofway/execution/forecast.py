@@ -40,15 +40,15 @@ class Forecast:
         self.now, self.broken = progress.now, progress.broken
         self.booked, self.entered = progress.booked, progress.entered
         self.books_ahead = adg.scenario.problem.booking_rules.books_ahead
-        begun = self._begun()
+        begun = self._mark_begun()
         try:
-            self.graph = self._graph(begun)
-            self.is_possible = self.graph.give_all(self._rights())
+            self.graph = self._make_graph(begun)
+            self.is_possible = self.graph.give_all(self._list_rights())
         except ValueError:  # closures leave a robot no times
             self.is_possible = False
         if not self.is_possible and adg.scenario.closures:
-            self.graph = self._graph(np.ones_like(begun))
-            self.graph.give_all(self._rights())
+            self.graph = self._make_graph(np.ones_like(begun))
+            self.graph.give_all(self._list_rights())
 
     def compute_times(self) -> Times:
         """Return the expected enter of each visit [ticks]; int64[N]."""
@@ -75,7 +75,7 @@ class Forecast:
         """
         return bool(self.broken) or (bool(self.adg.scenario.closures) and not self.is_possible)
 
-    def _graph(self, begun: NDArray[np.bool_]) -> PrecedenceGraph:
+    def _make_graph(self, begun: NDArray[np.bool_]) -> PrecedenceGraph:
         """Return the graph of expected durations; closures do not bind begun actions."""
         return build_graph(
             self.adg.scenario.problem,
@@ -83,7 +83,7 @@ class Forecast:
             begun=begun,
         )
 
-    def _begun(self) -> NDArray[np.bool_]:
+    def _mark_begun(self) -> NDArray[np.bool_]:
         """Return which stays at visits, and which drives into them, have begun; bool[N, 2]."""
         begun = np.column_stack((self.booked, self.booked))
         for robot in range(len(self.adg.routes)):
@@ -91,7 +91,7 @@ class Forecast:
                 begun[self.get_visit(robot) + 1, 1] = True
         return begun
 
-    def _rights(self) -> Iterator[tuple[int, int]]:
+    def _list_rights(self) -> Iterator[tuple[int, int]]:
         """Yield the unused rights of way, in the order of planned times."""
         lengths = np.diff(self.adg.first_visit)
         robot = np.repeat(np.arange(len(lengths)), lengths)
@@ -108,10 +108,10 @@ class Forecast:
         lasted = np.diff(self.progress.enter[first : first + current + 1])
         dwell = [Tick(ticks - route.drive[k + 1]) for k, ticks in enumerate(lasted.tolist())]
         if current < len(route) - 1:
-            dwell.append(Tick(self._lasts(robot, current) - route.drive[current + 1]))
+            dwell.append(Tick(self._estimate_lasting(robot, current) - route.drive[current + 1]))
         return replace(route, dwell=(*dwell, *route.dwell[len(dwell) :]))
 
-    def _lasts(self, robot: int, index: int) -> int:
+    def _estimate_lasting(self, robot: int, index: int) -> int:
         """Return the expected ticks from the enter of the current visit to the next enter."""
         route, visit = self.adg.routes[robot], int(self.adg.first_visit[robot]) + index
         enter, start = self.progress.enter, self.progress.start
@@ -120,17 +120,17 @@ class Forecast:
         more = self.progress.get_delay(robot) or 0
         if not self.books_ahead:
             least = route.compute_least(index)
-            return max(since, least) if is_ready else _with_overdue(least + more, since)
+            return max(since, least) if is_ready else _add_overdue(least + more, since)
         if self.booked[visit + 1]:
             stayed = int(start[visit + 1] - enter[visit])
             is_lost = robot in self.broken
-            return stayed + (drive if is_lost else _with_overdue(drive + more, since - stayed))
+            return stayed + (drive if is_lost else _add_overdue(drive + more, since - stayed))
         if is_ready:
             return since + drive
-        return _with_overdue(int(route.dwell[index]) + more, since) + drive
+        return _add_overdue(int(route.dwell[index]) + more, since) + drive
 
 
-def _with_overdue(least: int, since: int) -> int:
+def _add_overdue(least: int, since: int) -> int:
     """Return the expected ticks of an action that began ``since`` ticks ago; least: ``least``."""
     overdue = since - least
     return least if overdue < 0 else least + 2 * overdue + 1

@@ -84,7 +84,7 @@ class ExecutionMonitor:
         ends = adg.first_visit[1:] - 1
         self.last_tried = int((adg.planned + adg.dwell)[ends].sum())
         if any(policy):
-            self._execute()
+            self._run_plan()
 
     @property
     def completion(self) -> NDArray[np.int64]:
@@ -134,7 +134,7 @@ class ExecutionMonitor:
         progress = derive_progress(self.adg, self.delay_sample, self.execution, now, self.broken)
         return Forecast(self.adg, progress)
 
-    def _execute(self) -> None:
+    def _run_plan(self) -> None:
         """Execute the plan; at each delay or breakdown, make a forecast, then reorder or replan."""
         adg, now, tries, planned = self.adg, -1, 0, self.last_tried
         ticks = (self.delay_sample.find_breakdown(robot) for robot in range(len(self.stages)))
@@ -158,9 +158,9 @@ class ExecutionMonitor:
             forecast = self.make_forecast(now)
             self.expected = forecast.compute_times()
             if lost:
-                self._replan(forecast, NEVER)
+                self._try_plans(forecast, NEVER)
                 continue
-            switched = _switched(forecast) if self.policy.switch else None
+            switched = _switch_rights(forecast) if self.policy.switch else None
             if switched is not None:
                 self.switches += 1
                 self.adg, self.expected = switched, forecast.compute_times()
@@ -173,9 +173,9 @@ class ExecutionMonitor:
             if self.policy.replan and wants_plan and tries < MOST_PLANS:
                 tries += 1
                 self.last_tried = flowtime
-                self._replan(forecast, NEVER if is_shut_out else flowtime)
+                self._try_plans(forecast, NEVER if is_shut_out else flowtime)
 
-    def _replan(self, forecast: Forecast, limit: int) -> None:
+    def _try_plans(self, forecast: Forecast, limit: int) -> None:
         """Replan; accept the plan with the lowest expected flowtime below ``limit`` [ticks]."""
         lowest, best = limit, None
         for plan in replan(forecast, self.stages, self.seed, self.deadline):
@@ -194,7 +194,7 @@ class ExecutionMonitor:
             self.expected, self.last_tried = new.compute_times(), lowest
 
 
-def _switched(forecast: Forecast) -> ActionDependencyGraph | None:
+def _switch_rights(forecast: Forecast) -> ActionDependencyGraph | None:
     """Flip rights of way of visits that have not begun; None if no other order helps.
 
     Each is flipped for a whole segment, as long as that lowers the expected flowtime. The graph of

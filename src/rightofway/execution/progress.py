@@ -82,11 +82,13 @@ def derive_progress(
     enter = np.where(execution.enter <= now, execution.enter, NEVER)
     start = np.where(execution.start <= now, execution.start, NEVER)
     progress = Progress(now=Tick(now), enter=enter, start=start, activity=(), broken=broken)
-    activity = (_activity(adg, delay_sample, progress, robot) for robot in range(len(adg.routes)))
+    activity = (
+        _classify_activity(adg, delay_sample, progress, robot) for robot in range(len(adg.routes))
+    )
     return replace(progress, activity=tuple(activity))
 
 
-def _activity(
+def _classify_activity(
     adg: ActionDependencyGraph, delay_sample: DelaySample, progress: Progress, robot: int
 ) -> Activity:
     """Return the activity of a robot, from its delays and its begun actions."""

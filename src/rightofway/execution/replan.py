@@ -125,7 +125,7 @@ def replan(
     if closures is None:
         return ()
     rest = make_rest(replace(scenario, closures=closures), roadmap, commitments)
-    tracks = _going_on(forecast, commitments, closed, rest)
+    tracks = _keep_old_order(forecast, commitments, closed, rest)
     if tracks is None:
         other_ways = find_other_ways(rest, forecast.broken, commitments, seed, deadline)
         if other_ways is None:
@@ -146,7 +146,7 @@ def replan(
     for plan in plans:
         # A plan may move a busy robot away and back. Splicing keeps it there, which may deadlock.
         try:
-            adg = _spliced(forecast, commitments, plan)
+            adg = _splice(forecast, commitments, plan)
         except ValueError:
             continue
         if not adg.list_deadlocked():
@@ -155,7 +155,7 @@ def replan(
     return tuple(replanned)
 
 
-def _going_on(
+def _keep_old_order(
     forecast: Forecast,
     commitments: Sequence[Commitment],
     closed: Held,
@@ -201,7 +201,7 @@ def _number_arrivals(enter: NDArray[np.int64], arrives: int) -> NDArray[np.int64
     return np.where(is_ahead, arrives + np.maximum(np.cumsum(is_ahead) - 1, 0), enter)
 
 
-def _spliced(
+def _splice(
     forecast: Forecast, commitments: Sequence[Commitment], plan: Plan
 ) -> ActionDependencyGraph:
     """Return the commitments followed by a plan of the rest."""

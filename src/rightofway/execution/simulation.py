@@ -105,7 +105,9 @@ def simulate(
     parts: list[_Runs] = []
     traces: dict[int, ExecutionTrace] = {}
     try:
-        for some in _execute(adg, policy, runs=runs, seed=seed, deadline=deadline, traces=traces):
+        for some in _run_batches(
+            adg, policy, runs=runs, seed=seed, deadline=deadline, traces=traces
+        ):
             parts.append(some)
             done = sum(len(part.batch.completion) for part in parts)
             report(Fact("runs done", done=done, runs=runs))
@@ -167,7 +169,7 @@ def replay(
     return ExecutionMonitor(adg, policy, seed, run, Deadline()).trace()
 
 
-def _execute(
+def _run_batches(
     adg: ActionDependencyGraph,
     policy: ExecutionPolicy,
     *,

@@ -166,11 +166,11 @@ class Lateness:
             robots=robots,
             flowtime=Quantiles.of(everybody.sum(axis=1) - planned.sum()),
             makespan=Quantiles.of(everybody.max(axis=1, initial=0) - planned.max()),
-            sources=_sources(adg, batch),
+            sources=_sum_sources(adg, batch),
         )
 
 
-def _sources(adg: ActionDependencyGraph, batch: RunBatch) -> tuple[LatenessSource, ...]:
+def _sum_sources(adg: ActionDependencyGraph, batch: RunBatch) -> tuple[LatenessSource, ...]:
     """Return the sources of lateness: sums over the visits of one robot at one vertex."""
     own, of_others = Counter[tuple[int, int]](), Counter[tuple[int, int]]()
     for visit in np.flatnonzero(batch.own + batch.of_others).tolist():

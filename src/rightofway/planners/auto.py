@@ -56,21 +56,21 @@ def auto(task: Task) -> Draft:
         return paper(task)
     if task.scenario.problem.has_times:
         return lns(task)  # the other methods do not know times
-    return finish_optimum(task, _best(task))
+    return finish_optimum(task, _find_best(task))
 
 
-def _best(task: Task) -> Draft:
+def _find_best(task: Task) -> Draft:
     """Return the best plan of several methods, with its proof."""
     prover = _Prover(task)
     # Small fleets get the plan of the paper first, because each of its decisions has a reason.
-    first = _explained(task)
+    first = _find_explained(task)
     if first is not None:
         nodes = min(FIRST_NODES, task.options["nodes"] or FIRST_NODES)
         first = prover.prove(first, nodes, SHARE_OF_FIRST_NODES)
         if _is_optimal(task, first):
             return first
     try:
-        better = _improved(task, first)
+        better = _improve_first(task, first)
     except GaveUp:
         # A large fleet would only lose time in a tree that cannot be searched.
         if len(task.scenario.robots) > FEW:
@@ -86,7 +86,7 @@ def _best(task: Task) -> Draft:
     return better if _is_optimal(task, better) else prover.prove_by_prices(better)
 
 
-def _explained(task: Task) -> Draft | None:
+def _find_explained(task: Task) -> Draft | None:
     """Return the plan of two-level for a small fleet, unless a plan given is better."""
     if len(task.scenario.robots) > FEW:
         return None
@@ -105,7 +105,7 @@ def _explained(task: Task) -> Draft | None:
     return replace(explained, status=status)
 
 
-def _improved(task: Task, first: Draft | None) -> Draft:
+def _improve_first(task: Task, first: Draft | None) -> Draft:
     """Improve the first plan by large neighbourhood search; keep it where nothing is better."""
     if first is None:
         return lns(task)
@@ -133,7 +133,7 @@ class _Prover:
         """Return a plan with its proof, or the optimum."""
         task, objective = self._task, self._task.objective
         if objective.has_makespan:
-            return self._prove_with_makespan(draft, nodes, share)
+            return self._try_makespan_proof(draft, nodes, share)
         search = self._run(nodes, share, upper=task.measure_worth(draft.tracks)[0])
         if search is None or search.bound is None:
             return draft
@@ -148,7 +148,7 @@ class _Prover:
             draft = replace(draft, status=status)
         return replace(draft, proof=proof)
 
-    def _prove_with_makespan(self, draft: Draft, nodes: int, share: float) -> Draft:
+    def _try_makespan_proof(self, draft: Draft, nodes: int, share: float) -> Draft:
         task = self._task
         if not self._may_search():
             return draft

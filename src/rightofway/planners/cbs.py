@@ -67,11 +67,11 @@ factor above 1: the first turns gain most, and take about as long as the plan an
 def cbs(task: Task) -> Draft:
     """Plan a fleet with least flowtime and surcharges, or makespan; options: `CbsOptions`."""
     if task.objective.has_makespan:
-        first = _first_plan(task, partial(_is_within, task))
-        draft = _with_makespan(task, first or _Tree(task).finish(None))
+        first = _find_first_plan(task, partial(_is_within, task))
+        draft = _find_with_makespan(task, first or _Tree(task).finish(None))
     else:
         tree = _Tree(task)
-        draft = tree.finish(_first_plan(task, tree.prove))
+        draft = tree.finish(_find_first_plan(task, tree.prove))
     return finish_optimum(task, draft)
 
 
@@ -100,7 +100,7 @@ class _Tree:
 
     def prove(self, value: Tick, deadline: Deadline) -> bool:
         """Grow by a few nodes; return whether a plan of this cost, or another one, is proven."""
-        self._grow(value, NODES_PER_TURN, deadline.shorten(SHARE_OF_TURN))
+        self._search_tree(value, NODES_PER_TURN, deadline.shorten(SHARE_OF_TURN))
         return self._is_over(value)
 
     def _is_over(self, value: int | None) -> bool:
@@ -108,7 +108,7 @@ class _Tree:
         is_within = value is not None and value <= self._factor * (search.bound or 0)
         return search.is_proven or is_within
 
-    def _grow(self, upper: int | None, nodes: int | None, deadline: Deadline) -> None:
+    def _search_tree(self, upper: int | None, nodes: int | None, deadline: Deadline) -> None:
         if most := self._task.options["nodes"]:
             nodes = min(nodes or most, most - self._search.n_nodes)
         if nodes == 0 or self._is_over(upper):
@@ -127,7 +127,7 @@ class _Tree:
         is_interrupted = first and first.improvement and first.improvement.interrupted
         try:
             if not is_interrupted:
-                self._grow(upper, None, task.deadline)
+                self._search_tree(upper, None, task.deadline)
         except KeyboardInterrupt:
             if not task.keep_best or first is None:
                 raise
@@ -160,7 +160,7 @@ class _Tree:
         return Draft(tracks=tracks, status=status, proof=proof)
 
 
-def _with_makespan(task: Task, first: Draft) -> Draft:
+def _find_with_makespan(task: Task, first: Draft) -> Draft:
     """Return the best plan by its makespan, or its makespan and flowtime, with its proof."""
     objective, factor = task.objective, Fraction(task.options["suboptimality"])
     search = MakespanSearch(
@@ -191,7 +191,7 @@ def _is_within(task: Task, value: Tick, _: Deadline) -> bool:
     return factor > 1 and value <= factor * alone[0]
 
 
-def _first_plan(task: Task, is_proven: Callable[[Tick, Deadline], bool]) -> Draft | None:
+def _find_first_plan(task: Task, is_proven: Callable[[Tick, Deadline], bool]) -> Draft | None:
     """Return the plan given or one by large neighbourhood search, None where it finds none."""
     if task.start is not None:
         return Draft(tracks=task.start, status=Status("given"))

@@ -66,7 +66,7 @@ def lns(task: Task) -> Draft:
     """Find a plan or take the one given, and improve it till time is up; options: `LnsOptions`."""
     search = make_fleet_search(task)
     if task.start is not None:
-        return _improve(task, search, Draft(tracks=task.start, status=Status("given")))
+        return _run_improvement(task, search, Draft(tracks=task.start, status=Status("given")))
     return improve_best(task, search)
 
 
@@ -84,26 +84,26 @@ def improve_best(
     problem = task.scenario.problem
     drafts: tuple[Draft | None, ...]
     if problem.has_times or not problem.is_open:
-        drafts = (first, _if_found(task, search, needed=first is None))
+        drafts = (first, _try_search(task, search, needed=first is None))
     elif len(problem.itineraries) > MOST_ROBOTS and problem.resources.are_points:
-        drafts = (first, _together(task))
+        drafts = (first, _plan_together(task))
     else:
-        together = _quickly_together(task)
+        together = _plan_quickly_together(task)
         has_plan = first is not None or together is not None
-        drafts = (first, together, _in_turn(task, search, has_plan=has_plan))
+        drafts = (first, together, _plan_in_turn(task, search, has_plan=has_plan))
     plans = [plan for plan in drafts if plan is not None]
     if not plans and not problem.has_times:
         is_simple = problem.resources.are_points and problem.is_open
-        together = _together(task) if is_simple else plan_fleet(task)
+        together = _plan_together(task) if is_simple else plan_fleet(task)
         plans = [together] if together is not None else []
     if not plans:
         raise GaveUp(Fact("time over without a plan"))
     best = min(plans, key=lambda plan: task.measure_worth(plan.tracks))
     proof = None if first is None else first.proof
-    return _improve(task, search, replace(best, proof=proof), is_enough)
+    return _run_improvement(task, search, replace(best, proof=proof), is_enough)
 
 
-def _if_found(task: Task, search: FleetSearch, *, needed: bool) -> Draft | None:
+def _try_search(task: Task, search: FleetSearch, *, needed: bool) -> Draft | None:
     """Plan robots one after another; where a plan is there already, finding none is no error."""
     try:
         return plan_in_turn(task, search, "shortest")
@@ -113,7 +113,7 @@ def _if_found(task: Task, search: FleetSearch, *, needed: bool) -> Draft | None:
         return None
 
 
-def _together(task: Task) -> Draft | None:
+def _plan_together(task: Task) -> Draft | None:
     """Plan by LaCAM in all the time left, by instants and then without clocks."""
     try:
         draft = plan_fleet(task)
@@ -123,7 +123,7 @@ def _together(task: Task) -> Draft | None:
     return replace(draft, status=Status("together"))
 
 
-def _quickly_together(task: Task) -> Draft | None:
+def _plan_quickly_together(task: Task) -> Draft | None:
     """Plan by LaCAM: in an instant, or not at all, as in long narrow lanes."""
     share = SHARE if task.scenario.problem.resources.are_points else SHARE_WITH_SIZES
     hurried = replace(task, deadline=task.deadline.shorten(share))
@@ -134,7 +134,7 @@ def _quickly_together(task: Task) -> Draft | None:
     return replace(draft, status=Status("together"))
 
 
-def _in_turn(task: Task, search: FleetSearch, *, has_plan: bool) -> Draft | None:
+def _plan_in_turn(task: Task, search: FleetSearch, *, has_plan: bool) -> Draft | None:
     """Plan robots one after another; without a plan, LaCAM needs time for a second attempt."""
     if not has_plan and task.scenario.problem.resources.are_points:
         task = replace(task, deadline=task.deadline.shorten(SHARE_IN_TURN))
@@ -144,7 +144,7 @@ def _in_turn(task: Task, search: FleetSearch, *, has_plan: bool) -> Draft | None
     return draft
 
 
-def _improve(
+def _run_improvement(
     task: Task, search: FleetSearch, first: Draft, is_enough: IsEnough | None = None
 ) -> Draft:
     """Improve a plan until time, iterations or gains are used up, or nothing can be better.
@@ -152,7 +152,7 @@ def _improve(
     An interrupt ends it too where the task keeps the best plan.
     """
     task.better(lambda: first.tracks)
-    spaced = _spaced(task, first.tracks)
+    spaced = _add_headway(task, first.tracks)
     if spaced is None:
         second = Status("no longer headways")
         return replace(first, status=Status("then", first=first.status, second=second))
@@ -195,7 +195,9 @@ def _improve(
         if not task.keep_best:
             raise
         is_interrupted = True
-    tracks = _found(task, search, tuple(spaced), is_better=(search.value, search.cost) < before)
+    tracks = _take_found(
+        task, search, tuple(spaced), is_better=(search.value, search.cost) < before
+    )
     rated = task.measure_worth
     status = Status("as fast as alone", status=first.status)
     if rated(tracks)[1] != least_cost or task.scenario.problem.minimizes_service:
@@ -232,7 +234,7 @@ def _describe_progress(task: Task, search: FleetSearch, bound: int, rate: float)
     return Fact("value and gap reached", task.scenario, **values, gap=cost / bound - 1)
 
 
-def _found(
+def _take_found(
     task: Task, search: FleetSearch, first: tuple[Track, ...], *, is_better: bool
 ) -> tuple[Track, ...]:
     """Return what the search found, with the tracks given wherever these are as good."""
@@ -240,10 +242,10 @@ def _found(
         return search.list_tracks() if task.start is None else first
     if task.start is not None:
         search.restore(first)
-    return _retimed(task, search)
+    return _compute_retimed(task, search)
 
 
-def _retimed(task: Task, search: FleetSearch) -> tuple[Track, ...]:
+def _compute_retimed(task: Task, search: FleetSearch) -> tuple[Track, ...]:
     """Return every visit at the earliest time that keeps the order at each vertex.
 
     LNS replaces tracks, not waits.
@@ -257,7 +259,7 @@ def _retimed(task: Task, search: FleetSearch) -> tuple[Track, ...]:
     return tuple(graph.build_tracks())
 
 
-def _spaced(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track] | None:
+def _add_headway(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track] | None:
     """Return the tracks with the headway of planning, where that is more than the scenario's.
 
     None where a closure begins too soon for it.

@@ -71,7 +71,7 @@ def random_priority(task: Task) -> Draft:
         for _ in range(task.options["restarts"]):
             plan(draw.sample(listed, len(listed)))
 
-    return _best_of(task, search)
+    return _find_best_of(task, search)
 
 
 def priority_search(task: Task) -> Draft:
@@ -94,7 +94,7 @@ def priority_search(task: Task) -> Draft:
                 if other_worth <= worth:
                     order, worth = other, other_worth
 
-    return _best_of(task, search)
+    return _find_best_of(task, search)
 
 
 def plan_by_priority(order: Order) -> Rule:
@@ -104,13 +104,13 @@ def plan_by_priority(order: Order) -> Rule:
     def rule(plan: PartialPlan, meeting: Meeting) -> Resolution | None:
         i, j = meeting.robots
         lower = 0 if place[i] > place[j] else 1
-        resolution = _if_waits(plan, meeting, lower, "priority")
-        return resolution or _if_waits(plan, meeting, 1 - lower, "only")
+        resolution = _try_wait(plan, meeting, lower, "priority")
+        return resolution or _try_wait(plan, meeting, 1 - lower, "only")
 
     return rule
 
 
-def _if_waits(
+def _try_wait(
     plan: PartialPlan, meeting: Meeting, waits: int, level: Literal["priority", "only"]
 ) -> Resolution | None:
     """Let one of the two robots (0: i, 1: j) wait; None if impossible."""
@@ -126,7 +126,7 @@ def _if_waits(
     return Resolution(decisions=(decision,), rights=rights)
 
 
-def _best_of(
+def _find_best_of(
     task: Task, search: Callable[[Callable[[Order], Worth], range, random.Random], None]
 ) -> Draft:
     """Let a search try orders until it ends or time is over, and return the best plan.

@@ -72,42 +72,46 @@ def plan_in_turn(
     """
     if len(task.scenario.robots) > MOST_ROBOTS or task.deadline.measure_seconds_left() == 0:
         return None
-    turns = _in_order(task.scenario, search, order, task.seed)
+    turns = _choose_order(task.scenario, search, order, task.seed)
     problem = task.scenario.problem
     if problem.has_times:
         return _in_time(task, search, turns, SHARE_WITH_PLAN if has_plan else SHARE_WITH_SIZES)
     if not problem.resources.are_points or problem.closures is not None:
-        return _patiently(task, search, turns, SHARE_WITH_PLAN if has_plan else SHARE_WITH_SIZES)
+        return _plan_patiently(
+            task, search, turns, SHARE_WITH_PLAN if has_plan else SHARE_WITH_SIZES
+        )
     searches, deadline = SEARCHES * len(turns), task.deadline
     if search.prioritize(
         turns,
         searches=searches,
-        time_limit=_part(deadline, SHARE),
-        with_fallback=_part(deadline, SHARE_WITH_FALLBACK),
+        time_limit=_measure_part(deadline, SHARE),
+        with_fallback=_measure_part(deadline, SHARE_WITH_FALLBACK),
     ):
-        return _at_own_speeds(task, search)
-    drafts = [_at_one_pace(task, turns)]
-    if search.resume(searches=searches, time_limit=_part(deadline, SHARE_OF_MORE)):
-        drafts.append(_at_own_speeds(task, search))
+        return _plan_at_own_speeds(task, search)
+    drafts = [_plan_at_one_pace(task, turns)]
+    if search.resume(searches=searches, time_limit=_measure_part(deadline, SHARE_OF_MORE)):
+        drafts.append(_plan_at_own_speeds(task, search))
     finished = [draft for draft in drafts if draft is not None]
     return min(finished, key=lambda draft: compute_cost(task.scenario, draft.tracks), default=None)
 
 
-def _patiently(task: Task, search: FleetSearch, turns: Sequence[int], share: float) -> Draft | None:
+def _plan_patiently(
+    task: Task, search: FleetSearch, turns: Sequence[int], share: float
+) -> Draft | None:
     """Plan robots one after another at their own speeds only.
 
     One pace gains nothing for robots with a size, which book ahead; and closures are at times.
     """
     searches = SEARCHES_WITH_SIZES * len(turns)
-    limit = _part(task.deadline, share)
+    limit = _measure_part(task.deadline, share)
     is_complete = search.prioritize(turns, searches=searches, time_limit=limit)
-    return _at_own_speeds(task, search) if is_complete else None
+    return _plan_at_own_speeds(task, search) if is_complete else None
 
 
 def _in_time(task: Task, search: FleetSearch, turns: Sequence[int], share: float) -> Draft | None:
     """Plan robots whose stages have times one after another, or else let one move at a time."""
     searches = SEARCHES_WITH_SIZES * len(turns)
-    limit = _part(task.deadline, share)
+    limit = _measure_part(task.deadline, share)
     status = Status("in turn")
     if not search.prioritize(turns, searches=searches, time_limit=limit):
         limit = task.deadline.measure_seconds_left()
@@ -118,11 +122,11 @@ def _in_time(task: Task, search: FleetSearch, turns: Sequence[int], share: float
     return Draft(tracks=search.list_tracks(), status=status)
 
 
-def _part(deadline: Deadline, share: float) -> float | None:
+def _measure_part(deadline: Deadline, share: float) -> float | None:
     return deadline.shorten(share).measure_seconds_left()
 
 
-def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
+def _plan_at_own_speeds(task: Task, search: FleetSearch) -> Draft:
     tracks = search.list_tracks()
     problem = task.scenario.problem
     if problem.closures is not None:  # a robot may have waited for a kept home
@@ -131,14 +135,14 @@ def _at_own_speeds(task: Task, search: FleetSearch) -> Draft:
     return Draft(tracks=tracks, status=Status("in turn"))
 
 
-def _at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:
+def _plan_at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:
     if task.deadline.measure_seconds_left() == 0:
         return None
-    paced = _paced(task.scenario)
+    paced = _make_paced(task.scenario)
     # One thread: the greedy attempt is not needed here, and would slow this one on a busy machine.
     search = FleetSearch(paced.problem, seed=task.seed, threads=1)
     searches = SEARCHES_AT_ONE_PACE * len(turns)
-    limit = _part(task.deadline, SHARE_AT_ONE_PACE)
+    limit = _measure_part(task.deadline, SHARE_AT_ONE_PACE)
     if not search.prioritize(turns, searches=searches, time_limit=limit):
         return None
     tracks = build_timetable(task.scenario.problem, search.list_tracks())
@@ -148,7 +152,7 @@ def _at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:
     return Draft(tracks=tuple(tracks), status=status)
 
 
-def _paced(scenario: Scenario) -> Scenario:
+def _make_paced(scenario: Scenario) -> Scenario:
     """Return the same trips for robots of one speed that do not work and book one vertex.
 
     The order of visits in a plan of these is possible for the real robots, too: the headway keeps
@@ -168,7 +172,7 @@ def _paced(scenario: Scenario) -> Scenario:
     return replace(scenario, robots=robots, rules=rules)
 
 
-def _in_order(scenario: Scenario, search: FleetSearch, order: str, seed: int) -> list[int]:
+def _choose_order(scenario: Scenario, search: FleetSearch, order: str, seed: int) -> list[int]:
     robots = list(range(len(scenario.robots)))
     if order == "random":
         random.Random(seed).shuffle(robots)  # noqa: S311 (no secret depends on it)

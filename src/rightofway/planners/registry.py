@@ -183,13 +183,13 @@ def find_all() -> dict[str, PlannerSpec]:
     Installed packages are searched once for each ``sys.path``.
     """
     specs = {spec.name: spec for spec in PLANNERS}
-    for name, spec in _of_other_packages(tuple(sys.path)).items():
+    for name, spec in _list_of_other_packages(tuple(sys.path)).items():
         specs.setdefault(name, spec)
     return specs
 
 
 @cache
-def _of_other_packages(_path: tuple[str, ...]) -> dict[str, PlannerSpec]:
+def _list_of_other_packages(_path: tuple[str, ...]) -> dict[str, PlannerSpec]:
     """Return the planners of packages that are installed on this ``sys.path``."""
     return load_plugins(GROUP, PlannerSpec)
 

@@ -81,11 +81,11 @@ def two_level(task: Task) -> Draft:
 
 def paper(task: Task) -> Draft:
     """Plan a fleet by the method as published; the plan may hold swaps. It has no options."""
-    distances, plan = _as_published(task)
+    distances, plan = _make_published(task)
     return plan_on_routes(task, distances, plan, plan_by_two_levels)
 
 
-def _as_published(task: Task) -> tuple[Distances, PartialPlan]:
+def _make_published(task: Task) -> tuple[Distances, PartialPlan]:
     """Return a fleet on shortest routes, in which swaps are no conflicts."""
     distances, routes = choose_routes(replace(task, options={"routes": "shortest"}))
     return distances, PartialPlan(task, routes, sees_swaps=False)
@@ -155,11 +155,11 @@ def replay_movement_groups(
     def by_two_levels_again(partial: PartialPlan, meeting: Meeting) -> Resolution | None:
         resolution = plan_by_two_levels(partial, meeting)
         if resolution is not None and decision in resolution.decisions:
-            groups.extend(_temporary_group(partial, meeting, on_tie) for on_tie in (0, 1))
+            groups.extend(_make_temporary_group(partial, meeting, on_tie) for on_tie in (0, 1))
         return resolution
 
     if plan.run.name == "paper" or options["swaps"] == "leave":
-        _, replayed = _as_published(task)
+        _, replayed = _make_published(task)
     else:
         _, routes = choose_routes(task)
         replayed = PartialPlan(task, routes)
@@ -170,7 +170,7 @@ def replay_movement_groups(
     return groups[0], groups[1]
 
 
-def _temporary_group(plan: PartialPlan, meeting: Meeting, on_tie: int) -> MovementGroup | None:
+def _make_temporary_group(plan: PartialPlan, meeting: Meeting, on_tie: int) -> MovementGroup | None:
     i, j = meeting.robots
     followed = _follow(plan, i, j, on_tie=on_tie)
     if followed is None:
@@ -198,8 +198,8 @@ def _follow(plan: PartialPlan, i: int, j: int, *, on_tie: int) -> _MovementGroup
         segment = plan.find_segment(meeting)
         # Node level: let either of the two wait, and count the collisions that are left in the
         # system.
-        options = [_attempt(plan, meeting, segment, waits) for waits in (0, 1)]
-        chosen = _node_level(options, on_tie)
+        options = [_try_wait(plan, meeting, segment, waits) for waits in (0, 1)]
+        chosen = _decide_at_node_level(options, on_tie)
         if chosen is None:
             graph.rollback(mark)
             return None
@@ -218,7 +218,7 @@ def _follow(plan: PartialPlan, i: int, j: int, *, on_tie: int) -> _MovementGroup
     )
 
 
-def _attempt(plan: PartialPlan, meeting: Meeting, segment: Segment, waits: int) -> _Option | None:
+def _try_wait(plan: PartialPlan, meeting: Meeting, segment: Segment, waits: int) -> _Option | None:
     """Let one of the two wait until the other has left, and count; None if impossible."""
     graph, robot = plan.graph, meeting.robots[waits]
     # A choice that meets robots which are settled already would undo decisions of before.
@@ -244,7 +244,7 @@ def _attempt(plan: PartialPlan, meeting: Meeting, segment: Segment, waits: int) 
     return option
 
 
-def _node_level(options: Sequence[_Option | None], on_tie: int) -> _Option | None:
+def _decide_at_node_level(options: Sequence[_Option | None], on_tie: int) -> _Option | None:
     """Choose which robot waits by the conflicts left in the whole system."""
     possible = [option for option in options if option is not None]
     # One of the two cannot wait at all: the other one does.

@@ -83,7 +83,7 @@ class PartialPlan:
                 rotation = find_rotation(self.task.scenario.problem, self._list_tracks())
                 if not rotation:
                     return
-                self.defer(rotation, self._explain_rotation(rotation))
+                self.defer(rotation, self._name_rotation(rotation))
                 continue
             resolution = rule(self, meeting)
             if resolution is None:
@@ -122,7 +122,7 @@ class PartialPlan:
         self.settled[robot] = 0
         self.graph.withdraw(robot)
 
-    def _explain_rotation(self, rotation: Sequence[int]) -> RerouteReason:
+    def _name_rotation(self, rotation: Sequence[int]) -> RerouteReason:
         """Name the robots that would move round a circle at one instant."""
         names = [self.task.scenario.robots[robot].name for robot in rotation]
         return RerouteReason("rotation", robots=names)

@@ -71,7 +71,7 @@ def flip_right_of_way(
     search = LocalSearch(task, graph)
     if search.reverse(first, second) and search.resolve():
         return Flipped(tracks=tuple(graph.build_tracks()), keeps_routes=True)
-    tracks = _on_other_routes(task, plan, waits, goes_first)
+    tracks = _plan_on_other_routes(task, plan, waits, goes_first)
     if tracks is None:
         why = _explain_order(graph, first, second)
         fact = Fact("cannot go before", scenario, waits=waits, goes_first=goes_first, why=why)
@@ -89,7 +89,7 @@ def _explain_order(graph: PrecedenceGraph, first: int, second: int) -> Fact:
     return Fact("would block each other")
 
 
-def _on_other_routes(
+def _plan_on_other_routes(
     task: Task, plan: Plan, waits: int, goes_first: int
 ) -> tuple[Track, ...] | None:
     """Return a plan in which one robot is planned before another; None if it is not home sooner."""

@@ -75,14 +75,14 @@ def refuse_stranded(scenario: Scenario, stranded: Iterable[int]) -> None:
     """Raise `NoPlanExists` if some robots have no way to a place, or robots share an end."""
     blockages = [
         *find_missing_ways(scenario, stranded),
-        *_shared_ends(scenario),
-        *_clashes(scenario),
+        *_find_shared_ends(scenario),
+        *_find_clashes(scenario),
     ]
     if blockages:
         raise NoPlanExists(blockages, scenario)
 
 
-def _shared_ends(scenario: Scenario) -> Iterator[Blockage]:
+def _find_shared_ends(scenario: Scenario) -> Iterator[Blockage]:
     """Yield where several robots would have to stay at one vertex for ever."""
     # Two robots that stay at one vertex for ever can never both be there: no search is needed.
     holders: defaultdict[VertexId, list[int]] = defaultdict(list)
@@ -96,7 +96,7 @@ def _shared_ends(scenario: Scenario) -> Iterator[Blockage]:
             yield Blockage(reason, tuple(robots), (vertex,), remedy)
 
 
-def _clashes(scenario: Scenario) -> Iterator[Blockage]:
+def _find_clashes(scenario: Scenario) -> Iterator[Blockage]:
     """Yield where two robots would start or end too near to each other."""
     itineraries, roadmap = scenario.problem.itineraries, scenario.roadmap
     homes, ends = (
@@ -144,7 +144,7 @@ def refuse_closed_ways(
     for robot in range(len(scenario.robots)) if robots is None else robots:
         deadline.check(FINDING_WAYS)
         if not _has_track_alone(scenario, robot, distances, deadline):
-            blockages.append(_closed_in(scenario, robot, distances, deadline))
+            blockages.append(_find_closed_in(scenario, robot, distances, deadline))
             if len(blockages) == MAX_REASONS:
                 break
     if blockages:
@@ -159,7 +159,7 @@ def _has_track_alone(
     return track is not None
 
 
-def _closed_in(
+def _find_closed_in(
     scenario: Scenario, robot: int, distances: Distances, deadline: Deadline
 ) -> Blockage:
     """Return why a robot has no track alone: a small set of closures that block it."""
@@ -338,7 +338,7 @@ def _describe_blocked(scenario: Scenario, robots: Sequence[int]) -> Blockage:
     reason = Fact("block each other", robots=tuple(robots))
     if len(robots) < len(scenario.robots):
         reason = Fact("whatever others do", fact=reason)
-    if narrow := tuple(_narrow_places(scenario, robots)):
+    if narrow := tuple(_list_narrow_places(scenario, robots)):
         reason = Fact("narrow places", fact=reason, places=narrow, number=len(robots))
         return Blockage(reason, tuple(robots), narrow, Fact("give room there"))
     itineraries = [scenario.problem.itineraries[robot] for robot in robots]
@@ -346,7 +346,7 @@ def _describe_blocked(scenario: Scenario, robots: Sequence[int]) -> Blockage:
     return Blockage(reason, tuple(robots), tuple(ends), Fact("give room or places"))
 
 
-def _narrow_places(scenario: Scenario, robots: Sequence[int]) -> list[VertexId]:
+def _list_narrow_places(scenario: Scenario, robots: Sequence[int]) -> list[VertexId]:
     """Return the vertices that each of some robots has to pass or to go to, in their order."""
     if len(robots) > LARGEST_SET or scenario.roadmap.n_vertices > LARGEST_MAP:
         return []

@@ -68,14 +68,14 @@ class MakespanSearch:
         """Search until the plan is proven, or time or nodes are used up."""
         try:
             if self._objective is Objective.MAKESPAN:
-                self._halve()
+                self._search_by_halves()
             else:
-                self._descend()
+                self._search_downwards()
         except KeyboardInterrupt:
             if not self.task.keep_best:
                 raise
 
-    def _halve(self) -> None:
+    def _search_by_halves(self) -> None:
         """Halve the ticks between the last robot alone and the best plan.
 
         Where a tree ends undecided, only later ticks are tried.
@@ -86,7 +86,7 @@ class MakespanSearch:
         # only moves `tried`.
         tried = latest = self.bound  # no tick is tried again
         while tried < best and best > self.factor * self.bound:
-            tree = self._grow(latest, None)
+            tree = self._make_grown_tree(latest, None)
             if tree is None:
                 return
             if tree.tracks is not None:
@@ -98,7 +98,7 @@ class MakespanSearch:
                 tried = latest + 1
             latest = (tried + best - 1) // 2
 
-    def _descend(self) -> None:
+    def _search_downwards(self) -> None:
         """Take the plan of least flowtime, then that among the plans of less makespan, and so on.
 
         Plans within a tick have at least the flowtime of those within a later one. So the bound of
@@ -109,7 +109,7 @@ class MakespanSearch:
         # the largest down, and a tree is only asked for plans that are better in the sum.
         share = sum(self._weights) * self._longest
         while self.value > self.factor * self.bound:
-            tree = self._grow(latest, self.value - share)
+            tree = self._make_grown_tree(latest, self.value - share)
             if tree is None:
                 return
             if tree.is_proven and tree.tracks is None:
@@ -126,7 +126,7 @@ class MakespanSearch:
                 self.bound = self.value
                 return
 
-    def _grow(self, latest: int | None, upper: int | None) -> ConflictBasedSearch | None:
+    def _make_grown_tree(self, latest: int | None, upper: int | None) -> ConflictBasedSearch | None:
         """Return a tree that is grown; None where no time or no node is left."""
         seconds = self.task.deadline.shorten(SHARE_OF_TREE).measure_seconds_left()
         if seconds == 0 or (self._left is not None and self._left <= 1):

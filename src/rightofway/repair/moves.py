@@ -77,10 +77,10 @@ def plan_by_moves(task: Task, search: FleetSearch) -> Draft:
         After too many states, or when time ran out. With closures the moves are a proof only,
         because they have no times.
     """
-    moves = _moves(task, SingleMoves(task.scenario), MOST_STATES)
+    moves = _find_moves(task, SingleMoves(task.scenario), MOST_STATES)
     if task.scenario.problem.closures is not None:
         raise GaveUp(Fact("no plan in turn among closures"))
-    search.start(_in_sequence(task, moves))
+    search.start(_place_in_sequence(task, moves))
     search.retime()
     task.has_plan()
     return Draft(tracks=search.list_tracks(), status=Status("moves"))
@@ -98,10 +98,12 @@ def find_tracks_by_moves(
     GaveUp
         After too many states, or when time ran out.
     """
-    return _in_sequence(task, _moves(task, SingleMoves(task.scenario, ends_anywhere), most_states))
+    return _place_in_sequence(
+        task, _find_moves(task, SingleMoves(task.scenario, ends_anywhere), most_states)
+    )
 
 
-def _moves(task: Task, floor: SingleMoves, most_states: int) -> list[Move]:
+def _find_moves(task: Task, floor: SingleMoves, most_states: int) -> list[Move]:
     """Return moves that bring all robots through their trips, at no times."""
     moves = _search(floor, most_states, task.deadline)
     if moves is None:
@@ -136,7 +138,7 @@ def _search(floor: SingleMoves, most_states: int, deadline: Deadline) -> list[Mo
             deadline.check(ORDERING)
         to_go, _, state = heappop(waiting)
         if to_go == 0:
-            return _path(came_from, state)
+            return _trace_path(came_from, state)
         for move, after in floor.make_successors(state):
             if after not in came_from:
                 came_from[after] = state, move
@@ -144,7 +146,7 @@ def _search(floor: SingleMoves, most_states: int, deadline: Deadline) -> list[Mo
     raise AssertionError("the loop ends by itself")
 
 
-def _path(came_from: dict[State, tuple[State, Move] | None], state: State) -> list[Move]:
+def _trace_path(came_from: dict[State, tuple[State, Move] | None], state: State) -> list[Move]:
     moves = []
     while (step := came_from[state]) is not None:
         state, move = step
@@ -207,7 +209,7 @@ class SingleMoves:
     def make_successors(self, state: State) -> Iterator[tuple[Move, State]]:
         """Yield every move that the places of all other robots allow, and the state after it."""
         rows = map(self.resources.get_vertex_row, range(len(state.places)), state.places)
-        excluded = [self._mask_of(row) for row in rows]
+        excluded = [self._make_mask(row) for row in rows]
         before, after = [0], [0]
         for mask in excluded:
             before.append(before[-1] | mask)
@@ -229,14 +231,14 @@ class SingleMoves:
                 after_move = self.serve(State(places, state.stages))
                 yield Move(robot, head, edge), after_move
 
-    def _mask_of(self, row: int) -> int:
+    def _make_mask(self, row: int) -> int:
         """Return the rows that a booking excludes, as bits."""
         if row not in self._excluded:
             self._excluded[row] = sum(1 << other for other in list_excluded(self.resources, row))
         return self._excluded[row]
 
 
-def _in_sequence(task: Task, moves: list[Move]) -> list[Track]:
+def _place_in_sequence(task: Task, moves: list[Move]) -> list[Track]:
     """Return tracks in which the robots make their moves one after another."""
     roadmap, itineraries = task.scenario.roadmap, task.scenario.problem.itineraries
     vertices = [[itinerary.home] for itinerary in itineraries]

@@ -104,7 +104,7 @@ def _find_legs(itinerary: Itinerary, distances: Distances) -> list[Path]:
     """Return a shortest path to each stage. Raise `InputError` where one cannot be reached."""
     ticks, legs = itinerary.edge_costs, list[Path]()
     paths: dict[tuple[VertexId, VertexId], Path] = {}
-    for place, stage in _trips(itinerary):
+    for place, stage in _list_trips(itinerary):
         if stage == itinerary.home:
             out = paths.get((stage, place)) or distances.find_path(stage, place, ticks)
             leg = _find_way_back(out, itinerary, distances)
@@ -150,7 +150,7 @@ def find_direct_routes(
     for robot, (itinerary, route) in limit_loop(
         enumerate(zip(scenario.problem.itineraries, routes, strict=True)), ROUTING
     ):
-        trips = _trips(itinerary)
+        trips = _list_trips(itinerary)
         least = sum(int(distances.to(end, itinerary.edge_ticks)[start]) for start, end in trips)
         if sum(route.drive) > least:
             detours.append(robot)
@@ -164,13 +164,13 @@ def find_direct_routes(
 def _clear(scenario: Scenario, traffic: Congestion, robot: int) -> Route:
     """Return a robot's route through the traffic, and add the route to the traffic."""
     itinerary = scenario.problem.itineraries[robot]
-    trips = _trips(itinerary)
+    trips = _list_trips(itinerary)
     legs = [traffic.find_path(robot, place, stage) for place, stage in trips]
     for leg in legs:
         traffic.add(robot, leg)
     return join_route(scenario.roadmap, itinerary, legs)
 
 
-def _trips(itinerary: Itinerary) -> Iterator[tuple[VertexId, VertexId]]:
+def _list_trips(itinerary: Itinerary) -> Iterator[tuple[VertexId, VertexId]]:
     """Yield the place before each stage and the place of the stage."""
     return pairwise([itinerary.home, *(stage.vertex for stage in itinerary.stages)])

@@ -54,11 +54,11 @@ def list_circuit_steps(pieces: Sequence[Piece], scenario: Scenario) -> list[Circ
     place, steps = PlaceNames(scenario, numbered=True), list[CircuitStep]()
     for _, run in groupby(rotated, lambda piece: piece.robot):
         awaited = steps[-1].robot if steps else rotated[-1].robot
-        steps.extend(_steps_of_robot(list(run), awaited, scenario, place))
+        steps.extend(_list_steps_of_robot(list(run), awaited, scenario, place))
     return steps
 
 
-def _steps_of_robot(
+def _list_steps_of_robot(
     run: Sequence[Piece], awaited: int, scenario: Scenario, place: PlaceNames
 ) -> Iterator[CircuitStep]:
     """Yield the actions of one robot without waiting for others."""

@@ -25,11 +25,11 @@ def report_drive(result: DriveResult, quantities: Quantities) -> str:
     quantities
         How times are written.
     """
-    facts = Facts(list(_totals(result, quantities)))
-    return lay_out([facts, "", *_robots(result, quantities)])
+    facts = Facts(list(_list_totals(result, quantities)))
+    return lay_out([facts, "", *_make_robots(result, quantities)])
 
 
-def _totals(result: DriveResult, quantities: Quantities) -> Iterator[tuple[str, str]]:
+def _list_totals(result: DriveResult, quantities: Quantities) -> Iterator[tuple[str, str]]:
     yield "jobs", f"{sum(result.jobs)} done"
     if result.completion is None:
         time = quantities.format_duration(result.now)
@@ -60,7 +60,7 @@ def _totals(result: DriveResult, quantities: Quantities) -> Iterator[tuple[str, 
     yield "messages", chain_items(messages)
 
 
-def _robots(result: DriveResult, quantities: Quantities) -> Iterator[Part]:
+def _make_robots(result: DriveResult, quantities: Quantities) -> Iterator[Part]:
     robots = result.plan.scenario.robots
     if result.completion is None:
         yield "laps of each robot"

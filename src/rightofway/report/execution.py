@@ -23,12 +23,12 @@ LEAST_SHARE = 0.01
 
 def report(outcome: SimulationResult, quantities: Quantities) -> str:
     """Return how often robots collided, how late each one was, and where lateness began."""
-    facts = Facts(list(_totals(outcome, quantities)))
-    parts = [facts, "", *_robots(outcome, quantities), *_sources(outcome, quantities)]
+    facts = Facts(list(_list_totals(outcome, quantities)))
+    parts = [facts, "", *_make_robots(outcome, quantities), *_make_sources(outcome, quantities)]
     return lay_out(parts)
 
 
-def _totals(outcome: SimulationResult, quantities: Quantities) -> Iterator[tuple[str, str]]:
+def _list_totals(outcome: SimulationResult, quantities: Quantities) -> Iterator[tuple[str, str]]:
     runs, late, gain = outcome.runs, outcome.lateness, outcome.gain
     yield (
         "runs",
@@ -41,47 +41,47 @@ def _totals(outcome: SimulationResult, quantities: Quantities) -> Iterator[tuple
     collisions = say_count(outcome.collisions or "no", "collision", "collisions")
     deadlocks = say_count(outcome.deadlocks or "no", "deadlock", "deadlocks")
     yield "right of way", chain_items([collisions, deadlocks])
-    yield "by the clock", _by_clock(outcome, quantities)
-    yield "late", _lateness(late.all, quantities, is_delay=True)
+    yield "by the clock", _write_by_clock(outcome, quantities)
+    yield "late", _write_lateness(late.all, quantities, is_delay=True)
     if late.flowtime.mean is not None:
-        yield "flowtime", _lateness(late.flowtime, quantities)
-        yield "makespan", _lateness(late.makespan, quantities)
-    stranded = _mean(outcome.stranded, runs)
+        yield "flowtime", _write_lateness(late.flowtime, quantities)
+        yield "makespan", _write_lateness(late.makespan, quantities)
+    stranded = _write_mean(outcome.stranded, runs)
     if outcome.plan.scenario.closures:
         text = (
-            f"robots per run: {_mean(outcome.caught, runs)} are caught in a closure,"
+            f"robots per run: {_write_mean(outcome.caught, runs)} are caught in a closure,"
             f" {stranded} never complete"
         )
         yield "closures", text
     if outcome.switches:
-        yield "switched", _per_run(outcome.switches, runs)
+        yield "switched", _write_per_run(outcome.switches, runs)
     if outcome.replans:
-        yield "replanned", _per_run(outcome.replans, runs)
+        yield "replanned", _write_per_run(outcome.replans, runs)
     if gain and gain.runs and gain.flowtime.mean is not None:
-        yield "gain", _gain(gain, gain.flowtime.mean, quantities)
+        yield "gain", _write_gain(gain, gain.flowtime.mean, quantities)
     if outcome.broken:
         broken: str = (
-            f"robots per run: {_mean(outcome.broken, runs)} break down, {stranded} wait"
+            f"robots per run: {_write_mean(outcome.broken, runs)} break down, {stranded} wait"
             " for them for ever"
         )
         if outcome.replans:
-            cut_off = _mean(outcome.cut_off, runs)
+            cut_off = _write_mean(outcome.cut_off, runs)
             broken = chain_items([broken, f"{cut_off} are cut off from a place"])
         yield "broken", broken
 
 
-def _by_clock(outcome: SimulationResult, quantities: Quantities) -> str:
+def _write_by_clock(outcome: SimulationResult, quantities: Quantities) -> str:
     clock, runs = outcome.by_clock, outcome.runs
     if not clock.runs or clock.first.median is None:
         return "no run collides"
     return "{share} of runs collide, {times}, first at {moment} (median)".format(
         share=f"{clock.runs / runs:.1%}",
-        times=_per_run(clock.total, runs),
+        times=_write_per_run(clock.total, runs),
         moment=quantities.format_moment(clock.first.median),
     )
 
 
-def _gain(gain: PolicyGain, saved: float, quantities: Quantities) -> str:
+def _write_gain(gain: PolicyGain, saved: float, quantities: Quantities) -> str:
     """Compare runs with the plan's rights of way in the same runs; a loss is below zero."""
     if not (gain.earlier or gain.later):
         return "none"
@@ -105,16 +105,16 @@ def _gain(gain: PolicyGain, saved: float, quantities: Quantities) -> str:
     )
 
 
-def _mean(number: int, runs: int) -> str:
+def _write_mean(number: int, runs: int) -> str:
     return format_decimal(Fraction(number, runs))
 
 
-def _per_run(number: int, runs: int) -> str:
-    times = say_count(_mean(number, runs), "time", "times")
+def _write_per_run(number: int, runs: int) -> str:
+    times = say_count(_write_mean(number, runs), "time", "times")
     return f"{times} per run on average"
 
 
-def _lateness(lateness: Quantiles, quantities: Quantities, *, is_delay: bool = False) -> str:
+def _write_lateness(lateness: Quantiles, quantities: Quantities, *, is_delay: bool = False) -> str:
     """Return how late robots are, or how much later a sum of their times is."""
     mean, most = lateness.mean, lateness.max
     if mean is None or most is None:
@@ -137,7 +137,7 @@ def _lateness(lateness: Quantiles, quantities: Quantities, *, is_delay: bool = F
     return f"{average}; {chain_items(parts)}"
 
 
-def _robots(outcome: SimulationResult, quantities: Quantities) -> Iterator[Part]:
+def _make_robots(outcome: SimulationResult, quantities: Quantities) -> Iterator[Part]:
     names = [shorten_name(robot.name) for robot in outcome.plan.scenario.robots]
     robots, cell = outcome.lateness.robots, quantities.format_cell
     latest = sorted(range(len(robots)), key=lambda robot: -(robots[robot].quantiles.mean or 0))
@@ -163,7 +163,7 @@ def _robots(outcome: SimulationResult, quantities: Quantities) -> Iterator[Part]
         yield f"… and {more} that are less late"
 
 
-def _sources(outcome: SimulationResult, quantities: Quantities) -> Iterator[Part]:
+def _make_sources(outcome: SimulationResult, quantities: Quantities) -> Iterator[Part]:
     sources = outcome.lateness.sources
     if not sources:
         return

@@ -107,16 +107,16 @@ class FactWriter:
             fact = Fact("other", text=fact)
         forms = dict(list_forms(find_text(fact.kind, count_things(fact.values))))
         values = {
-            name: self._export_value(forms.get(name, ""), value)
+            name: self._convert_value(forms.get(name, ""), value)
             for name, value in fact.values.items()
         }
         return {"kind": fact.kind, "values": values}
 
-    def _export_value(self, form: str, value: Any) -> Any:
+    def _convert_value(self, form: str, value: Any) -> Any:
         if isinstance(value, Fact):
             return self.export(value)
         if isinstance(value, tuple | list):
-            return [self._export_value(form, item) for item in value]
+            return [self._convert_value(form, item) for item in value]
         if form in ROBOTS:
             return self.name_robot(value)
         if form in VERTICES:

@@ -88,7 +88,7 @@ def _keep(_: Values) -> Values:
     return {}
 
 
-def _shape_booking(begin: int, end: int | None) -> Fact:
+def _select_booking(begin: int, end: int | None) -> Fact:
     return (
         Fact("booked for ever", begin=begin)
         if end is None
@@ -96,7 +96,7 @@ def _shape_booking(begin: int, end: int | None) -> Fact:
     )
 
 
-def _shape_place(ends: Sequence[int]) -> Fact:
+def _select_place(ends: Sequence[int]) -> Fact:
     return (
         Fact("vertex", vertex=ends[0])
         if len(ends) == 1
@@ -104,7 +104,7 @@ def _shape_place(ends: Sequence[int]) -> Fact:
     )
 
 
-def _shape_whereabouts(ends: Sequence[int]) -> Fact:
+def _select_whereabouts(ends: Sequence[int]) -> Fact:
     return (
         Fact("at vertex", vertex=ends[0])
         if len(ends) == 1
@@ -112,12 +112,12 @@ def _shape_whereabouts(ends: Sequence[int]) -> Fact:
     )
 
 
-def _shape_needs(values: Values) -> Values:
+def _select_needs(values: Values) -> Values:
     times = (("working", values["work"]), ("turning", values["turn"]))
     return {"need": [Fact(kind, time=time) for kind, time in times if time]}
 
 
-def _shape_closed(values: Values) -> Values:
+def _select_closed(values: Values) -> Values:
     ends, end = values["vertices"], values["end"]
     place = Fact("vertex", vertex=ends[0])
     if len(ends) > 1:
@@ -142,7 +142,7 @@ _SHAPES: Mapping[tuple[str, str], Callable[[Values], Values]] = {
     ("wrong home", "remedy"): lambda _: {"moment": 0},
     ("wrong start", "remedy"): lambda _: {"moment": 0},
     ("outside visit", "reason"): lambda values: {
-        "time": _shape_booking(values["since"], values["until"])
+        "time": _select_booking(values["since"], values["until"])
     },
     ("stranded", "reason"): lambda values: {
         "way": Fact("no way to charge")
@@ -150,27 +150,27 @@ _SHAPES: Mapping[tuple[str, str], Callable[[Values], Values]] = {
         else Fact("way to charge", least=values["least"])
     },
     ("wrong end", "remedy"): lambda values: {"vertex": values["end"]},
-    ("work cut short", "reason"): _shape_needs,
+    ("work cut short", "reason"): _select_needs,
     ("work cut short", "remedy"): lambda values: {"time": values["missing"]},
     ("vertex conflict", "reason"): lambda values: {
-        "time": _shape_booking(values["begin"], values["end"]),
-        "other_time": _shape_booking(values["other_begin"], values["other_end"]),
+        "time": _select_booking(values["begin"], values["end"]),
+        "other_time": _select_booking(values["other_begin"], values["other_end"]),
     },
     ("headway", "remedy"): lambda values: {"moment": values["earliest"]},
     ("rotation", "reason"): lambda values: {"robots": values["moving"]},
     ("space conflict", "reason"): lambda values: {
         "bookings": [
-            Fact("booking", robot=robot, place=_shape_place(ends))
+            Fact("booking", robot=robot, place=_select_place(ends))
             for robot, ends in zip(values["robots"], values["places"], strict=True)
         ]
     },
     ("too close", "reason"): lambda values: {
         "moment": values["instant"],
-        "place": _shape_whereabouts(values["places"][0]),
-        "other_place": _shape_whereabouts(values["places"][1]),
+        "place": _select_whereabouts(values["places"][0]),
+        "other_place": _select_whereabouts(values["places"][1]),
     },
     ("zone conflict", "reason"): lambda values: {"other_vertex": values["vertices"][1]},
-    ("closed", "reason"): _shape_closed,
+    ("closed", "reason"): _select_closed,
     ("stop at pass", "remedy"): lambda values: {"moment": values["late"]},
     ("barred", "reason"): lambda values: {
         "why": Fact("near a wall")

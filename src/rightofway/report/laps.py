@@ -67,7 +67,7 @@ def _report(run: CyclicResult, quantities: Quantities) -> Iterator[Part]:
                 "rule",
                 f"{run.rule}, on {run.routes} routes",
             ),
-            ("groups", _groups(together, len(run.groups) - len(together))),
+            ("groups", _write_groups(together, len(run.groups) - len(together))),
             ("throughput", throughput),
         ]
     )
@@ -83,7 +83,7 @@ def _report(run: CyclicResult, quantities: Quantities) -> Iterator[Part]:
         yield f"… and {more}, none larger (--json lists all)"
 
 
-def _groups(together: Sequence[GroupResult], alone: int) -> str:
+def _write_groups(together: Sequence[GroupResult], alone: int) -> str:
     ends = Counter(group.ends for group in together)
     counts = [
         (ends["repeats"], "periodic"),
@@ -108,16 +108,16 @@ def _group_lines(scenario: Scenario, quantities: Quantities, group: GroupResult)
                 f" {quantities.format_moment(measured.warm_up)} on"
             )
         yield f"{number} robots: {write_reason(group, quantities)}. {source}:"
-        yield _robot_table(scenario, quantities, group)
-        yield from _further_robots(group)
+        yield _make_robot_table(scenario, quantities, group)
+        yield from _write_further_robots(group)
         return
     yield (
         f"{number} robots: period {quantities.format_duration(group.pattern.period)},"
         f" from {quantities.format_moment(group.pattern.transient)} on"
     )
-    yield _robot_table(scenario, quantities, group)
-    yield from _further_robots(group)
-    yield from _stuck_lines(scenario, group)
+    yield _make_robot_table(scenario, quantities, group)
+    yield from _write_further_robots(group)
+    yield from _write_stuck_lines(scenario, group)
     if is_long(group):
         yield f"waits and bottleneck: not computed for a period of more than {MAX_VISITS} visits"
         return
@@ -126,10 +126,10 @@ def _group_lines(scenario: Scenario, quantities: Quantities, group: GroupResult)
     if bottleneck:
         circuit = describe_circuit(bottleneck.pieces, scenario)
         yield f"bottleneck: {circuit}"
-        yield from _sensitivity_lines(scenario, group)
+        yield from _write_sensitivity(scenario, group)
 
 
-def _robot_table(scenario: Scenario, quantities: Quantities, group: GroupResult) -> Table:
+def _make_robot_table(scenario: Scenario, quantities: Quantities, group: GroupResult) -> Table:
     counts = group.pattern.counts if group.pattern else group.measure_laps().laps
     never: str = "never" if group.pattern else "?"
     rows = [
@@ -157,13 +157,13 @@ def _robot_table(scenario: Scenario, quantities: Quantities, group: GroupResult)
     return Table(("robot", laps_heading, means, alone, "waits"), rows)
 
 
-def _further_robots(group: GroupResult) -> Iterator[Part]:
+def _write_further_robots(group: GroupResult) -> Iterator[Part]:
     if len(group.robots) > MAX_LINES:
         more = say_count(len(group.robots) - MAX_LINES, "more robot", "more robots")
         yield f"… and {more} (--json lists all)"
 
 
-def _stuck_lines(scenario: Scenario, group: GroupResult) -> Iterator[Part]:
+def _write_stuck_lines(scenario: Scenario, group: GroupResult) -> Iterator[Part]:
     """Yield which robots make no lap in a pattern, where they stand and where they want to go."""
     counts = group.pattern.counts if group.pattern else ()
     stuck = [robot for robot, laps in enumerate(counts) if not laps]
@@ -186,7 +186,7 @@ def _stuck_lines(scenario: Scenario, group: GroupResult) -> Iterator[Part]:
 
 def _wait_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) -> Iterator[Part]:
     """Yield which robot waits where for which other, in each period and in the first lap."""
-    first, periodic = _sites(group.list_first_waits()), _sites(group.waits())
+    first, periodic = _join_sites(group.list_first_waits()), _join_sites(group.waits())
     yield (
         f"waits: {len(first)} in the first lap, {len(periodic)} in each period,"
         f" {len(first.keys() & periodic.keys())} in both"
@@ -200,10 +200,10 @@ def _wait_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) 
             where = f"{where} beside {place(beside)}"
         when: list[str] = []
         if site in first:
-            moments = _moments(quantities, first[site])
+            moments = _write_moments(quantities, first[site])
             when.append(f"first lap at {moments}")
         if site in periodic:
-            moments = _moments(quantities, periodic[site])
+            moments = _write_moments(quantities, periodic[site])
             when.append(f"each period at {moments}")
         text = "{place}: {robot} waits for {other}, {when}".format(
             place=where,
@@ -216,7 +216,7 @@ def _wait_lines(scenario: Scenario, quantities: Quantities, group: GroupResult) 
         yield Paragraph(f"… and {len(sites) - MAX_LINES} more", "  ")
 
 
-def _sites(waits: Sequence[LapWait]) -> Sites:
+def _join_sites(waits: Sequence[LapWait]) -> Sites:
     sites: Sites = {}
     for wait in waits:
         site = wait.vertex, wait.beside, wait.waits, wait.for_robot
@@ -224,7 +224,7 @@ def _sites(waits: Sequence[LapWait]) -> Sites:
     return sites
 
 
-def _moments(quantities: Quantities, ticks: Sequence[Tick]) -> str:
+def _write_moments(quantities: Quantities, ticks: Sequence[Tick]) -> str:
     """Return several times: ``5.35 s, 1 min 56.2 s and 1 more time``, ``time 4, 13``."""
     others = map(choose_further_format(quantities), ticks[1:MAX_TIMES])
     listed = chain_items([quantities.format_moment(ticks[0]), *others])
@@ -236,7 +236,7 @@ def _moments(quantities: Quantities, ticks: Sequence[Tick]) -> str:
     )
 
 
-def _sensitivity_lines(scenario: Scenario, group: GroupResult) -> Iterator[Part]:
+def _write_sensitivity(scenario: Scenario, group: GroupResult) -> Iterator[Part]:
     """Say which changes of a parameter by 10 % would shorten the period."""
     graph = group.build_graph()
     if graph is None:

@@ -127,9 +127,9 @@ def _group_data(scenario: Scenario, group: GroupResult, *, by_visit: bool) -> di
         data |= {
             "conflicts": waits_data(group.waits(), "offset"),
             "first_lap": waits_data(group.list_first_waits(), "time"),
-            "bottleneck": _steps_data(scenario, bottleneck),
-            "sensitivity": _sensitivity_data(scenario, group),
-            "curves": _curves_data(scenario, group),
+            "bottleneck": _make_steps(scenario, bottleneck),
+            "sensitivity": _make_sensitivity(scenario, group),
+            "curves": _make_curves(scenario, group),
         }
     if group.comparison is not None:
         hour = compute_hour(scenario) / clock.tick
@@ -144,7 +144,7 @@ def _group_data(scenario: Scenario, group: GroupResult, *, by_visit: bool) -> di
     return data
 
 
-def _sensitivity_data(scenario: Scenario, group: GroupResult) -> list[dict[str, Any]]:
+def _make_sensitivity(scenario: Scenario, group: GroupResult) -> list[dict[str, Any]]:
     graph, tick = group.build_graph(), scenario.problem.clock.tick
     if graph is None or len(graph.vertex) > MAX_VISITS_OF_SENSITIVITY:
         return []
@@ -163,7 +163,7 @@ def _sensitivity_data(scenario: Scenario, group: GroupResult) -> list[dict[str, 
     ]
 
 
-def _steps_data(scenario: Scenario, bottleneck: Bottleneck | None) -> list[dict[str, Any]]:
+def _make_steps(scenario: Scenario, bottleneck: Bottleneck | None) -> list[dict[str, Any]]:
     place, clock = scenario.roadmap.name, scenario.problem.clock
     return [
         {
@@ -179,7 +179,7 @@ def _steps_data(scenario: Scenario, bottleneck: Bottleneck | None) -> list[dict[
     ]
 
 
-def _curves_data(scenario: Scenario, group: GroupResult) -> dict[str, Any] | None:
+def _make_curves(scenario: Scenario, group: GroupResult) -> dict[str, Any] | None:
     """Return the period as a function of each parameter, and the circuits that decide it.
 
     The period is ``fixed + slope * value``; of a speed ``fixed + slope / value``.
@@ -222,6 +222,6 @@ def _curves_data(scenario: Scenario, group: GroupResult) -> dict[str, Any] | Non
             continue
         bottleneck = trace_bottleneck(graph, arcs)
         visits = [list(visit) for visit in list_visits_along(group, pattern, graph, arcs)]
-        pieces = _steps_data(scenario, bottleneck)
+        pieces = _make_steps(scenario, bottleneck)
         listed.append({"periods": bottleneck.periods, "pieces": pieces, "visits": visits})
     return data | {"curves": curves, "circuits": listed}

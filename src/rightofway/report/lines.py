@@ -72,27 +72,27 @@ Part = str | Paragraph | Line | Facts | Table
 
 def lay_out(parts: Iterable[Part]) -> str:
     """Return a report."""
-    return "\n".join(line for part in parts for line in _lines(part))
+    return "\n".join(line for part in parts for line in _split_lines(part))
 
 
-def _lines(part: Part) -> Iterator[str]:
+def _split_lines(part: Part) -> Iterator[str]:
     match part:
         case Paragraph(text, indent):
-            yield from _broken(text, indent, indent + "    ")
+            yield from _wrap_sentence(text, indent, indent + "    ")
         case Line(text):
             yield text
         case Facts(rows):
             column = max(len(key) for key, _ in rows) + 2
             for key, text in rows:
                 fact = textwrap.shorten(text, MAX_FACT, placeholder=" …")
-                yield from _broken(fact, f"{key:{column}}", " " * column)
+                yield from _wrap_sentence(fact, f"{key:{column}}", " " * column)
         case Table():
-            yield from _rows(part)
+            yield from _write_rows(part)
         case _:
-            yield from _broken(part, "", "    ") or [""]
+            yield from _wrap_sentence(part, "", "    ") or [""]
 
 
-def _rows(table: Table) -> Iterator[str]:
+def _write_rows(table: Table) -> Iterator[str]:
     rows = [list(row) for row in (table.head, *table.rows)]
     columns = len(table.head)
     widths = [
@@ -110,7 +110,7 @@ def _rows(table: Table) -> Iterator[str]:
         yield shorten_name(f"{name:{first}}  {'  '.join(cells)}".rstrip(), COLUMNS)
 
 
-def _broken(text: str, first: str, following: str) -> list[str]:
+def _wrap_sentence(text: str, first: str, following: str) -> list[str]:
     """Return the lines of a sentence; a number and its unit stay in one line."""
     joined = UNIT.sub(NO_BREAK, text)
     lines = textwrap.wrap(joined, COLUMNS, initial_indent=first, subsequent_indent=following)

@@ -73,18 +73,18 @@ def summarize_plan(plan: Plan, quantities: Quantities, *, with_lost_time: bool =
     """
     words, metrics = Words(plan=plan, quantities=quantities), measure(plan)
     lost = compute_lost_time(plan) if with_lost_time else ()
-    lost_in_words = _lost(words, lost) if with_lost_time else NOT_COMPUTED
+    lost_in_words = _write_lost(words, lost) if with_lost_time else NOT_COMPUTED
     costs = [
         ("planner", describe_planning(plan, quantities)),
-        ("flowtime", _flowtime(words, metrics)),
+        ("flowtime", _write_flowtime(words, metrics)),
         ("makespan", words.say_time(metrics.makespan)),
         ("lost time", lost_in_words),
         *list_job_costs(words),
     ]
     if quantities.in_ticks:
         costs.append(("tick", replace(quantities, in_ticks=False).format_duration(1)))
-    details = [*_robots(words, lost), *_losses(words, lost)] if with_lost_time else []
-    parts = [*details, *_forced_losses(words), *list_jobs(words)]
+    details = [*_make_robots(words, lost), *_write_losses(words, lost)] if with_lost_time else []
+    parts = [*details, *_write_forced_losses(words), *list_jobs(words)]
     return lay_out([Facts(costs), "", *parts])
 
 
@@ -115,7 +115,7 @@ def describe_planning(plan: Plan, quantities: Quantities) -> str:
     return chain_items(parts, "two clauses")
 
 
-def _flowtime(words: Words, metrics: Metrics) -> str:
+def _write_flowtime(words: Words, metrics: Metrics) -> str:
     flowtime, bound = words.say_time(metrics.flowtime), metrics.lower_bound
     if metrics.flowtime == bound:
         return f"{flowtime}, the least possible"
@@ -128,7 +128,7 @@ def _flowtime(words: Words, metrics: Metrics) -> str:
     )
 
 
-def _lost(words: Words, lost: Sequence[LostTime]) -> str:
+def _write_lost(words: Words, lost: Sequence[LostTime]) -> str:
     parts = {
         "detours": sum(times.detours for times in lost),
         "making room": sum(times.making_room for times in lost),
@@ -140,7 +140,7 @@ def _lost(words: Words, lost: Sequence[LostTime]) -> str:
     return f"{words.say_time(sum(parts.values()))}: {chain_items(causes)}"
 
 
-def _robots(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
+def _make_robots(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
     most = sorted(range(len(lost)), key=lambda robot: -lost[robot].lost)[:MAX_LINES]
     if len(lost) > MAX_LINES:
         most = [robot for robot in most if lost[robot].lost] or most
@@ -159,7 +159,7 @@ def _robots(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
         yield f"… and {rest} that lose less time (--json lists all)"
 
 
-def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
+def _write_losses(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
     """Yield where and to which robots time is lost, the largest losses first."""
     groups: dict[tuple[object, ...], list[Loss]] = {}
     for loss in chain.from_iterable(times.losses for times in lost):
@@ -173,11 +173,11 @@ def _losses(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
         yield describe_losses(words, group)
     if len(largest) > MAX_LINES:
         yield f"… and {len(largest) - MAX_LINES} more (--json lists all)"
-    yield from _detours(words, lost)
-    yield from _homes_in_the_way(words, chain.from_iterable(groups.values()))
+    yield from _write_detours(words, lost)
+    yield from _write_homes_in_the_way(words, chain.from_iterable(groups.values()))
 
 
-def _forced_losses(words: Words) -> Iterator[Part]:
+def _write_forced_losses(words: Words) -> Iterator[Part]:
     """Yield why no plan is better, where that is proven."""
     losses = list_forced_losses(words.plan)
     if losses:
@@ -189,7 +189,7 @@ def _forced_losses(words: Words) -> Iterator[Part]:
         yield f"… and {len(losses) - MAX_LINES} more (--json lists all)"
 
 
-def _detours(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
+def _write_detours(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
     """Yield one sentence on the robots whose drives take longer than on their shortest trips."""
     longest = sorted(
         (robot for robot in lost if robot.detours > 0), key=lambda robot: -robot.detours
@@ -209,7 +209,7 @@ def _detours(words: Words, lost: Sequence[LostTime]) -> Iterator[Part]:
     yield f"Detours: {robots}."
 
 
-def _homes_in_the_way(words: Words, losses: Iterable[Loss]) -> Iterator[Part]:
+def _write_homes_in_the_way(words: Words, losses: Iterable[Loss]) -> Iterator[Part]:
     """Say where the last place of a robot that loses time is on the way of others.
 
     Such a robot makes room at its last place; or it waits on its way there, while the other robot
@@ -263,10 +263,10 @@ def _homes_in_the_way(words: Words, losses: Iterable[Loss]) -> Iterator[Part]:
 
 def report_decisions(plan: Plan, quantities: Quantities) -> str:
     """Return every decision of the planner with its reason, in the order they were taken."""
-    return lay_out(_decisions(Words(plan=plan, quantities=quantities)))
+    return lay_out(_write_decisions(Words(plan=plan, quantities=quantities)))
 
 
-def _decisions(words: Words) -> Iterator[Part]:
+def _write_decisions(words: Words) -> Iterator[Part]:
     plan = words.plan
     for decision in plan.run.decisions:
         yield f"At {words.say_moment(decision.tick)}: {describe_decision(words, decision)}"

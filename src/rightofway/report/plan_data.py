@@ -31,8 +31,8 @@ def make_summary_data(plan: Plan) -> dict[str, Any]:
             "options": dict(run.options),
             "seed": run.seed,
             "status": None if run.status is None else run.status.as_dict(),
-            "seconds": _rounded(run.seconds),
-            "first_plan_seconds": _rounded(run.first_plan_seconds),
+            "seconds": _round_seconds(run.seconds),
+            "first_plan_seconds": _round_seconds(run.first_plan_seconds),
             **({} if run.start is None else {"start": asdict(run.start)}),
             "outcome": describe_outcome(derive_outcome(plan)),
             **make_forced_losses(list_forced_losses(plan), plan.scenario),
@@ -63,5 +63,5 @@ def make_no_plan_data(error: NoPlanExists | GaveUp) -> dict[str, Any]:
     return describe_outcome(classify_error(error))
 
 
-def _rounded(seconds: float | None) -> float | None:
+def _round_seconds(seconds: float | None) -> float | None:
     return None if seconds is None else round(seconds, 6)

@@ -117,7 +117,7 @@ def list_forced_losses(plan: Plan) -> Sequence[ForcedLoss]:
 def summarize_forced_loss(scenario: Scenario, loss: ForcedLoss, quantities: Quantities) -> Phrase:
     """Return the losses of robots in every plan, or how long they need, in a few words."""
     names = join_items([scenario.robots[robot].name for robot in loss.robots])
-    values = {"robots": names, "time": _lost_time(loss, quantities)}
+    values = {"robots": names, "time": _write_lost_time(loss, quantities)}
     if loss.objective is not Objective.MAKESPAN:
         return Phrase("robots lose", **values)
     if len(loss.robots) == 1:
@@ -130,7 +130,7 @@ def describe_forced_loss(
 ) -> Phrase:
     """Return which robots force that no plan is better, and where they would meet."""
     names = [scenario.robots[robot].name for robot in loss.robots]
-    values = {"time": _lost_time(loss, quantities), "place": place}
+    values = {"time": _write_lost_time(loss, quantities), "place": place}
     match loss.objective, names:
         case Objective.MAKESPAN, [one]:
             return Phrase("forced makespan of one", one=one, **values)
@@ -161,7 +161,7 @@ def describe_forced_loss(
     )
 
 
-def _lost_time(loss: ForcedLoss, quantities: Quantities) -> str:
+def _write_lost_time(loss: ForcedLoss, quantities: Quantities) -> str:
     time = quantities.format_duration(loss.ticks)
     match loss.objective:
         case Objective.WEIGHTED:
@@ -272,7 +272,7 @@ def summarize_decision(words: Words, decision: Decision) -> tuple[Phrase, Phrase
     cost: Phrase = Phrase("no time lost")
     if decision.ticks:
         cost = Phrase("loses time", time=words.say_time(decision.ticks))
-    moment, why = words.say_moment(decision.tick), _why(words, decision)
+    moment, why = words.say_moment(decision.tick), _write_why(words, decision)
     return head, Phrase("decision at moment", moment=moment, cost=cost, why=why)
 
 
@@ -285,12 +285,12 @@ REASONS: Mapping[str, Phrase] = {
 """Why a robot goes first, by the level of a decision that looks at no times."""
 
 
-def _why(words: Words, decision: Decision) -> Phrase:
+def _write_why(words: Words, decision: Decision) -> Phrase:
     """Return why a robot goes first, in few words."""
     reason = REASONS.get(decision.level)
     if reason is not None:
         return reason
-    if not _adds_up_times(words):
+    if not _is_by_sum(words):
         return Phrase("why: better for both")
     if _is_tie(decision):
         return Phrase("why: tie")
@@ -331,7 +331,7 @@ def goes_first(decision: Decision) -> int:
     return first_robot if decision.waits == other else other
 
 
-def _adds_up_times(words: Words) -> bool:
+def _is_by_sum(words: Words) -> bool:
     """Return whether the planner chose by the sum of two completion times."""
     plan = words.plan
     has_weights = any(robot.weight != 1 for robot in plan.scenario.robots)
@@ -368,17 +368,17 @@ def describe_reason(words: Words, decision: Decision) -> Phrase:
                 **names,
             )
         case "robot":
-            sums = _sums_in_words(words, decision, names["waits"])
+            sums = _write_sums(words, decision, names["waits"])
             return Phrase(
                 "reason: robot level",
                 sums=sums,
             )
 
 
-def _sums_in_words(words: Words, decision: Decision, waits: str) -> Phrase:
+def _write_sums(words: Words, decision: Decision, waits: str) -> Phrase:
     """Return how the completion times decide, where the conflicts left are equal."""
     has_both = None not in (decision.completion_sums or ())
-    if has_both and not _adds_up_times(words):
+    if has_both and not _is_by_sum(words):
         return Phrase("sums: objective decides")
     if _is_tie(decision):
         return Phrase(

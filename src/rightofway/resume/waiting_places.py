@@ -129,9 +129,11 @@ class _Floor:
         for tail, heads in enumerate(_list_heads(whole, ticks[whole.class_of_edge] >= 0)):
             for head in heads:
                 against[head].append(tail)
-        goals = set(reach_from([trip.end if trip.then is None else trip.then], against, _accept))
+        goals = set(
+            reach_from([trip.end if trip.then is None else trip.then], against, _accept_any)
+        )
         along = _list_heads(self._passable, ticks[self._passable.class_of_edge] >= 0)
-        return [vertex for vertex in reach_from([trip.end], along, _accept) if vertex in goals]
+        return [vertex for vertex in reach_from([trip.end], along, _accept_any) if vertex in goals]
 
     def is_needed_between(self, robot: int, place: int) -> bool:
         """Return whether others no longer reach each other while a robot is at a place."""
@@ -145,10 +147,10 @@ class _Floor:
         ]
         tails = {tail for tail, _ in lost if tail not in held.vertices}
         heads = {head for _, head in lost if head not in held.vertices}
-        return any(not _reaches(heads_left, tail, heads - {tail}) for tail in tails)
+        return any(not _is_reaching(heads_left, tail, heads - {tail}) for tail in tails)
 
 
-def _accept(_: int) -> bool:
+def _accept_any(_: int) -> bool:
     return True
 
 
@@ -162,7 +164,7 @@ def _list_heads(roadmap: Roadmap, is_allowed: NDArray[np.bool_] | None = None) -
     ]
 
 
-def _reaches(along: Sequence[Sequence[int]], start: int, goals: set[int]) -> bool:
+def _is_reaching(along: Sequence[Sequence[int]], start: int, goals: set[int]) -> bool:
     """Return whether ways lead from a vertex to all of some vertices."""
     left, seen, front = set(goals), {start}, [start]
     while front and left:

@@ -81,16 +81,16 @@ def make_first_plan(task: Task, old: Plan) -> tuple[Track, ...] | None:
     NoPlanExists
         If closures leave a robot no way.
     """
-    old_routes = dict(_kept_routes(task.scenario, old))
+    old_routes = dict(_list_kept_routes(task.scenario, old))
     changed = [robot for robot, old_route in old_routes.items() if old_route.has_changed]
     unchanged = [robot for robot, old_route in old_routes.items() if not old_route.has_changed]
     others = [robot for robot in range(len(task.scenario.robots)) if robot not in old_routes]
     refuse_closed_ways(task.scenario, task.deadline, others)
     hurried = replace(task, deadline=task.deadline.shorten(SHARE))
     search = make_fleet_search(hurried)
-    drafts = [_repaired(hurried, search, old_routes, [*unchanged, *changed])]
+    drafts = [_plan_repair(hurried, search, old_routes, [*unchanged, *changed])]
     if changed and hurried.deadline.measure_seconds_left() != 0:
-        drafts.append(_repaired(hurried, search, old_routes, unchanged))
+        drafts.append(_plan_repair(hurried, search, old_routes, unchanged))
     valid = [tracks for tracks in drafts if tracks is not None and _is_valid(task.scenario, tracks)]
     return min(valid, key=lambda tracks: compute_cost(task.scenario, tracks), default=None)
 
@@ -100,7 +100,7 @@ def compare_with_start(old: Plan, scenario: Scenario, tracks: Sequence[Track]) -
     vertex = map_vertices(old.scenario.roadmap, scenario.roadmap)
     old_tick, tick = old.scenario.problem.clock.tick, scenario.problem.clock.tick
     routes = times = 0
-    for track, partner in zip(tracks, _partners(old, scenario, vertex), strict=True):
+    for track, partner in zip(tracks, _match_partners(old, scenario, vertex), strict=True):
         before = None if partner is None else old.tracks[partner]
         if before is None:
             continue
@@ -121,7 +121,7 @@ def map_vertices(old: Roadmap, new: Roadmap) -> NDArray[np.int32]:
     """
     if old == new:
         return np.arange(old.n_vertices, dtype=np.int32)
-    keys: list[Iterable[Hashable]] = [_places(old), _places(new)]
+    keys: list[Iterable[Hashable]] = [_list_places(old), _list_places(new)]
     if old.labels is not None and new.labels is not None:
         keys = [old.labels, new.labels]
     known = {key: vertex for vertex, key in enumerate(islice(keys[1], new.n_drawn))}
@@ -135,7 +135,7 @@ def _list_visited(roadmap: Roadmap, vertices: NDArray[np.int32]) -> NDArray[np.i
     return np.array(roadmap.unfold_route(vertices.tolist()), np.int32)
 
 
-def _places(roadmap: Roadmap) -> list[tuple[int, int]]:
+def _list_places(roadmap: Roadmap) -> list[tuple[int, int]]:
     """Return where each vertex lies in the site's frame, in steps."""
     x, y = roadmap.positions.T
     frame = roadmap.frame
@@ -146,7 +146,7 @@ def _places(roadmap: Roadmap) -> list[tuple[int, int]]:
     return list(zip(*columns, strict=True))
 
 
-def _partners(old: Plan, scenario: Scenario, vertex: NDArray[np.int32]) -> list[int | None]:
+def _match_partners(old: Plan, scenario: Scenario, vertex: NDArray[np.int32]) -> list[int | None]:
     """Return for each robot its number in the old plan: that of its name, or else of its home."""
     number = {robot.name: index for index, robot in enumerate(old.scenario.robots)}
     names = {robot.name for robot in scenario.robots}
@@ -158,12 +158,12 @@ def _partners(old: Plan, scenario: Scenario, vertex: NDArray[np.int32]) -> list[
     return [number.get(robot.name, renamed.get(robot.home)) for robot in scenario.robots]
 
 
-def _kept_routes(scenario: Scenario, old: Plan) -> Iterator[tuple[int, _Kept]]:
+def _list_kept_routes(scenario: Scenario, old: Plan) -> Iterator[tuple[int, _Kept]]:
     """Yield the robots that can still drive their routes of the old plan, and these."""
     vertex = map_vertices(old.scenario.roadmap, scenario.roadmap)
-    is_closed = _closed_ways(scenario)
+    is_closed = _make_closed_test(scenario)
     ticks = old.scenario.problem.clock.tick / scenario.problem.clock.tick
-    for robot, partner in enumerate(_partners(old, scenario, vertex)):
+    for robot, partner in enumerate(_match_partners(old, scenario, vertex)):
         if partner is None:
             continue
         track = old.tracks[partner]
@@ -183,7 +183,7 @@ def _kept_routes(scenario: Scenario, old: Plan) -> Iterator[tuple[int, _Kept]]:
         serves_all = len(former.serves) == len(places)
         if not serves_all or min(route.drive) < 0 or is_closed(robot, visited, for_ever=True):
             continue
-        is_as_long = _lasts_as_long(route, former, ticks)
+        is_as_long = _has_same_duration(route, former, ticks)
         is_as_wide = old.scenario.robots[partner].radius == scenario.robots[robot].radius
         is_affected = is_closed(robot, visited) and scenario.closures != old.scenario.closures
         has_changed = is_affected or not (is_as_long and is_as_wide)
@@ -198,7 +198,7 @@ def _route_again(
     return join_route(scenario.roadmap, scenario.problem.itineraries[robot], legs)
 
 
-def _lasts_as_long(route: Route, former: Route, ticks: Fraction) -> bool:
+def _has_same_duration(route: Route, former: Route, ticks: Fraction) -> bool:
     """Return whether all dwells and drives are as before; ``ticks``: of now in one of before."""
     now, before = (
         np.array([timed.dwell, timed.drive], np.int64) * scale
@@ -207,7 +207,7 @@ def _lasts_as_long(route: Route, former: Route, ticks: Fraction) -> bool:
     return np.array_equal(now, before)
 
 
-def _closed_ways(scenario: Scenario) -> Callable[..., bool]:
+def _make_closed_test(scenario: Scenario) -> Callable[..., bool]:
     """Return a function that tells whether a place on a way is ever closed, or is ``for_ever``."""
     closures, roadmap = scenario.problem.closures, scenario.roadmap
     if closures is None:
@@ -223,11 +223,11 @@ def _closed_ways(scenario: Scenario) -> Callable[..., bool]:
     return is_closed
 
 
-def _repaired(
+def _plan_repair(
     task: Task, search: FleetSearch, old_routes: Mapping[int, _Kept], order: Sequence[int]
 ) -> tuple[Track, ...] | None:
     """Return a plan that keeps as many as it can of some routes; None if it finds none."""
-    in_time = _in_old_order(task, old_routes, order)
+    in_time = _keep_old_order(task, old_routes, order)
     tracks = [in_time.get(robot) for robot in range(len(task.scenario.robots))]
     left = [robot for robot, track in enumerate(tracks) if track is None]
     if not left:
@@ -245,7 +245,7 @@ def _repaired(
     return search.list_tracks() if is_repaired else None
 
 
-def _in_old_order(
+def _keep_old_order(
     task: Task, old_routes: Mapping[int, _Kept], order: Sequence[int]
 ) -> Mapping[int, Track]:
     """Return the tracks of robots in the earliest timetable that keeps the old order of visits.
@@ -254,21 +254,21 @@ def _in_old_order(
     bisection, because an order stays possible if a robot is taken out.
     """
     fits, left = list[int](), list(order)
-    tracks = _timetable(task.scenario, old_routes, left)
+    tracks = _make_timetable(task.scenario, old_routes, left)
     for _ in range(MOST_REFUSED):
         if tracks is not None or task.deadline.measure_seconds_left() == 0:
             break
         low, high = 0, len(left)
         while high - low > 1:
             middle = (low + high) // 2
-            tried = _timetable(task.scenario, old_routes, [*fits, *left[:middle]])
+            tried = _make_timetable(task.scenario, old_routes, [*fits, *left[:middle]])
             low, high = (low, middle) if tried is None else (middle, high)
         fits, left = [*fits, *left[:low]], left[low + 1 :]
-        tracks = _timetable(task.scenario, old_routes, [*fits, *left])
-    return tracks or _timetable(task.scenario, old_routes, fits) or {}
+        tracks = _make_timetable(task.scenario, old_routes, [*fits, *left])
+    return tracks or _make_timetable(task.scenario, old_routes, fits) or {}
 
 
-def _timetable(
+def _make_timetable(
     scenario: Scenario, old_routes: Mapping[int, _Kept], robots: Sequence[int]
 ) -> Mapping[int, Track] | None:
     """Return the earliest tracks of some robots in the old order; None if it is impossible.

@@ -66,7 +66,7 @@ Examples:
 """
 
 
-def _factor(_context: click.Context, _parameter: click.Parameter, given: str) -> float:
+def _read_factor(_context: click.Context, _parameter: click.Parameter, given: str) -> float:
     remedy = "give a factor, or inf for no pause"
     return read_positive(given, remedy)
 
@@ -111,7 +111,7 @@ def _count(_context: click.Context, _parameter: click.Parameter, given: str | No
               help="Serve metrics for Prometheus at a port of this machine.")  # fmt: skip
 @click.option("--stay", is_flag=True,
               help="Go on when all robots have come to the end of their way.")  # fmt: skip
-@click.option("--time-scale", default="10", show_default=True, callback=_factor,
+@click.option("--time-scale", default="10", show_default=True, callback=_read_factor,
               metavar="FACTOR",
               help="With --demo, seconds of the plan in each second, or its time units where it has"
               " no unit; inf for no pause.")  # fmt: skip
@@ -186,7 +186,7 @@ def drive(
         as_json=as_json,
     )
     if replay:
-        return _replay(journal_file, output)
+        return _write_replay(journal_file, output)
     if broker is not None:
         from rightofway.control.broker import Broker
 
@@ -229,7 +229,7 @@ class _Output:
             put_report(report_drive(result, self.quantities))
 
 
-def _replay(journal: Path, output: _Output) -> int:
+def _write_replay(journal: Path, output: _Output) -> int:
     """Write the page of a journal, or serve it until Ctrl-C."""
     if output.page:
         output.shown.write(journal, output.page)
@@ -259,7 +259,7 @@ def _drive_demo(
         time = f"{quantities.format_cell(tick):>8}"
         say(f"{time}  {writer.write(fact)}")
 
-    with _kept_demo(shown if output.is_live else None, journal) as file:
+    with _keep_demo(shown if output.is_live else None, journal) as file:
         outcome = drive_demo(
             shown.plan,
             identities=identities,
@@ -294,7 +294,7 @@ def _refuse_combinations(
 
 
 @contextmanager
-def _kept_demo(page: WatchPage | None, journal: str | None) -> Iterator[Path | None]:
+def _keep_demo(page: WatchPage | None, journal: str | None) -> Iterator[Path | None]:
     """Yield the journal of a demo, if it has one; serve its page, if that is wanted."""
     if page is None:
         yield Path(journal) if journal else None
@@ -314,7 +314,7 @@ def _show(letter: Letter) -> None:
         click.echo(f"{letter.topic} {letter.payload.decode()}")
 
 
-def _narrate(sentence: str) -> None:
+def _print_sentence(sentence: str) -> None:
     now = f"{datetime.now().astimezone():%H:%M:%S}"
     say(f"{now}  {sentence}")
 
@@ -355,7 +355,7 @@ def _drive_at(
                     laps=laps,
                     commands=Commands(journal),
                     switch=switch,
-                    report=lambda fact: _narrate(writer.write(fact)),
+                    report=lambda fact: _print_sentence(writer.write(fact)),
                     metrics=counted,
                     began=opened.read_begin(),
                 )
@@ -363,7 +363,7 @@ def _drive_at(
                 stack.enter_context(shown.serve(journal, takes_orders=True))
             gc.freeze()  # what lives as long as the control: a look through it takes 100 ms
             code = _run(driver.run(broker, stays=stays))
-        _narrate("interrupted" if code else "all robots are at the end of their way")
+        _print_sentence("interrupted" if code else "all robots are at the end of their way")
         output.report(driver.result)
         if output.page:
             shown.write(journal, output.page)

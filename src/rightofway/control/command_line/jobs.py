@@ -40,7 +40,9 @@ Examples:
 """
 
 
-def _time(_context: click.Context, _parameter: click.Parameter, given: str | None) -> str | None:
+def _read_time(
+    _context: click.Context, _parameter: click.Parameter, given: str | None
+) -> str | None:
     from rightofway.control.commands import read_time
 
     if given is not None:
@@ -58,7 +60,7 @@ def _time(_context: click.Context, _parameter: click.Parameter, given: str | Non
 @click.option(
     "--at", metavar="PLACE", help="Where the job is, or the robot: a vertex or a station."
 )
-@click.option("--work", metavar="TIME", callback=_time, help="How long it lasts [time unit].")
+@click.option("--work", metavar="TIME", callback=_read_time, help="How long it lasts [time unit].")
 @click.option("--to", metavar="VERTEX", help="The other end of a lane, to close or open it.")
 @click.option("--robot", metavar="ROBOT",
               help="Whose job it is; by default that of the robot which drives least more.",
