@@ -132,6 +132,12 @@ def read_scripts() -> str:
     return "\n".join(path.read_text("utf-8") for path in paths if "vendor" not in path.parts)
 
 
+def test_only_messages_on_faults_of_files_are_marked_as_english() -> None:
+    lines = [line for line in read_scripts().splitlines() if re.search(r"lang(=|: ).*\"en\"", line)]
+    assert lines
+    assert [line for line in lines if not re.search(r"message|trouble", line)] == []
+
+
 @pytest.mark.parametrize("section", ["page", "studio"])
 def test_each_label_is_one_that_a_script_names(section: str) -> None:
     words = {*re.findall(r"\w+", read_scripts()), *list_constants()}
