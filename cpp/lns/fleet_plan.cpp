@@ -224,6 +224,21 @@ void FleetPlan::hold_home(RobotId robot, Tick until) {
     }
 }
 
+void FleetPlan::close_start(RobotId robot, bool is_closed) {
+    if (problem_->ready(robot) == 0) {
+        return;
+    }
+    constexpr Tick before_all = -1;  // no closure of the problem starts then
+    const std::int32_t row = problem_->vertex_row(robot, problem_->home(robot));
+    for_each_mark(row, [&](std::int32_t mark) {
+        if (is_closed) {
+            bookings_.insert(mark, {before_all, problem_->ready(robot)}, nobody);
+        } else {
+            bookings_.erase(mark, before_all, nobody);
+        }
+    });
+}
+
 // Calls `found` for each robot with a stage that the track lets begin or end at a wrong time, until
 // `found` ends the loop; whether it did.
 template <class Found>

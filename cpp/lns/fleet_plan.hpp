@@ -76,6 +76,9 @@ class FleetPlan {
 
     // Books the home of a robot without a track until a tick; 0 removes the booking.
     void hold_home(RobotId robot, Tick until);
+    // Closes the home of a robot until it is ready, when no eviction could make it leave; or opens
+    // it again.
+    void close_start(RobotId robot, bool is_closed);
 
     // Shifts each visit to the earliest time that keeps the order of bookings that exclude each
     // other. Needs all tracks, and a problem without closures. Changes nothing where stages of two

@@ -78,12 +78,23 @@ std::size_t OneAtATime::count_ready(RobotId robot) const {
     return n - n_served_[index(robot)];
 }
 
+// A robot that ends anywhere does not come back if it cannot.
 SearchEnd OneAtATime::move(RobotId robot, std::size_t n_ready, const StopCondition& is_over) {
-    const auto rest = distances_.to(rest_of(robot), robot);  // kept while the search runs
-    Trip trip = trip_of(robot, n_ready);
-    trip.to_stage.push_back(rest->view(distances_.scale(robot)));
+    const SearchEnd end = move_to(rest_of(robot), robot, n_ready, is_over);
+    const bool ends_anywhere = problem_.stage_vertex(problem_.first_stage(robot + 1) - 1) == none;
+    return end == SearchEnd::proven_none && ends_anywhere ? move_to(none, robot, n_ready, is_over)
+                                                          : end;
+}
+
+SearchEnd OneAtATime::move_to(VertexId rest, RobotId robot, std::size_t n_ready,
+                              const StopCondition& is_over) {
+    const auto table = distances_.to(rest, robot);  // kept while the search runs
+    Trip trip = trip_of(robot, n_ready, rest);
+    trip.to_stage.push_back(table->view(distances_.scale(robot)));
     hold(robot, false);
-    const SearchEnd end = search_.run({trip, bookings_}, is_over);
+    SearchRequest request{trip, bookings_};
+    request.rest_price = 1;
+    const SearchEnd end = search_.run(request, is_over);
     if (end == SearchEnd::found) {
         search_.track(found_);
         append(robot);
@@ -96,7 +107,7 @@ SearchEnd OneAtATime::move(RobotId robot, std::size_t n_ready, const StopConditi
 
 // The trip from the place of a robot past the next stages to its rest. It begins late enough for
 // turns that the robot owes for what it did before.
-Trip OneAtATime::trip_of(RobotId robot, std::size_t n_ready) {
+Trip OneAtATime::trip_of(RobotId robot, std::size_t n_ready, VertexId rest_vertex) {
     Trip trip = reader_.read(robot);
     const auto first = static_cast<std::ptrdiff_t>(n_served_[index(robot)]);
     const auto cut = [&](auto& part, const auto& all, auto rest) {
@@ -104,7 +115,7 @@ Trip OneAtATime::trip_of(RobotId robot, std::size_t n_ready) {
                     all.begin() + first + static_cast<std::ptrdiff_t>(n_ready));
         part.push_back(rest);
     };
-    cut(part_.vertex, trip.stage_vertex, rest_of(robot));
+    cut(part_.vertex, trip.stage_vertex, rest_vertex);
     cut(part_.work, trip.stage_work, Tick{0});
     cut(part_.turn, trip.stage_turn, Tick{0});
     cut(part_.earliest, trip.times.earliest, Tick{0});
@@ -125,9 +136,10 @@ Trip OneAtATime::trip_of(RobotId robot, std::size_t n_ready) {
     trip.stage_vertex = part_.vertex;
     trip.stage_work = part_.work;
     trip.stage_turn = part_.turn;
-    trip.times = {part_.earliest, part_.latest};
+    trip.times.cost = {};
+    trip.times.earliest = part_.earliest;
+    trip.times.latest = part_.latest;
     trip.times.ready = std::max(problem_.ready(robot), now_ + owed);
-    trip.times.n_places = problem_.work().n_places;
     return trip;
 }
 

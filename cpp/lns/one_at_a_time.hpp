@@ -1,10 +1,10 @@
 // A first plan of a fleet with jobs in which one robot moves at a time, and the others stay.
 //
 // A robot serves stages until one has to wait for a stage of another robot, and drives to its last
-// vertex: home, or back to where it was if it ends anywhere. Then another robot follows. This finds
-// a plan wherever robots begin at home, each stage can be reached from there on a way that avoids
-// the other homes, and no stage has a latest end. Where homes are occupied at first, robots whose
-// way is free go first.
+// vertex: home, or if it ends anywhere, back to where it was or else to another vertex. Then
+// another robot follows. This finds a plan wherever robots begin at home, each stage can be reached
+// from there on a way that avoids the other homes, and no stage has a latest end. Where homes are
+// occupied at first, robots whose way is free go first.
 #pragma once
 
 #include <optional>
@@ -39,7 +39,9 @@ class OneAtATime {
     bool is_done(RobotId robot) const;
     std::size_t count_ready(RobotId robot) const;
     SearchEnd move(RobotId robot, std::size_t n_ready, const StopCondition& is_over);
-    Trip trip_of(RobotId robot, std::size_t n_ready);
+    SearchEnd move_to(VertexId rest, RobotId robot, std::size_t n_ready,
+                      const StopCondition& is_over);
+    Trip trip_of(RobotId robot, std::size_t n_ready, VertexId rest_vertex);
     void append(RobotId robot);
     void hold(RobotId robot, bool is_held);
     VertexId place(RobotId robot) const { return tracks_[index(robot)].visits.back().vertex; }

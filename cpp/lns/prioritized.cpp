@@ -53,6 +53,19 @@ void Prioritized::start(std::span<const RobotId> order) {
 }
 
 SearchEnd Prioritized::run(std::int64_t n_searches, const StopCondition& is_over) {
+    close_starts(true);
+    const SearchEnd end = place_all(n_searches, is_over);
+    close_starts(false);
+    return end;
+}
+
+void Prioritized::close_starts(bool are_closed) {
+    for (RobotId robot = 0; robot < problem_.n_robots() && problem_.has_times(); ++robot) {
+        plan_.close_start(robot, are_closed);
+    }
+}
+
+SearchEnd Prioritized::place_all(std::int64_t n_searches, const StopCondition& is_over) {
     for (; !waiting_.empty(); waiting_.pop_front()) {
         if (n_searches_ >= n_searches || !place(waiting_.front(), is_over)) {
             return SearchEnd::stopped;
@@ -65,6 +78,13 @@ SearchEnd Prioritized::run(std::int64_t n_searches, const StopCondition& is_over
 }
 
 bool Prioritized::place(RobotId robot, const StopCondition& is_over) {
+    plan_.close_start(robot, false);
+    const bool is_placed = place_open(robot, is_over);
+    plan_.close_start(robot, true);
+    return is_placed;
+}
+
+bool Prioritized::place_open(RobotId robot, const StopCondition& is_over) {
     plan_.hold_home(robot, 0);
     if (!find(robot, is_over)) {
         return false;
@@ -84,13 +104,25 @@ bool Prioritized::place(RobotId robot, const StopCondition& is_over) {
 }
 
 bool Prioritized::find(RobotId robot, const StopCondition& is_over) {
+    const auto search = [&](const Trip& trip) {
+        SearchRequest request{trip, plan_.bookings(), prices_, never, greed};
+        request.rest_price = track_prices_.first * first_hold(robot);
+        return search_.run(request, is_over);
+    };
+    SearchEnd end = SearchEnd::proven_none;
     if (problem_.has_arcs()) {
-        plan_.find_limits(robot, false, limits_);
+        // If possible, stages end before those that wait for them begin. Otherwise robots would
+        // evict each other for ends that are late for no reason.
+        for (const bool keeps_followers : {true, false}) {
+            if (end == SearchEnd::proven_none) {
+                plan_.find_limits(robot, keeps_followers, limits_);
+                end = search(reader_.read(robot, limits_.earliest, limits_.latest));
+            }
+        }
+    } else {
+        end = search(reader_.read(robot));
     }
-    const Trip& trip = problem_.has_arcs() ? reader_.read(robot, limits_.earliest, limits_.latest)
-                                           : reader_.read(robot);
-    const SearchRequest request{trip, plan_.bookings(), prices_, never, greed};
-    if (search_.run(request, is_over) != SearchEnd::found) {
+    if (end != SearchEnd::found) {
         return false;
     }
     search_.track(track_.visits);

@@ -11,6 +11,9 @@
 // must change places may need the first track. So a robot evicted before searches again with
 // probability 1/2, which also breaks cycles of several robots.
 //
+// A robot that ends anywhere avoids vertices at which others have stages, as far as the price of an
+// eviction goes: there it would have to give way later.
+//
 // Where a stage of one robot waits for one of another, its earliest begin is the end in the track
 // of the other, or the end expected of it. A robot whose stage begins before a new track ends what
 // it waits for is evicted. Tours and arcs have no cycle, so ends rise to what the stages before
@@ -64,7 +67,10 @@ class Prioritized {
     std::int64_t n_expanded() const { return search_.n_expanded(); }
 
   private:
+    void close_starts(bool are_closed);
+    SearchEnd place_all(std::int64_t n_searches, const StopCondition& is_over);
     bool place(RobotId robot, const StopCondition& is_over);
+    bool place_open(RobotId robot, const StopCondition& is_over);
     bool find(RobotId robot, const StopCondition& is_over);
     bool evict_conflicting();
     bool conflicts_with_start_holds(RobotId robot);

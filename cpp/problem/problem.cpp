@@ -142,6 +142,21 @@ void Problem::check_work() {
         require_ranges("due", work_.due, 0, never);
     }
     require_range("n_places", work_.n_places, 0, n_vertices());
+    count_wanting();
+}
+
+void Problem::count_wanting() {
+    n_wanting_.assign(index(n_vertices()), 0);
+    std::vector<RobotId> last(n_wanting_.size(), nobody);
+    for (RobotId robot = 0; robot < n_robots(); ++robot) {
+        for (std::int32_t stage = first_stage(robot); stage < first_stage(robot + 1); ++stage) {
+            const VertexId vertex = stage_vertex(stage);
+            if (vertex != none && last[index(vertex)] != robot) {
+                last[index(vertex)] = robot;
+                ++n_wanting_[index(vertex)];
+            }
+        }
+    }
 }
 
 RobotId Problem::robot_of(std::int32_t stage) const {
@@ -277,6 +292,7 @@ Itinerary Problem::itinerary(RobotId robot) const {
         times.latest = work_.latest.subspan(first, n);
         times.ready = work_.ready[index(robot)];
         times.n_places = work_.n_places;
+        times.n_wanting = n_wanting_;
         if (has_costs()) {
             times.cost = work_.cost.subspan(first, n);
             times.late_cost = work_.late_cost.subspan(first, n);

@@ -126,6 +126,7 @@ struct StageTimes {
     std::span<const Tick> cost = {};
     std::span<const Tick> late_cost = {};
     std::span<const Tick> due = {};
+    std::span<const std::int32_t> n_wanting = {};  // per vertex: robots with a stage there
     Tick ready = 0;
     Tick weight = 1;
     VertexId n_places = 0;
@@ -163,6 +164,13 @@ struct Itinerary {
         }
         const Tick end = std::max(now, times.earliest[stage]) + stage_work[stage];
         return end <= times.latest[stage] ? end : never;
+    }
+
+    // Whether other robots have stages at a vertex; only where stages have times.
+    bool is_wanted(VertexId vertex) const {
+        const bool is_own =
+            std::find(stage_vertex.begin(), stage_vertex.end(), vertex) != stage_vertex.end();
+        return times.n_wanting[index(vertex)] > (is_own ? 1 : 0);
     }
 
     // The turn after a stage if the next stage is served as soon as possible.
@@ -344,6 +352,7 @@ class Problem {
     void check_closures();
     void check_work();
     void check_ends_anywhere() const;
+    void count_wanting();
 
     ProblemArrays arrays_;
     Roads roads_;
@@ -355,6 +364,7 @@ class Problem {
     WorkArrays work_;
     std::vector<std::vector<std::int32_t>> before_;  // by stage; empty without arcs
     std::vector<std::vector<std::int32_t>> after_;
+    std::vector<std::int32_t> n_wanting_;  // by vertex; empty without times
     std::int32_t n_rows_;
     bool edges_exclude_ = false;
     bool is_barred_ = false;

@@ -20,6 +20,7 @@ void SafeIntervalSearch::begin(const SearchRequest& request) {
     prices_ = request.prices;
     limit_ = request.limit;
     latest_ = request.latest;
+    rest_price_ = request.rest_price;
     stays_from_ = request.stays_from;
     ends_from_ = request.ends_from;
     goal_ = none;

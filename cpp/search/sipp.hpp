@@ -75,6 +75,8 @@ struct SearchRequest {
     // more, and each state keeps only its node of least time plus prices.
     Tick greed = 0;
     Tick latest = never;  // greatest completion time, whatever is paid [ticks]
+    Tick rest_price =
+        0;  // of ending at a vertex that other robots want, for one that ends anywhere
     Tick stays_from = 0;  // earliest start of the last visit's booking
     Tick ends_from = 0;   // least completion time
 };
@@ -89,7 +91,7 @@ class SafeIntervalSearch {
 
     // The track of the last search; empty if the search found none.
     void track(std::vector<Visit>& visits) const;
-    // Only of a robot that does not end anywhere.
+    // When the robot of the last search ends its track, its last work included.
     Tick completion() const { return states_[goal_].ready; }
     Tick cost() const { return value(states_[goal_], 0); }
 
@@ -186,6 +188,7 @@ class SafeIntervalSearch {
     std::span<const Tick> prices_;
     Tick limit_ = never;
     Tick latest_ = never;
+    Tick rest_price_ = 0;
     Tick stays_from_ = 0;
     Tick ends_from_ = 0;
     bool has_times_ = false;             // stages have times

@@ -156,6 +156,9 @@ void SafeIntervalSearch::finish_in_time(SearchNode after) {
         after.cost += costs_ends_ ? trip_->times.cost_of(stage, after.ready) : 0;
     }
     after.stage = n_stages();
+    if (rest_price_ > 0 && trip_->ends_anywhere() && trip_->is_wanted(after.vertex)) {
+        after.cost += rest_price_;
+    }
     if (!has_completed_before && after.ready > latest_) {
         return;
     }
