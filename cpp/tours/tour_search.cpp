@@ -13,8 +13,8 @@ namespace rightofway {
 namespace {
 
 constexpr double blinks = 0.01;  // Christiaens & Vanden Berghe, the rate of skipped gaps
-constexpr double hot = 0.1;      // temperatures, as shares of the mean cost of a job
-constexpr double cold = 0.001;
+constexpr double hot = 1.0;      // temperatures, as shares of the mean cost of a job
+constexpr double cold = 0.004;
 constexpr double hot_weight = 0.3;  // the same for weights of unserved jobs
 constexpr double regret_noise = 0.1;
 constexpr std::int64_t first_cycle = 5000;  // steps
