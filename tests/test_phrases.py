@@ -83,7 +83,7 @@ def list_patterns() -> frozenset[str]:
     """Return patterns of the texts that code makes of parts."""
     return frozenset(
         "".join(
-            re.escape(part.value) if isinstance(part, ast.Constant) else ".+"
+            re.escape(str(part.value)) if isinstance(part, ast.Constant) else ".+"
             for part in node.values
         )
         for module in parse_modules().values()

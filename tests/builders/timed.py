@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from rightofway.model import Arc, Itinerary, Problem, Scenario, Stage, Tick, Work
 from rightofway.model.turning import compute_first_turns
+from rightofway.model.work import WorkObjective
 
 __all__ = ["LATE", "draw_arcs", "draw_times", "with_problem"]
 
@@ -99,7 +100,7 @@ def with_problem(
     costs: bool = False,
 ) -> Scenario:
     """Return a fleet with other itineraries, of a problem with times."""
-    objective = "service" if costs else "flowtime"
+    objective: WorkObjective = "service" if costs else "flowtime"
     work = Work(jobs=(), robots=(), objective=objective, late=LATE)
     problem: Problem = replace(
         scenario.problem, itineraries=tuple(itineraries), work=work, after=after

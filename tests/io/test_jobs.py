@@ -18,7 +18,7 @@ from rightofway.io.scenario.writer import dump_scenario, format_scenario, write_
 from rightofway.io.yaml_text import parse_yaml
 from rightofway.model import Battery, Job, JobStop, RobotState, Rules
 from rightofway.site import VertexId
-from tests.check.test_work import make_plan
+from tests.builders.planned_jobs import make_plan
 
 F, V = Fraction, VertexId
 

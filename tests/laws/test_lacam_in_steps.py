@@ -123,8 +123,9 @@ def test_the_timetable_of_steps_is_a_plan_without_fault(scenario: Scenario) -> N
     except NoPlanExists:
         return
     assert in_steps is not None
-    tracks = tuple(build_timetable(scenario, in_steps))
-    plan = Plan(scenario=scenario, tracks=tracks, run=PlannerRun(name="joint"))
+    tracks = build_timetable(scenario.problem, in_steps)
+    assert tracks is not None
+    plan = Plan(scenario=scenario, tracks=tuple(tracks), run=PlannerRun(name="joint"))
     assert rightofway.check(plan).faults == ()
 
 

@@ -45,8 +45,8 @@ def keeps_times(scenario: Scenario, tracks: tuple[Track, ...]) -> None:
             is_last = visit == len(track) - 1
             assert is_last or end + stage.turn <= leave_by[visit]
         assert all(end <= begin for end, begin in zip(stay.ends, stay.begins[1:], strict=False))
-    for (robot, stage), (other, later) in scenario.problem.after:
-        assert stays[robot].ends[stage] <= stays[other].begins[later]
+    for (robot, before), (other, after) in scenario.problem.after:
+        assert stays[robot].ends[before] <= stays[other].begins[after]
     assert all((np.diff(track.enter) > 0).all() for track in tracks)
     assert (compute_drives(scenario, tracks) >= 0).all()
     assert all(first != second for track in tracks for first, second in pairwise(track.vertices))

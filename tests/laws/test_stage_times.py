@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+from typing import Any
+
 import numpy as np
 from hypothesis import strategies as st
 
@@ -26,7 +29,7 @@ problems = any_fleet(robots=(1, 1), without=UNKNOWN, tiny=True).flatmap(
 )
 
 
-def least_cost_of(scenario: Scenario, booked: list[Booked], **more: object) -> object:
+def least_cost_of(scenario: Scenario, booked: list[Booked], **more: Any) -> object:
     itinerary = scenario.problem.itineraries[0]
 
     def turned(before: int, at: int, to: int) -> int:
@@ -68,7 +71,7 @@ def test_the_search_finds_the_least_completion_with_times_of_stages(
     (stay,) = find_stays(scenario, [track])
     assert len(stay.serves) == len(scenario.problem.itineraries[0].stages_to_serve)
     assert stay.waits.min() >= 0
-    (cost,) = compute_costs(scenario, [track])
+    cost = Fraction(*compute_costs(scenario, [track]))
     assert cost == best or (max(stay.completion, track.enter[-1]) > HORIZON - 20)
 
 
@@ -84,7 +87,7 @@ def test_the_search_finds_the_least_cost_of_ends(drawn: tuple[Scenario, list[Boo
         assert best is None
         return
     (stay,) = find_stays(scenario, [track])
-    (cost,) = compute_costs(scenario, [track])
+    cost = Fraction(*compute_costs(scenario, [track]))
     stages = scenario.problem.itineraries[0].stages_to_serve
     for stage, end in zip(stages, stay.ends, strict=True):
         delay = 0 if stage.due is None else max(0, end - stage.due)

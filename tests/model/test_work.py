@@ -203,8 +203,8 @@ def make_begun(**begun: int) -> dict[str, Any]:
 ONE_STOP = Job(name="J1", stops=(JobStop(at=V(1)),))
 
 OUT_OF_RANGE: list[tuple[Callable[[], object], str]] = [
-    (lambda: replace(ONE_STOP, weight=0), "job 'J1': weight: 0 is not positive"),
-    (lambda: replace(ONE_STOP, due=-1), "job 'J1': due: -1 is negative"),
+    (lambda: replace(ONE_STOP, weight=Fraction(0)), "job 'J1': weight: 0 is not positive"),
+    (lambda: replace(ONE_STOP, due=Fraction(-1)), "job 'J1': due: -1 is negative"),
     (lambda: JobStop(at=V(1), work=Fraction(-1)), "stop: work: -1 is negative"),
     (lambda: JobStop(at=V(1), earliest=Fraction(-1)), "stop: earliest: -1 is negative"),
     (lambda: make_robots({"capacity": -1}), "robot 'R1': capacity: -1 does not fit"),

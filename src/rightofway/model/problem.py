@@ -208,7 +208,9 @@ class Problem:
     def minimizes_service(self) -> bool:
         """Whether ends of stages count more than completions of robots."""
         is_service = self.work is not None and self.work.objective == "service"
-        return is_service and any(stage.weight for one in self.itineraries for stage in one.stages)
+        return is_service and any(
+            stage.weight for robot in self.itineraries for stage in robot.stages
+        )
 
     @property
     def is_barred(self) -> bool:

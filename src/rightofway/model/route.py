@@ -282,14 +282,7 @@ def compute_turns_along(
 def compute_first_turn(roadmap: Roadmap, itinerary: Itinerary, edges: NDArray[np.int32]) -> Tick:
     """Return how long a robot turns from its initial heading into the first of some edges [ticks].
 
-    Parameters
-    ----------
-    roadmap
-        The graph of the edges.
-    itinerary
-        The robot; its turns are in `Itinerary.first_turns`.
-    edges
-        What it drives along, from its home on; -1 where there is no edge.
+    The edges are those that it drives along from its home on, -1 where there is none.
     """
     if not itinerary.first_turns or not len(edges) or edges[0] < 0:
         return Tick(0)

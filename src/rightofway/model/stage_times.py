@@ -38,18 +38,9 @@ def find_stage_times(
 ) -> tuple[StageTimes, ...]:
     """Return when each robot of a problem with times serves its stages.
 
-    Parameters
-    ----------
-    problem
-        What the fleet has to do.
-    tracks
-        One track for each robot; they may break the rules.
-    until
-        When each visit of each robot begins to turn to its next edge; NEVER for last visits
-        [ticks].
+    Tracks may break the rules. `until` says when each visit of each robot begins to turn to its
+    next edge; NEVER for last visits [ticks].
 
-    Notes
-    -----
     Begins by arcs only rise from round to round, so the last ones are the least. Where stages wait
     for each other in a circle, which tours never do, rounds end after as many as there are stages.
     """

@@ -267,14 +267,7 @@ def compute_service(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
     """Return the costs of the ends of stages, by their weights [ticks over ``late.denominator``].
 
     These are service times and lateness of the jobs in the tours of a scenario, apart from what no
-    plan changes.
-
-    Parameters
-    ----------
-    scenario
-        The problem, with jobs.
-    tracks
-        One track for each robot, which serves all its stages.
+    plan changes. Each track serves all stages of its robot.
     """
     work, cost = scenario.problem.work, 0
     assert work is not None, "the scenario has jobs"

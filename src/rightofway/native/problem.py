@@ -144,7 +144,7 @@ def _scale_costs(
     scale = LARGEST_SLOPE / Fraction(slope)
     if scale >= work.late.denominator:
         scale -= scale % work.late.denominator  # all costs are whole numbers then
-    scaled = [[min(math.ceil(one * scale), LARGEST_COST) for one in pair] for pair in exact]
+    scaled = [[min(math.ceil(cost * scale), LARGEST_COST) for cost in pair] for pair in exact]
     columns = np.array(scaled, np.int64).T
     return np.ascontiguousarray(columns[0]), np.ascontiguousarray(columns[1])
 

@@ -106,7 +106,7 @@ def _find_clashes(scenario: Scenario) -> Iterator[Blockage]:
     for when, places in (("start", homes), ("end", ends)):
         for pair in find_clashes(scenario.problem.resources, places):
             place, other_place = (places[robot] for robot in pair)
-            may_move = any(itineraries[one].ends_anywhere for one in pair)
+            may_move = any(itineraries[robot].ends_anywhere for robot in pair)
             if place == other_place or (when == "end" and may_move):
                 continue  # a shared end, or none
             robot, other = map(int, pair)
