@@ -15,9 +15,11 @@ namespace {
 constexpr double blinks = 0.01;  // Christiaens & Vanden Berghe, the rate of skipped gaps
 constexpr double hot = 1.0;      // temperatures, as shares of the mean cost of a job
 constexpr double cold = 0.004;
+constexpr double warm = 0.1;        // in place of `hot` in the first cycle, which has to gain soon
 constexpr double hot_weight = 0.3;  // the same for weights of unserved jobs
 constexpr double regret_noise = 0.1;
 constexpr std::int64_t first_cycle = 5000;  // steps
+constexpr std::int64_t steps_per_job = 20;  // of the first cycle, at least
 constexpr std::int64_t cycle_growth = 2;
 constexpr std::size_t mean_removed = 10;
 constexpr std::size_t most_waiting = 30;  // unserved jobs that a step tries to insert
@@ -171,8 +173,12 @@ std::int64_t TourSearch::improve(std::int64_t n_steps, const StopCondition& is_o
 // Starts again from the best plan, hotter than before.
 void TourSearch::begin_cycle() {
     cycle_begin_ = n_steps_;
-    cycle_length_ = cycle_length_ == 0 ? first_cycle : cycle_growth * cycle_length_;
-    hottest_ = hot * energy(best_cost_) / static_cast<double>(best_.n_served() + 1);
+    const bool is_first = cycle_length_ == 0;
+    const auto n_jobs = static_cast<std::int64_t>(problem_.n_jobs());
+    cycle_length_ =
+        is_first ? std::max(first_cycle, steps_per_job * n_jobs) : cycle_growth * cycle_length_;
+    hottest_ =
+        (is_first ? warm : hot) * energy(best_cost_) / static_cast<double>(best_.n_served() + 1);
     current_.copy_from(best_, since_best_);
     trial_.copy_from(best_, since_best_);
     current_cost_ = best_cost_;
