@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from operator import attrgetter
 from typing import Any
 
 import pytest
@@ -105,7 +106,7 @@ def test_the_same_values_in_another_unit_are_no_change() -> None:
     assert change.before == Fact("length", value=Fraction(1, 5))
 
 
-@pytest.mark.parametrize("attribute", [*ROBOT_ATTRIBUTES, *RULE_ATTRIBUTES], ids=str)
+@pytest.mark.parametrize("attribute", [*ROBOT_ATTRIBUTES, *RULE_ATTRIBUTES], ids=attrgetter("key"))
 def test_an_attribute_without_a_value_is_a_known_fact(attribute: Attribute) -> None:
     assert str(Fact(attribute.unset)) == attribute.unset
 

@@ -7,7 +7,7 @@ number, or another fact.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence, Sized
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache, cached_property
@@ -53,7 +53,7 @@ def list_forms(template: str) -> tuple[tuple[str, str], ...]:
 def count_things(values: Mapping[str, Any]) -> str:
     """Return the number that chooses a template: the value ``number``, or the count of robots."""
     number = values.get("number", values.get("robots", ()))
-    return str(number if isinstance(number, int | str) else len(number))
+    return str(len(number) if isinstance(number, Sized) and not isinstance(number, str) else number)
 
 
 MOST_NAMES = 8
