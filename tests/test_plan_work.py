@@ -99,6 +99,16 @@ def test_a_fleet_without_any_plan_has_the_error_of_its_planner() -> None:
         plan_work(scenario, refuse_above(-1, scenario), deadline=NO_DEADLINE)
 
 
+def test_begun_jobs_are_never_left_out() -> None:
+    """A battery that does not last for the rest of a begun job leaves no plan."""
+    document = make_document([carry("J1", 1, 5)])
+    document["batteries"] = {"tank": {"drive": "1/10"}}
+    start = {"at": "N1", "soc": "1/5", "begun": {"J1": 1}}
+    document["robots"][0] |= {"battery": "tank", "start": start}
+    with pytest.raises(GaveUp, match="begun jobs"):
+        solve(parse_scenario(document))
+
+
 def test_each_better_plan_is_handed_over() -> None:
     """Costs of the plans fall, and the last one is the result."""
     plans: list[Plan] = []

@@ -155,8 +155,13 @@ class _Rounds:
 
     def run(self, number: int) -> Plan | None:
         """Make tours, plan them, learn their delays; return the plan if it is the best one."""
-        assignment, self._fewer = self._fewer or self._assign(number), None
-        deadline = self._deadline.shorten(SHARE_OF_PLAN)
+        deadline, fewer = self._deadline.shorten(SHARE_OF_PLAN), self._fewer
+        try:
+            assignment, self._fewer = fewer or self._assign(number), None
+        except GaveUp:
+            if self.best is None:
+                raise
+            return None
         try:
             plan, judged = self._plan_tours(assignment, deadline, self._seed + number - 1)
         except (GaveUp, NoPlanExists):
@@ -193,6 +198,8 @@ class _Rounds:
         search.construct(deadline.measure_seconds_left())
         steps = STEPS_PER_JOB * len(self._work.jobs)
         search.improve(steps, deadline.measure_seconds_left())
+        if search.cost.missing:  # they may not be left out, so fewer jobs do not help
+            raise GaveUp(Fact("begun jobs without a tour"))
         return search.assignment
 
     def _learn(self, plan: Plan, assignment: Assignment, *, whole: bool) -> None:
