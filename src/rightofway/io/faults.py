@@ -97,17 +97,17 @@ def validate(model: type[M], data: Any, context: Any = None) -> M:
     except ValidationError as error:
         faults = error.errors()
     raise InputError(
-        fault_of_part for fault in faults for fault_of_part in _faults_of(fault, model)
+        fault_of_part for fault in faults for fault_of_part in _list_faults(fault, model)
     )
 
 
-def _faults_of(details: ErrorDetails, model: type[BaseModel]) -> Iterator[InputFault]:
+def _list_faults(details: ErrorDetails, model: type[BaseModel]) -> Iterator[InputFault]:
     path = tuple(step for step in details["loc"] if step != "[key]")
     error = details.get("ctx", {}).get("error")
     if isinstance(error, InputError):  # raised by a validator of ours, perhaps at places inside
         yield from (fault.nest(path) for fault in error.faults)
     else:
-        yield InputFault(path, _message_of(details, model))
+        yield InputFault(path, _write_message(details, model))
 
 
 _KINDS = {
@@ -120,14 +120,14 @@ _KINDS = {
 }
 
 
-def _message_of(details: ErrorDetails, model: type[BaseModel]) -> str:
+def _write_message(details: ErrorDetails, model: type[BaseModel]) -> str:
     kind, value = details["type"], details["input"]
     owner, field = _walk(model, details["loc"])
-    remedy = field.description if field else f"keys {', '.join(_fields(owner))}"
+    remedy = field.description if field else f"keys {', '.join(_list_fields(owner))}"
     if kind == "missing":
         return f"is missing (give {remedy})"
     if kind in {"extra_forbidden", "invalid_key"}:
-        return _unknown_key(details["loc"][-1], owner)
+        return _describe_unknown_key(details["loc"][-1], owner)
     if value is None:
         is_needed = field is None or field.is_required()
         return f"is empty (give {remedy}{'' if is_needed else ', or take the key out'})"
@@ -153,8 +153,8 @@ MEANT = {
 """Words of other programs, and what to write here."""
 
 
-def _unknown_key(key: int | str, owner: type[BaseModel]) -> str:
-    known = list(_fields(owner))
+def _describe_unknown_key(key: int | str, owner: type[BaseModel]) -> str:
+    known = list(_list_fields(owner))
     meant = MEANT.get(str(key).lower(), "")
     if meant.partition(":")[0] in known:
         return f"unknown key (write {meant})"
@@ -172,18 +172,18 @@ def _walk(
     """Return the innermost model on the way to a place, and the last field on it."""
     owner, field = model, None
     for part in (part for part in location if isinstance(part, str)):
-        model_field = _fields(owner).get(part)
+        model_field = _list_fields(owner).get(part)
         if model_field is None:
             break
         field = model_field
-        inner = _model_in(model_field.annotation)
+        inner = _find_model(model_field.annotation)
         if inner is None:
             break
         owner = inner
     return owner, field
 
 
-def _fields(model: type[BaseModel]) -> dict[str, FieldInfo]:
+def _list_fields(model: type[BaseModel]) -> dict[str, FieldInfo]:
     """Return the fields of a model by key, those first that must be there."""
     fields = sorted(model.model_fields.items(), key=lambda item: not item[1].is_required())
     return {field.alias or name: field for name, field in fields}
@@ -194,8 +194,8 @@ def list_keys(model: type[BaseModel]) -> list[str]:
     return [field.alias or name for name, field in model.model_fields.items()]
 
 
-def _model_in(annotation: Any) -> type[BaseModel] | None:
+def _find_model(annotation: Any) -> type[BaseModel] | None:
     if hasattr(annotation, "model_fields"):
         return annotation  # type: ignore[no-any-return]
-    inside = (_model_in(argument) for argument in get_args(annotation))
+    inside = (_find_model(argument) for argument in get_args(annotation))
     return next((inner for inner in inside if inner), None)

@@ -32,11 +32,11 @@ def check_format(document: Any, known: str, *others: str) -> dict[str, Any]:
         raise InputError.at("format", f"is missing (put {line} at the top)")
     name = document["format"]
     if name not in {known, *others}:
-        raise InputError.at("format", f"{quote(name)} is {_not_wanted(name, known)}")
+        raise InputError.at("format", f"{quote(name)} is {_describe_unwanted(name, known)}")
     return document
 
 
-def _not_wanted(value: object, known: str) -> str:
+def _describe_unwanted(value: object, known: str) -> str:
     if value in {PLAN_FORMAT, PLAN_OF_JOBS_FORMAT} and known == SCENARIO_FORMAT:
         return "a plan, not a scenario (its scenario is in it; check or show it as it is)"
     if value == SCENARIO_FORMAT and known == PLAN_FORMAT:
@@ -75,11 +75,11 @@ def make_schema(kind: Literal["scenario", "plan", "suite"]) -> dict[str, Any]:
     }
     model = models[make_words(*sorted(models)).read_at("kind", kind)]
     dialect = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
-    return {**dialect, **_without_titles(model.model_json_schema())}
+    return {**dialect, **_remove_titles(model.model_json_schema())}
 
 
-def _without_titles(node: Any) -> Any:
+def _remove_titles(node: Any) -> Any:
     """Leave out the titles, which only repeat the names of keys and classes."""
     if isinstance(node, dict):
-        return {key: _without_titles(item) for key, item in node.items() if key != "title"}
-    return [_without_titles(item) for item in node] if isinstance(node, list) else node
+        return {key: _remove_titles(item) for key, item in node.items() if key != "title"}
+    return [_remove_titles(item) for item in node] if isinstance(node, list) else node

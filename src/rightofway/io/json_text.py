@@ -51,7 +51,7 @@ def parse_json(text: str) -> Any:
     if doubled:
         raise InputError(
             InputFault(
-                _path_to(mapping, data),
+                _find_path(mapping, data),
                 f"the key {quote(key)} is given twice (take one out)",
             )
             for mapping, key in doubled
@@ -59,7 +59,7 @@ def parse_json(text: str) -> Any:
     return data
 
 
-def _path_to(target: dict[str, Any], data: Any) -> tuple[str | int, ...]:
+def _find_path(target: dict[str, Any], data: Any) -> tuple[str | int, ...]:
     waiting: list[tuple[tuple[str | int, ...], Any]] = [((), data)]
     while waiting:
         path, node = waiting.pop()
@@ -73,16 +73,16 @@ def _path_to(target: dict[str, Any], data: Any) -> tuple[str | int, ...]:
 
 def format_json(document: dict[str, Any]) -> str:
     """Return a document as JSON text with one row, robot or edge on a line."""
-    return _spread(document, "\n") + "\n"
+    return _write_spread(document, "\n") + "\n"
 
 
-def _spread(value: dict[str, Any] | list[Any], margin: str) -> str:
+def _write_spread(value: dict[str, Any] | list[Any], margin: str) -> str:
     inner = margin + "  "
     if isinstance(value, list):
         return f"[{inner}{f',{inner}'.join(map(format_json_line, value))}{margin}]"
     pairs = (
         f"{format_json_line(key)}: "
-        + (_spread(child, inner) if _is_spread(key, child) else format_json_line(child))
+        + (_write_spread(child, inner) if _is_spread(key, child) else format_json_line(child))
         for key, child in value.items()
     )
     return f"{{{inner}{f',{inner}'.join(pairs)}{margin}}}"

@@ -98,7 +98,7 @@ def load_plan(
     kind = kinds.get(path.suffix.lower())
     if kind:
         raise InputError.at("", f"{kind} holds a scenario, not a plan (plan it first)", str(path))
-    text, foreign = _foreign(path, map_file, scen)
+    text, foreign = _read_foreign(path, map_file, scen)
     if foreign is not None:
         return foreign
     with open_document(path, text) as document:
@@ -135,7 +135,7 @@ def load_either(
 
     with name_file(str(path)):
         _refuse_count(count)
-    text, foreign = _foreign(path, map_file, scen)
+    text, foreign = _read_foreign(path, map_file, scen)
     if foreign is not None:
         return foreign
     with open_document(path, text) as document:
@@ -173,7 +173,7 @@ def _refuse_count(count: int | None) -> None:
         raise InputError.at("", message)
 
 
-def _foreign(
+def _read_foreign(
     path: Path, map_file: Path | str | None, scen: Path | str | None
 ) -> tuple[str, Plan | None]:
     """Return the text of a file, and its plan if it is one of another program."""

@@ -174,7 +174,7 @@ def book_closures(
             reach = None if closure.radius is None else radius + closure.radius + clearance
             bookings += [
                 _Closed(size * n_rows + resource, start, end)
-                for resource in _closed_resources(plane, closure, reach)
+                for resource in _list_closed_resources(plane, closure, reach)
             ]
     merged = list[_Closed]()
     for booking in sorted(bookings):
@@ -225,17 +225,17 @@ class _Plane:
         Edges are numbered after the vertices; those from and to the vertices kept are left out.
         """
         at, heads = self.exact, self.roadmap.heads
-        for place in _boxed(self.drawn, self.drawn, segments, reach):
-            if place not in ends and _nearer((at[place], at[place]), segments, reach):
+        for place in _find_boxed(self.drawn, self.drawn, segments, reach):
+            if place not in ends and _is_nearer((at[place], at[place]), segments, reach):
                 yield place
-        for edge in _boxed(self.drawn[self.tails], self.drawn[heads], segments, reach):
+        for edge in _find_boxed(self.drawn[self.tails], self.drawn[heads], segments, reach):
             check_work(FINDING)
             tail, head = int(self.tails[edge]), int(heads[edge])
-            if not {tail, head} & set(ends) and _nearer((at[tail], at[head]), segments, reach):
+            if not {tail, head} & set(ends) and _is_nearer((at[tail], at[head]), segments, reach):
                 yield self.roadmap.n_vertices + edge
 
 
-def _closed_resources(plane: _Plane, closure: Closure, reach: Fraction | None) -> set[int]:
+def _list_closed_resources(plane: _Plane, closure: Closure, reach: Fraction | None) -> set[int]:
     """Return the vertices and edges that are closed for robots; edges are numbered after vertices.
 
     ``reach`` is the distance below which what is near is closed, too; None for nothing.
@@ -274,7 +274,7 @@ def _list_along_chains(roadmap: Roadmap, closed: Collection[int]) -> set[int]:
     return {vertex for chain in touched for vertex in roadmap.passing.chains[chain][1:-1]}
 
 
-def _boxed(
+def _find_boxed(
     first: NDArray[np.float64],
     other: NDArray[np.float64],
     segments: Sequence[Segment],
@@ -288,25 +288,33 @@ def _boxed(
     return np.flatnonzero(meets.all(axis=1)).tolist()
 
 
-def _nearer(segment: Segment, others: Sequence[Segment], reach: Fraction) -> bool:
-    return any(_squared_gap(segment, other) < reach**2 for other in others)
+def _is_nearer(segment: Segment, others: Sequence[Segment], reach: Fraction) -> bool:
+    return any(_measure_squared_gap(segment, other) < reach**2 for other in others)
 
 
-def _squared_gap(first: Segment, other: Segment) -> Fraction:
+def _measure_squared_gap(first: Segment, other: Segment) -> Fraction:
     """Return the squared distance of two segments, exactly."""
     a, b = first
     c, d = other
-    sides = _side(a, b, c) * _side(a, b, d), _side(c, d, a) * _side(c, d, b)
+    sides = (
+        _compute_side(a, b, c) * _compute_side(a, b, d),
+        _compute_side(c, d, a) * _compute_side(c, d, b),
+    )
     if sides[0] < 0 and sides[1] < 0:
         return Fraction(0)
-    return min(_to_point(a, other), _to_point(b, other), _to_point(c, first), _to_point(d, first))
+    return min(
+        _measure_to_point(a, other),
+        _measure_to_point(b, other),
+        _measure_to_point(c, first),
+        _measure_to_point(d, first),
+    )
 
 
-def _side(a: Point, b: Point, c: Point) -> Fraction:
+def _compute_side(a: Point, b: Point, c: Point) -> Fraction:
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
-def _to_point(point: Point, segment: Segment) -> Fraction:
+def _measure_to_point(point: Point, segment: Segment) -> Fraction:
     """Return the squared distance of a point and a segment."""
     (ax, ay), (bx, by) = segment
     dx, dy = bx - ax, by - ay

@@ -70,7 +70,7 @@ class KeptFact(Fact):
         super().__init__(kind, **read)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _remake, (type(self), self.kind, dict(self.values))
+        return _make_again, (type(self), self.kind, dict(self.values))
 
     @classmethod
     def of(cls, reason: Self | str) -> Self:
@@ -79,7 +79,7 @@ class KeptFact(Fact):
 
     def as_dict(self) -> dict[str, Any]:
         """Return the fact as plan files have it."""
-        values = {name: _as_plain(value) for name, value in self.values.items()}
+        values = {name: _convert_to_plain(value) for name, value in self.values.items()}
         return {"kind": self.kind, self.KEY: values}
 
     @classmethod
@@ -113,11 +113,11 @@ def _refuse_unprintable(value: Any) -> None:
             raise InputError.at("", message)
 
 
-def _remake(kind: type[KeptFact], key: str, values: Mapping[str, Any]) -> KeptFact:
+def _make_again(kind: type[KeptFact], key: str, values: Mapping[str, Any]) -> KeptFact:
     return kind(key, **values)
 
 
-def _as_plain(value: Any) -> Any:
+def _convert_to_plain(value: Any) -> Any:
     match value:
         case Status():
             return value.as_dict()

@@ -95,7 +95,7 @@ def compute_dwell_between_laps(
     It serves the stages with which a lap ends, and turns from the last edge to the first one.
     """
     turn = int(compute_turns_of_lap(roadmap, itinerary, vertices)[0])
-    return Tick(compute_least_dwell(_stages_at_home(itinerary), leaves=True) + turn)
+    return Tick(compute_least_dwell(_list_stages_at_home(itinerary), leaves=True) + turn)
 
 
 def compute_turns_of_lap(
@@ -106,7 +106,7 @@ def compute_turns_of_lap(
     return compute_turns_along(roadmap, itinerary, around)[1:-1]
 
 
-def _stages_at_home(itinerary: Itinerary) -> tuple[Stage, ...]:
+def _list_stages_at_home(itinerary: Itinerary) -> tuple[Stage, ...]:
     """Return the stages at home with which each lap of an itinerary ends."""
     at_home = takewhile(lambda stage: stage.vertex == itinerary.home, reversed(itinerary.stages))
     return tuple(reversed(tuple(at_home)))

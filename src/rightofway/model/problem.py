@@ -280,7 +280,7 @@ def bind_problem(
     """
     radii = [robot.radius for robot in robots]
     if clock is None:
-        alike = {_ticks_key(robot): robot for robot in robots}.values()
+        alike = {_make_ticks_key(robot): robot for robot in robots}.values()
         driven = (_drive_times(roadmap, robot) for robot in alike)
         spent = (_stop_times(roadmap, robot, rules) for robot in robots)
         clock = choose_clock(chain([rules.headway], durations, *driven, *spent))
@@ -291,8 +291,8 @@ def bind_problem(
     )
     edge_ticks: dict[tuple[Any, ...], tuple[Tick, ...]] = {}
     for robot in robots:
-        if _ticks_key(robot) not in edge_ticks:  # robots of one kind have the same
-            edge_ticks[_ticks_key(robot)] = _edge_ticks(roadmap, robot, clock)
+        if _make_ticks_key(robot) not in edge_ticks:  # robots of one kind have the same
+            edge_ticks[_make_ticks_key(robot)] = _compute_edge_ticks(roadmap, robot, clock)
     problem = Problem(
         roadmap=roadmap,
         clock=clock,
@@ -302,12 +302,12 @@ def bind_problem(
             rotations=rules.rotations,
         ),
         itineraries=tuple(
-            _itinerary(
+            _make_itinerary(
                 roadmap,
                 robot,
                 rules,
                 clock,
-                edge_ticks=edge_ticks[_ticks_key(robot)],
+                edge_ticks=edge_ticks[_make_ticks_key(robot)],
                 surcharges=surcharges,
                 turning=turning,
                 weight=weight,
@@ -368,7 +368,7 @@ def turn_rate(robot: Robot, rules: Rules) -> Fraction | None:
     return robot.turn_rate if robot.turn_rate is not None else rules.turn_rate
 
 
-def _ticks_key(robot: Robot) -> tuple[Any, ...]:
+def _make_ticks_key(robot: Robot) -> tuple[Any, ...]:
     """Return what the drives of a robot depend on."""
     return robot.speed, robot.type, robot.radius
 
@@ -384,7 +384,7 @@ def _stop_times(roadmap: Roadmap, robot: Robot, rules: Rules) -> Iterator[Fracti
     yield from (stop.work for stop in robot.stops)
 
 
-def _edge_ticks(roadmap: Roadmap, robot: Robot, clock: Clock) -> tuple[Tick, ...]:
+def _compute_edge_ticks(roadmap: Roadmap, robot: Robot, clock: Clock) -> tuple[Tick, ...]:
     """Return the ticks for an edge of each class; -1 where it is barred."""
     return tuple(
         Tick(-1)
@@ -403,7 +403,7 @@ def scale_weights(owners: Sequence[Robot] | Sequence[Job]) -> list[int]:
     return [weight // divisor for weight in whole]
 
 
-def _itinerary(
+def _make_itinerary(
     roadmap: Roadmap,
     robot: Robot,
     rules: Rules,

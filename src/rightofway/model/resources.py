@@ -284,14 +284,14 @@ class _Drawing:
 
     def __init__(self, roadmap: Roadmap, lengths: Sequence[Fraction]) -> None:
         whole, self.scale = scale_positions(roadmap, lengths)
-        self.x, self.y = (self._from_least(whole[axis::2]) for axis in (0, 1))
+        self.x, self.y = (self._convert_from_least(whole[axis::2]) for axis in (0, 1))
         tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
         heads = roadmap.heads.astype(np.int64)
         ends = np.minimum(tails, heads) * roadmap.n_vertices + np.maximum(tails, heads)
         self.a, self.b = np.divmod(np.unique(ends), roadmap.n_vertices)
 
     @staticmethod
-    def _from_least(values: list[int]) -> Exact:
+    def _convert_from_least(values: list[int]) -> Exact:
         least, most = min(values), max(values)
         kind = np.int64 if most - least < LARGEST_FAST else object
         return np.array([value - least for value in values], kind)
@@ -334,9 +334,9 @@ class _Drawing:
         for done, part in enumerate(self.find_candidates(distance)):
             (left, right), (vertex, lane), (first, other) = part
             check_work(Fact("part done", doing=FINDING, done=done, parts=self.n_parts))
-            near = self._square(left, right) < limit
-            beside = self._passes(vertex, lane, limit)
-            crossing = self._crosses(first, other)
+            near = self._measure_square(left, right) < limit
+            beside = self._is_passing(vertex, lane, limit)
+            crossing = self._is_crossing(first, other)
             pairs.vertices.extend(zip(left[near].tolist(), right[near].tolist(), strict=True))
             passed = zip(vertex[beside].tolist(), lane[beside].tolist(), strict=True)
             pairs.beside.extend((vertex, lanes[passing]) for vertex, passing in passed)
@@ -344,35 +344,43 @@ class _Drawing:
             pairs.crossings.extend((lanes[left], lanes[right]) for left, right in crossed)
         return pairs
 
-    def _square(self, left: Ints, right: Ints) -> Exact:
+    def _measure_square(self, left: Ints, right: Ints) -> Exact:
         """Return the squared distance of vertices."""
         square: Exact = (self.x[left] - self.x[right]) ** 2 + (self.y[left] - self.y[right]) ** 2
         return square
 
-    def _side(self, vertex: Ints, lane: Ints) -> Exact:
+    def _compute_side(self, vertex: Ints, lane: Ints) -> Exact:
         """Return the cross product that tells on which side of a lane's line a vertex lies."""
         a, b = self.a[lane], self.b[lane]
         dx, dy = self.x[b] - self.x[a], self.y[b] - self.y[a]
         cross_product: Exact = dx * (self.y[vertex] - self.y[a]) - dy * (self.x[vertex] - self.x[a])
         return cross_product
 
-    def _passes(self, vertex: Ints, lane: Ints, limit: int) -> NDArray[np.bool_]:
+    def _is_passing(self, vertex: Ints, lane: Ints, limit: int) -> NDArray[np.bool_]:
         """Return where a lane comes nearer to a vertex than the limit, and its ends do not."""
         a, b = self.a[lane], self.b[lane]
         dx, dy = self.x[b] - self.x[a], self.y[b] - self.y[a]
         square = dx * dx + dy * dy
         along = (self.x[vertex] - self.x[a]) * dx + (self.y[vertex] - self.y[a]) * dy
         inside = (along > 0) & (along < square)
-        ends_are_clear = (self._square(vertex, a) >= limit) & (self._square(vertex, b) >= limit)
+        ends_are_clear = (self._measure_square(vertex, a) >= limit) & (
+            self._measure_square(vertex, b) >= limit
+        )
         is_beside: NDArray[np.bool_] = (inside & ends_are_clear).astype(bool)
-        side = self._side(vertex[is_beside], lane[is_beside]).astype(object)
+        side = self._compute_side(vertex[is_beside], lane[is_beside]).astype(object)
         is_beside[is_beside] = side**2 < limit * square[is_beside].astype(object)
         return is_beside
 
-    def _crosses(self, first: Ints, other: Ints) -> NDArray[np.bool_]:
+    def _is_crossing(self, first: Ints, other: Ints) -> NDArray[np.bool_]:
         """Return where two lanes cross in a point that is an end of neither."""
-        ends_of_other = self._side(self.a[other], first), self._side(self.b[other], first)
-        ends_of_one = self._side(self.a[first], other), self._side(self.b[first], other)
+        ends_of_other = (
+            self._compute_side(self.a[other], first),
+            self._compute_side(self.b[other], first),
+        )
+        ends_of_one = (
+            self._compute_side(self.a[first], other),
+            self._compute_side(self.b[first], other),
+        )
         crosses: NDArray[np.bool_] = np.array(
             (np.sign(ends_of_other[0]) * np.sign(ends_of_other[1]) < 0)
             & (np.sign(ends_of_one[0]) * np.sign(ends_of_one[1]) < 0),

@@ -87,14 +87,14 @@ class Scenario:
             batteries=BATTERIES,
             charging=list_of(VERTEX),
         )
-        object.__setattr__(self, "rules", _resolved(self))
+        object.__setattr__(self, "rules", _resolve_rules(self))
         if self.rules.walls == "strict" and self.roadmap.grid is not None:
             radii = [robot.radius for robot in self.robots]
             object.__setattr__(self, "roadmap", clear_of_walls(self.roadmap, radii))
         faults = [
             *_find_turn_faults(self.rules.turn, ("rules", "turn"), self.roadmap),
-            *_fleet_faults(self),
-            *_space_faults(self),
+            *_find_fleet_faults(self),
+            *_find_space_faults(self),
             *find_work_faults(self),
         ]
         for index, closure in enumerate(self.closures):
@@ -147,7 +147,7 @@ def _bind(scenario: Scenario) -> Problem:
     return problem if scenario.tours is None else bind_tours(problem, scenario.tours)
 
 
-def _resolved(scenario: Scenario) -> Rules:
+def _resolve_rules(scenario: Scenario) -> Rules:
     """Return the rules with the occupancy that the fleet has by default."""
     if scenario.rules.occupancy is not None:
         return scenario.rules
@@ -161,7 +161,7 @@ def _find_turn_faults(turn: Turn | None, place: Where, roadmap: Roadmap) -> Iter
         yield InputFault(place, "'cell' needs a grid (give a time, like 0 or 1/2)")
 
 
-def _space_faults(scenario: Scenario) -> Iterator[InputFault]:
+def _find_space_faults(scenario: Scenario) -> Iterator[InputFault]:
     """Yield what does not fit to robots that have a size, or to a fleet in which none has."""
     rules = scenario.rules
     if rules.walls == "strict" and scenario.roadmap.grid is None:
@@ -193,19 +193,19 @@ def _space_faults(scenario: Scenario) -> Iterator[InputFault]:
         )
 
 
-def _fleet_faults(scenario: Scenario) -> Iterator[InputFault]:
+def _find_fleet_faults(scenario: Scenario) -> Iterator[InputFault]:
     if not scenario.robots:
         yield InputFault("robots", "there is none (give at least one)")
     for index, robot in enumerate(scenario.robots):
-        yield from (fault.nest(("robots", index)) for fault in _robot_faults(robot, scenario))
-    yield from _weight_faults(scenario.robots)
+        yield from (fault.nest(("robots", index)) for fault in _find_robot_faults(robot, scenario))
+    yield from _find_weight_faults(scenario.robots)
     name = scenario.roadmap.name
     names = [robot.name for robot in scenario.robots]
-    yield from _twice("name", names, ["{other}"] * len(names), "give each its own")
+    yield from _find_twice("name", names, ["{other}"] * len(names), "give each its own")
     homes = [robot.home for robot in scenario.robots]
     if all(0 <= home < scenario.roadmap.n_vertices for home in homes):
         remedy = "a vertex holds one robot; move one of them"
-        yield from _twice("home", [name(home) for home in homes], names, remedy)
+        yield from _find_twice("home", [name(home) for home in homes], names, remedy)
     laps = scenario.rules.laps
     stages = sum((len(robot.stops) + 1) * (robot.laps or laps) for robot in scenario.robots)
     if stages > MAX_STAGES:
@@ -213,7 +213,9 @@ def _fleet_faults(scenario: Scenario) -> Iterator[InputFault]:
         yield InputFault("robots", f"{message} (give fewer laps)")
 
 
-def _twice(key: str, values: list[str], owners: list[str], remedy: str) -> Iterator[InputFault]:
+def _find_twice(
+    key: str, values: list[str], owners: list[str], remedy: str
+) -> Iterator[InputFault]:
     first: dict[str, int] = {}
     for index, value in enumerate(values):
         earlier = first.setdefault(value, index)
@@ -222,7 +224,7 @@ def _twice(key: str, values: list[str], owners: list[str], remedy: str) -> Itera
             yield InputFault(("robots", index, key), message, ("robots", earlier))
 
 
-def _weight_faults(robots: Sequence[Robot]) -> Iterator[InputFault]:
+def _find_weight_faults(robots: Sequence[Robot]) -> Iterator[InputFault]:
     weights = scale_weights(robots)
     heaviest = max(weights, default=1)
     if heaviest > HEAVIEST:
@@ -231,7 +233,7 @@ def _weight_faults(robots: Sequence[Robot]) -> Iterator[InputFault]:
         yield InputFault(("robots", weights.index(heaviest), "weight"), message)
 
 
-def _robot_faults(robot: Robot, scenario: Scenario) -> Iterator[InputFault]:
+def _find_robot_faults(robot: Robot, scenario: Scenario) -> Iterator[InputFault]:
     if not robot.name:
         yield InputFault("name", "is empty (give the robot a name)")
     yield from _find_turn_faults(robot.turn, "turn", scenario.roadmap)

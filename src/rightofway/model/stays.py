@@ -81,9 +81,9 @@ def find_stays(
     """
     ends = np.cumsum([len(track) for track in tracks])
     enter = np.concatenate([track.enter for track in tracks])
-    edges = _edges_of_fleet(scenario.roadmap, tracks, ends)
+    edges = _find_edges_of_fleet(scenario.roadmap, tracks, ends)
     owns = [slice(end - len(track), end) for track, end in zip(tracks, ends.tolist(), strict=True)]
-    drive, dwell = _drives_of_fleet(scenario, tracks, edges), np.zeros(len(enter), np.int64)
+    drive, dwell = _measure_drives_of_fleet(scenario, tracks, edges), np.zeros(len(enter), np.int64)
     turns = np.zeros(len(enter), np.int64)
     for own, itinerary in zip(owns, scenario.problem.itineraries, strict=True):
         if itinerary.turning is not None:
@@ -220,7 +220,9 @@ def _compute_dwells(itinerary: Itinerary, track: Track, times: StageTimes) -> ND
 def compute_drives(scenario: Scenario, tracks: Sequence[Track]) -> NDArray[np.int64]:
     """Return the ticks of the edge that ends each visit of a fleet, robot after robot."""
     ends = np.cumsum([len(track) for track in tracks])
-    return _drives_of_fleet(scenario, tracks, _edges_of_fleet(scenario.roadmap, tracks, ends))
+    return _measure_drives_of_fleet(
+        scenario, tracks, _find_edges_of_fleet(scenario.roadmap, tracks, ends)
+    )
 
 
 def compute_completions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Tick, ...]:
@@ -294,7 +296,7 @@ def compute_costs(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Tick, ..
     return tuple(Tick(cost + int(extra)) for cost, extra in zip(costs, more, strict=True))
 
 
-def _edges_of_fleet(
+def _find_edges_of_fleet(
     roadmap: Roadmap, tracks: Sequence[Track], ends: NDArray[np.int64]
 ) -> NDArray[np.int32]:
     """Return the edge after each visit of all tracks, -1 where there is none; int32."""
@@ -306,7 +308,7 @@ def _edges_of_fleet(
     return edges
 
 
-def _drives_of_fleet(
+def _measure_drives_of_fleet(
     scenario: Scenario, tracks: Sequence[Track], edges: NDArray[np.int32]
 ) -> NDArray[np.int64]:
     """Return the ticks of the edge after each visit of all tracks, 0 where there is none."""

@@ -116,7 +116,7 @@ def compute_first_turns(
     """
     if turning is None or heading is None:
         return ()
-    headings, has_heading = _headings(roadmap)
+    headings, has_heading = _measure_headings(roadmap)
     turns = []
     for edge in range(roadmap.indptr[start], roadmap.indptr[start + 1]):
         angle = abs(Fraction(headings[edge]) - heading) % 360
@@ -128,7 +128,7 @@ def compute_first_turns(
 @lru_cache(maxsize=4)
 def measure_angles(roadmap: Roadmap) -> Angles:
     """Return the angles between the edges of a roadmap."""
-    heading, has_heading = _headings(roadmap)
+    heading, has_heading = _measure_headings(roadmap)
     first, degree = roadmap.indptr[roadmap.heads].astype(np.int64), np.diff(roadmap.indptr)
     counts = degree[roadmap.heads].astype(np.int64)
     begin = np.cumsum(counts) - counts
@@ -144,7 +144,7 @@ def measure_angles(roadmap: Roadmap) -> Angles:
     return Angles(offset=offset, kind=kinds, angles=tuple(angles.tolist()))
 
 
-def _headings(roadmap: Roadmap) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+def _measure_headings(roadmap: Roadmap) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """Return the heading of each edge [degrees], and whether it has one."""
     tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
     if roadmap.grid is not None:

@@ -46,7 +46,7 @@ class PlaceNames:
         if not self.is_measured:
             return roadmap.name(vertex)
         if vertex in self._stations:
-            return self._with_number(self._stations[vertex], vertex)
+            return self._add_number(self._stations[vertex], vertex)
         middle = Phrase("middle", middle=describe_middle(roadmap, vertex))
         if not self.numbered:
             return middle
@@ -57,10 +57,10 @@ class PlaceNames:
         if not self.is_measured or vertex in self._stations:
             return self.describe_place(vertex)
         if vertex in self.of_robots:
-            return self._with_number(self.of_robots[vertex], vertex)
+            return self._add_number(self.of_robots[vertex], vertex)
         return self.describe_place(vertex)
 
-    def _with_number(self, name: str, vertex: int) -> str:
+    def _add_number(self, name: str, vertex: int) -> str:
         if not self.numbered:
             return name
         return Phrase("name with detail", name=name, what=self.scenario.roadmap.name(vertex))

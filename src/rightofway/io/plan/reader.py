@@ -73,16 +73,16 @@ def parse_plan(document: Any, source: str = "", pictures: Path | None = None) ->
         document = check_format(document, PLAN_FORMAT, PLAN_OF_JOBS_FORMAT)
         faults = Faults()
         frame = faults.attempt("", validate, PlanFrame, document)
-        loaded = faults.read_part(document, "scenario", _planned, pictures)
+        loaded = faults.read_part(document, "scenario", _read_planned, pictures)
         names = _Names.of(loaded.scenario) if loaded else None
         run = faults.read_part(document, "planner", _run, names)
-        tracks = faults.read_part(document, "robots", _tracks, names)
+        tracks = faults.read_part(document, "robots", _read_tracks, names)
         work = (
             faults.attempt("", read_work_of_plan, document, loaded.scenario, tracks or ())
             if loaded
             else {}
         )
-        steady = faults.read_part(document, "steady", _steady, names) or ()
+        steady = faults.read_part(document, "steady", _read_steady, names) or ()
         tick = loaded and loaded.scenario.problem.clock.tick
         if frame and tick and frame.tick != tick:
             remedy = "plan the scenario again; these times mean something else"
@@ -100,7 +100,7 @@ def parse_plan(document: Any, source: str = "", pictures: Path | None = None) ->
         )
 
 
-def _planned(data: Any, pictures: Path | None) -> Loaded:
+def _read_planned(data: Any, pictures: Path | None) -> Loaded:
     """Return the scenario of a plan, whose lanes are split as they were when it was planned."""
     drawn = data.get("map") if isinstance(data, dict) else None
     if isinstance(drawn, dict) and "roadmap" in drawn:
@@ -141,7 +141,7 @@ class _Names:
         return self.vertices[name]
 
 
-def _each(
+def _read_each(
     data: Any, shape: type[D], read: Callable[[D, _Names], T], names: _Names | None, item: str
 ) -> list[T]:
     """Return the items of a list; without names, only look for faults of shape."""
@@ -156,7 +156,7 @@ def _each(
     return [part for part in parts if part is not None]
 
 
-def _tracks(data: Any, names: _Names | None) -> tuple[ReadRobot, ...]:
+def _read_tracks(data: Any, names: _Names | None) -> tuple[ReadRobot, ...]:
     """Return the tracks and tours in the scenario's order."""
     from rightofway.io.plan.shape import TrackDocument
 
@@ -176,7 +176,7 @@ def _tracks(data: Any, names: _Names | None) -> tuple[ReadRobot, ...]:
         track = Track.of(vertices, document.enter)
         tracks[robot] = ReadRobot(name=document.name, track=track, tour=document.tour)
 
-    _each(data, TrackDocument, read, names, "track for each robot")
+    _read_each(data, TrackDocument, read, names, "track for each robot")
     missing = [name for name, robot in names.robots.items() if robot not in tracks] if names else []
     if missing:
         raise InputError.at("", f"{quote(missing[0])} has no track (give one for each robot)")
@@ -192,37 +192,37 @@ def _run(data: Any, names: _Names | None) -> PlannerRun | None:
         return None
     faults, decisions, reroutes = Faults(), list[Decision | None](), list[Reroute]()
     for index, decision in enumerate(document.decisions):
-        decisions.append(faults.attempt(("decisions", index), _decision, decision, names))
+        decisions.append(faults.attempt(("decisions", index), _read_decision, decision, names))
     for index, reroute in enumerate(document.reroutes):
         robot = faults.attempt(("reroutes", index), names.find_robot, "robot", reroute.robot)
         place, data = ("reroutes", index, "because"), reroute.because.model_dump()
         if because := faults.attempt(place, RerouteReason.read, data):
             reroutes.append(Reroute(robot=robot or 0, because=because))
     losses = [
-        faults.attempt(("forced_losses", index), _forced_loss, loss, names)
+        faults.attempt(("forced_losses", index), _read_forced_loss, loss, names)
         for index, loss in enumerate(document.forced_losses)
     ]
-    status = faults.attempt(("status",), _status, document.status)
+    status = faults.attempt(("status",), _read_status, document.status)
     faults.stop()
     return PlannerRun(
         name=document.name,
-        options={key: _with_floats(value) for key, value in document.options.items()},
+        options={key: _convert_to_floats(value) for key, value in document.options.items()},
         seed=document.seed,
         status=status,
         seconds=None if document.seconds is None else float(document.seconds),
         decisions=tuple(decision for decision in decisions if decision),
         reroutes=tuple(reroutes),
         start=None if document.start is None else StartPlan(**document.start.model_dump()),
-        outcome=None if document.outcome is None else _outcome(document.outcome),
+        outcome=None if document.outcome is None else _read_outcome(document.outcome),
         forced_losses=tuple(loss for loss in losses if loss),
     )
 
 
-def _status(document: StatusDocument | None) -> Status | None:
+def _read_status(document: StatusDocument | None) -> Status | None:
     return None if document is None else Status.read(document.model_dump())
 
 
-def _forced_loss(document: ForcedLossDocument, names: _Names) -> ForcedLoss:
+def _read_forced_loss(document: ForcedLossDocument, names: _Names) -> ForcedLoss:
     robots = {names.find_robot("robots", name) for name in document.robots}
     if len(robots) < len(document.robots):
         raise InputError.at("robots", "a robot is named twice (name different robots)")
@@ -239,7 +239,7 @@ def _forced_loss(document: ForcedLossDocument, names: _Names) -> ForcedLoss:
     )
 
 
-def _outcome(document: OutcomeDocument) -> Outcome:
+def _read_outcome(document: OutcomeDocument) -> Outcome:
     bound, factor = document.bound, document.factor
     return Outcome(
         kind=OutcomeKind(document.kind),
@@ -249,7 +249,7 @@ def _outcome(document: OutcomeDocument) -> Outcome:
     )
 
 
-def _decision(document: DecisionDocument, names: _Names) -> Decision:
+def _read_decision(document: DecisionDocument, names: _Names) -> Decision:
     vertices = tuple(names.find_vertex("vertices", name) for name in document.vertices)
     waits_at = names.find_vertex("waits_at", document.waits_at)
     robot, other = (names.find_robot("robots", name) for name in document.robots)
@@ -267,24 +267,26 @@ def _decision(document: DecisionDocument, names: _Names) -> Decision:
         waits_at=waits_at,
         ticks=Tick(document.ticks),
         level=document.level,
-        conflicts_left=_pair(document.conflicts_left),
-        completion_sums=None if sums is None else _pair(sums),
+        conflicts_left=_read_pair(document.conflicts_left),
+        completion_sums=None if sums is None else _read_pair(sums),
     )
 
 
-def _pair(numbers: Sequence[int | None]) -> tuple[int | None, int | None]:
+def _read_pair(numbers: Sequence[int | None]) -> tuple[int | None, int | None]:
     first, second = numbers
     return first, second
 
 
-def _steady(data: Any, names: _Names | None) -> tuple[SteadyState, ...]:
+def _read_steady(data: Any, names: _Names | None) -> tuple[SteadyState, ...]:
     """Return the steady states of groups of robots."""
     from rightofway.io.plan.shape import SteadyDocument
 
-    return tuple(_each(data, SteadyDocument, _steady_state, names, "entry for each group"))
+    return tuple(
+        _read_each(data, SteadyDocument, _read_steady_state, names, "entry for each group")
+    )
 
 
-def _steady_state(document: SteadyDocument, names: _Names) -> SteadyState:
+def _read_steady_state(document: SteadyDocument, names: _Names) -> SteadyState:
     robots = tuple(
         names.find_robot(("robots", index), name) for index, name in enumerate(document.robots)
     )
@@ -304,10 +306,10 @@ def _steady_state(document: SteadyDocument, names: _Names) -> SteadyState:
     )
 
 
-def _with_floats(value: Any) -> Any:
+def _convert_to_floats(value: Any) -> Any:
     """Return the value of an option with floats, as planners have them, for decimals."""
     if isinstance(value, Decimal):
         return float(value)
     if isinstance(value, dict):
-        return {key: _with_floats(item) for key, item in value.items()}
-    return [_with_floats(item) for item in value] if isinstance(value, list) else value
+        return {key: _convert_to_floats(item) for key, item in value.items()}
+    return [_convert_to_floats(item) for item in value] if isinstance(value, list) else value

@@ -53,8 +53,8 @@ def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:
         "format": PLAN_FORMAT if plan.tours is None else PLAN_OF_JOBS_FORMAT,
         "scenario": dump_scenario(scenario),
         "tick": format_number(scenario.problem.clock.tick),
-        "planner": _planner(plan.run, scenario, seconds=seconds),
-        "metrics": _metrics(plan),
+        "planner": _write_planner(plan.run, scenario, seconds=seconds),
+        "metrics": _write_metrics(plan),
         "robots": [
             {
                 "name": robot.name,
@@ -69,7 +69,7 @@ def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:
         **dump_unserved(plan),
     }
     if plan.steady:
-        document["steady"] = [_steady(group, scenario) for group in plan.steady]
+        document["steady"] = [_write_steady(group, scenario) for group in plan.steady]
     return document
 
 
@@ -105,14 +105,14 @@ def format_plan(plan: Plan, *, seconds: bool = False) -> str:
     return format_json(dump_plan(plan, seconds=seconds))
 
 
-def _planner(run: PlannerRun, scenario: Scenario, *, seconds: bool) -> dict[str, Any]:
+def _write_planner(run: PlannerRun, scenario: Scenario, *, seconds: bool) -> dict[str, Any]:
     return {
         "name": run.name,
         "options": dict(sorted(run.options.items())),
         "seed": run.seed,
         "status": None if run.status is None else run.status.as_dict(),
         "seconds": float(run.seconds) if seconds and run.seconds is not None else None,
-        "decisions": [_decision(decision, scenario) for decision in run.decisions],
+        "decisions": [_write_decision(decision, scenario) for decision in run.decisions],
         "reroutes": [
             {"robot": scenario.robots[reroute.robot].name, "because": reroute.because.as_dict()}
             for reroute in run.reroutes
@@ -148,7 +148,7 @@ def describe_outcome(outcome: Outcome) -> dict[str, Any]:
     }
 
 
-def _decision(decision: Decision, scenario: Scenario) -> dict[str, Any]:
+def _write_decision(decision: Decision, scenario: Scenario) -> dict[str, Any]:
     vertex, robots = scenario.roadmap.name, scenario.robots
     sums = decision.completion_sums
     return {
@@ -165,7 +165,7 @@ def _decision(decision: Decision, scenario: Scenario) -> dict[str, Any]:
     }
 
 
-def _steady(steady: SteadyState, scenario: Scenario) -> dict[str, Any]:
+def _write_steady(steady: SteadyState, scenario: Scenario) -> dict[str, Any]:
     names = [robot.name for robot in scenario.robots]
     return {
         "robots": [names[robot] for robot in steady.robots],
@@ -175,7 +175,7 @@ def _steady(steady: SteadyState, scenario: Scenario) -> dict[str, Any]:
     }
 
 
-def _metrics(plan: Plan) -> dict[str, Any]:
+def _write_metrics(plan: Plan) -> dict[str, Any]:
     from rightofway.metrics import measure
 
     try:

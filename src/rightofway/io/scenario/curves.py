@@ -58,14 +58,14 @@ def make_lane_curve(tail: Point, controls: Sequence[Point], head: Point) -> Lane
     InputError
         If the curve cannot be cut into pieces.
     """
-    whole = _floats([tail, *controls, head])
+    whole = _convert_to_floats([tail, *controls, head])
     whole_length = float(np.hypot(*np.diff(whole, axis=0).T).sum())
     error = Fraction(ceil(whole_length * float(ERROR) * MICRO), MICRO)
     try:
         ends = make_bezier(whole).cut_pieces(float(error))
     except ValueError as fault:
         raise InputError.at("", f"{fault} (move its control points nearer to its ends)") from None
-    points = [at for at, _ in groupby([tail, *_exact(ends[1:-1]), head])]
+    points = [at for at, _ in groupby([tail, *_round_points(ends[1:-1]), head])]
     return LaneCurve(
         controls=tuple(controls),
         points=tuple(points[1:-1]),
@@ -78,15 +78,15 @@ def make_points_along(
     curve: LaneCurve, tail: Point, head: Point, spacing: Fraction
 ) -> tuple[Point, ...]:
     """Return points on a curve, as far apart along it as equal pieces of at most a spacing are."""
-    whole = make_bezier(_floats([tail, *curve.controls, head]))
-    return tuple(_exact(whole.cut(ceil(curve.length / spacing))[1:-1]))
+    whole = make_bezier(_convert_to_floats([tail, *curve.controls, head]))
+    return tuple(_round_points(whole.cut(ceil(curve.length / spacing))[1:-1]))
 
 
-def _floats(points: Sequence[Point]) -> NDArray[np.float64]:
+def _convert_to_floats(points: Sequence[Point]) -> NDArray[np.float64]:
     return np.array([[float(x), float(y)] for x, y in points])
 
 
-def _exact(points: NDArray[np.float64]) -> list[Point]:
+def _round_points(points: NDArray[np.float64]) -> list[Point]:
     """Return points to a millionth of a length unit."""
     return [(Fraction(round(x * MICRO), MICRO), Fraction(round(y * MICRO), MICRO))
             for x, y in points.tolist()]  # fmt: skip

@@ -99,7 +99,7 @@ def make_example(path: Path | str, target: Path | str, radius: Fraction = Fracti
                 Fact("type with most lanes", type=shape["vehicle_type"], others=len(types) - 1)
             )
     elif isinstance(layout, Occupancy):
-        shape["cell_size"] = _cell_size(layout, radius)
+        shape["cell_size"] = _choose_cell_size(layout, radius)
     from rightofway.io.scenario.shape import MapDocument
 
     loaded = make_map_of_layout(
@@ -109,7 +109,7 @@ def make_example(path: Path | str, target: Path | str, radius: Fraction = Fracti
         "format": SCENARIO_FORMAT,
         "map": shape,
         **({"units": {"length": "m", "time": "s"}} if loaded.units.length else {}),
-        "robots": _robots(loaded, level, radius),
+        "robots": _place_robots(loaded, level, radius),
     }
     is_json = target.suffix.lower() == ".json"
     text = format_json(document) if is_json else format_yaml(document)
@@ -117,7 +117,7 @@ def make_example(path: Path | str, target: Path | str, radius: Fraction = Fracti
     return Example(text, (*choices, *loaded.notes, *hidden))
 
 
-def _cell_size(occupancy: Occupancy, radius: Fraction) -> str:
+def _choose_cell_size(occupancy: Occupancy, radius: Fraction) -> str:
     """Return the largest side of cells with which robots get far, else the largest that fits."""
     fitting = list[str]()
     for size in CELL_SIZES:
@@ -131,7 +131,7 @@ def _cell_size(occupancy: Occupancy, radius: Fraction) -> str:
     return fitting[0] if fitting else CELL_SIZES[0]
 
 
-def _robots(loaded: LoadedMap, level: Level | None, radius: Fraction) -> list[dict[str, Any]]:
+def _place_robots(loaded: LoadedMap, level: Level | None, radius: Fraction) -> list[dict[str, Any]]:
     """Return robots with homes and targets in the largest part whose vertices reach each other."""
     roadmap = loaded.roadmap
     part = find_strong_parts(list_ways(roadmap))[0]  # without joints between pieces of lanes

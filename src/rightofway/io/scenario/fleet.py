@@ -319,7 +319,7 @@ def _place_robot(robot: ListedRobot, on: LoadedMap | None) -> PlacedRobot | None
 def _place_rows(robots: FleetRows, on: LoadedMap, faults: Faults) -> list[PlacedRobot]:
     """Return the robots on the rows of a file, or none after noting why."""
     placed = list[PlacedRobot]()
-    ends = faults.attempt(robots.place, _starts_and_goals, robots, on) or []
+    ends = faults.attempt(robots.place, _list_starts_and_goals, robots, on) or []
     dealt = zip(ends, cycle(robots.speeds), cycle(robots.works), strict=False)
     for number, ((home, goal), speed, work) in enumerate(dealt, start=1):
         stops = (Stop(at=goal, work=work),)
@@ -328,7 +328,7 @@ def _place_rows(robots: FleetRows, on: LoadedMap, faults: Faults) -> list[Placed
     return placed
 
 
-def _starts_and_goals(robots: FleetRows, on: LoadedMap) -> list[tuple[VertexId, VertexId]]:
+def _list_starts_and_goals(robots: FleetRows, on: LoadedMap) -> list[tuple[VertexId, VertexId]]:
     faults, ends, taken = Faults(), list[tuple[VertexId, VertexId]](), dict[VertexId, int]()
     with name_file(str(robots.file)):
         for row in robots.rows:

@@ -108,7 +108,7 @@ def _map_of_pixels(
     size = (
         document.cell_size
         if isinstance(document.cell_size, Fraction)
-        else _usual_cell(occupancy) / metres
+        else _choose_usual_cell(occupancy) / metres
     )
     lines = occupancy.cut_cells(
         size * metres, radius=radius * metres, unknown_is_free=document.unknown == "free"
@@ -139,7 +139,7 @@ def _map_of_pixels(
     )
 
 
-def _usual_cell(occupancy: Occupancy) -> Fraction:
+def _choose_usual_cell(occupancy: Occupancy) -> Fraction:
     """Return the side of cells where none is given; no cell is below a pixel [m]."""
     return max(CELL_SIZE, occupancy.resolution)
 
@@ -150,7 +150,7 @@ def _map_of_squares(
     """Cut a map in pixels into squares; the smallest are as wide as the largest robot."""
     pixel = occupancy.resolution / metres
     smallest = document.smallest or (
-        max(2 * radius, pixel) if radius else _usual_cell(occupancy) / metres
+        max(2 * radius, pixel) if radius else _choose_usual_cell(occupancy) / metres
     )
     free = occupancy.free_cells(
         smallest * metres,

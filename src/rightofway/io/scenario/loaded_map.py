@@ -71,12 +71,12 @@ class LoadedMap:
                 )
             if self.roadmap.frame.y_up:  # a floor counts its rows from the least y on
                 row = grid.rows - 1 - row
-            return _obstacle(row, column, floor, grid)
+            return _describe_obstacle(row, column, floor, grid)
 
         return find_vertex_at(self.roadmap, place, units=self.units, what_blocks=what_blocks)
 
 
-def _obstacle(row: int, column: int, floor: Floor, grid: Grid) -> str:
+def _describe_obstacle(row: int, column: int, floor: Floor, grid: Grid) -> str:
     """Return what stands on a cell of a floor."""
     size = grid.cell_size
     for index, obstacle in enumerate(floor.obstacles):

@@ -94,7 +94,7 @@ def map_of(
         with locate_faults("grid"):
             lines = tuple(document.grid)
             loaded = LoadedMap(roadmap=make(lines), lines=lines)
-    obstacles = _named_obstacles(document.obstacles)
+    obstacles = _list_named_obstacles(document.obstacles)
     return replace(loaded, roadmap=replace(loaded.roadmap, obstacles=obstacles))
 
 
@@ -107,12 +107,12 @@ def map_of_file(
         return LoadedMap(roadmap=make(lines), lines=lines, file=file)
 
 
-def _named_obstacles(documents: Sequence[ObstacleDocument]) -> tuple[Obstacle, ...]:
+def _list_named_obstacles(documents: Sequence[ObstacleDocument]) -> tuple[Obstacle, ...]:
     """Return the obstacles that have a name, in the site's frame."""
-    return tuple(_obstacle_of(document) for document in documents if document.name)
+    return tuple(_make_obstacle(document) for document in documents if document.name)
 
 
-def _obstacle_of(
+def _make_obstacle(
     document: ObstacleDocument, left: Fraction = Fraction(0), low: Fraction = Fraction(0)
 ) -> Obstacle:
     """Return an obstacle relative to a point of the site."""
@@ -141,7 +141,7 @@ def _map_of_floor(
     the scenario names its units; plan files of floors without units are as they have always been.
     """
     with locate_faults("floor"):
-        floor = _floor(document.floor, document)
+        floor = _make_floor(document.floor, document)
     cell_size = document.cell_size
     if not isinstance(cell_size, Fraction):
         if not speeds:
@@ -162,7 +162,7 @@ def _map_of_floor(
             yaw=document.yaw or Fraction(0),
         )
         if keeps_names:
-            roadmap = replace(roadmap, obstacles=_named_obstacles(document.floor.obstacles))
+            roadmap = replace(roadmap, obstacles=_list_named_obstacles(document.floor.obstacles))
         return LoadedMap(roadmap=roadmap, lines=lines, floor=floor)
 
 
@@ -182,7 +182,7 @@ def _map_of_squares(
             return None
         smallest = compute_node_length(speeds)
     with locate_faults("floor"):
-        floor = _floor(document.floor, document)
+        floor = _make_floor(document.floor, document)
     free = free_cells(floor, smallest, max_cells=MAX_SMALLEST, key="smallest")
     origin = document.origin or (Fraction(0), Fraction(0) if document.y_up else floor.height)
     roadmap = build_roadmap_of_squares(
@@ -201,7 +201,7 @@ def _map_of_squares(
     )
 
 
-def _floor(document: FloorDocument, on: MapDocument) -> Floor:
+def _make_floor(document: FloorDocument, on: MapDocument) -> Floor:
     """Return a floor, its obstacles relative to the corner that has the least x and y."""
     width, height = document.size
     left, low = on.origin or (Fraction(0), Fraction(0))
@@ -210,7 +210,7 @@ def _floor(document: FloorDocument, on: MapDocument) -> Floor:
     return Floor(
         width=width,
         height=height,
-        obstacles=tuple(_obstacle_of(obstacle, left, low) for obstacle in document.obstacles),
+        obstacles=tuple(_make_obstacle(obstacle, left, low) for obstacle in document.obstacles),
     )
 
 
@@ -236,7 +236,7 @@ def _map_of_roadmap(
     step = choose_rounding_step(squares.values())
     for index, edge in enumerate(limit_loop(document.edges, READING)):
         place, square = ("edges", index), squares.get(index)
-        lane_length = faults.attempt(place, _length, edge, positions, square, step)
+        lane_length = faults.attempt(place, _measure_length, edge, positions, square, step)
         length, curve = lane_length or (None, None)
         lengths.append(length)
         if length is None:
@@ -274,7 +274,7 @@ def _map_of_roadmap(
     is_cut = bool(curves) and has_sizes
     distance = on.choose_distance(fleet.distance) if document.sides is None else Fraction(0)
     is_split = on.longest_piece is not None or is_cut or distance > 0
-    shapes = _shapes(curves, positions, on.longest_piece, has_sizes) if is_split else {}
+    shapes = _cut_shapes(curves, positions, on.longest_piece, has_sizes) if is_split else {}
     split = split_lanes(positions, edges, on.longest_piece, shapes, distance=distance)
     written_pieces = {
         ends: [part for piece in pieces for part in split.pieces.get(piece, (piece,))]
@@ -300,7 +300,7 @@ def _map_of_roadmap(
         },
         passed=[name for name, vertex in document.vertices.items() if vertex.is_passed],
     )
-    drawing = replace(_places(document, roadmap), **_bends(curves, roadmap))
+    drawing = replace(_read_places(document, roadmap), **_collect_bends(curves, roadmap))
     error = max(curve.error for curve in curves.values()) if is_cut else Fraction(0)
     return LoadedMap(
         roadmap=replace(roadmap, drawing=drawing),
@@ -313,7 +313,7 @@ def _map_of_roadmap(
     )
 
 
-def _shapes(
+def _cut_shapes(
     curves: Mapping[tuple[str, str], LaneCurve],
     positions: Mapping[str, Point],
     spacing: Fraction | None,
@@ -331,7 +331,7 @@ def _shapes(
     }
 
 
-def _bends(curves: Mapping[tuple[str, str], LaneCurve], roadmap: Roadmap) -> dict[str, Any]:
+def _collect_bends(curves: Mapping[tuple[str, str], LaneCurve], roadmap: Roadmap) -> dict[str, Any]:
     """Return the points and the control points of the curves that are one edge each."""
     whole = [
         (roadmap.get_vertex(tail), roadmap.get_vertex(head), curve)
@@ -344,7 +344,7 @@ def _bends(curves: Mapping[tuple[str, str], LaneCurve], roadmap: Roadmap) -> dic
     }
 
 
-def _places(document: RoadmapDocument, roadmap: Roadmap) -> Drawing:
+def _read_places(document: RoadmapDocument, roadmap: Roadmap) -> Drawing:
     """Return the stations and parking places, or report every vertex that there is not."""
     faults = Faults()
 
@@ -373,7 +373,7 @@ def _places(document: RoadmapDocument, roadmap: Roadmap) -> Drawing:
     )
 
 
-def _length(
+def _measure_length(
     edge: EdgeDocument, positions: Mapping[str, Point], square: Fraction | None, step: Fraction
 ) -> tuple[Fraction, LaneCurve | None]:
     """Return the length of an edge after checking its ends, and its curve."""

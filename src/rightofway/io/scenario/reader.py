@@ -121,8 +121,8 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
             return read_scenario({**document, key: cells.part}, base, pictures)
     faults = Faults()
     faults.attempt("", validate, ScenarioFrame, document)
-    rules = faults.read_part(document, "rules", _rules_of) or Rules()
-    units = faults.read_part(document, "units", _units_of) or Units()
+    rules = faults.read_part(document, "rules", _read_rules) or Rules()
+    units = faults.read_part(document, "units", _read_units) or Units()
     read_fleet = partial(read_robots, has_jobs="jobs" in document)
     robots = faults.read_part(document, "robots", read_fleet, base) or ListedFleet()
     deals = document.get("homes") == "parking"
@@ -133,18 +133,18 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
         remedy = "robots keep clear of what a map in pixels shows; take it out"
         faults.note(("rules", "walls"), f"'strict' is for grids and floors ({remedy})")
     placed = place_robots(robots, loaded, faults, deals=deals)
-    closures = faults.read_part(document, "closures", _closures, loaded) or []
+    closures = faults.read_part(document, "closures", _read_closures, loaded) or []
     work = read_work(document, loaded, faults)
     scenario, notes = None, list[Fact]()
     if loaded and placed and deals:
-        placed = faults.attempt("", _deal_homes, placed, loaded.roadmap, rules, notes) or ()
+        placed = faults.attempt("", _assign_homes, placed, loaded.roadmap, rules, notes) or ()
     if loaded and placed:
         others = {"rules": rules, "units": loaded.units, "closures": tuple(closures)}
-        scenario = _assemble(loaded.roadmap, placed, others, faults, work)
+        scenario = _build_scenario(loaded.roadmap, placed, others, faults, work)
     faults.stop(document)
     assert loaded is not None, "or there was a fault"
     assert scenario is not None, "or there was a fault"
-    return Loaded(scenario=scenario, notes=(*_notes(loaded, scenario), *notes))
+    return Loaded(scenario=scenario, notes=(*_list_notes(loaded, scenario), *notes))
 
 
 def _read_table(document: dict[str, Any], base: Path | None) -> tuple[str, CellDocument] | None:
@@ -172,10 +172,10 @@ def read_classic(path: Path, count: int | None) -> Loaded:
     placed = place_robots(fleet, loaded, faults, deals=False)
     faults.stop()
     others = {"rules": CLASSIC, "units": loaded.units, "closures": ()}
-    scenario = _assemble(loaded.roadmap, placed, others, faults, ReadWork())
+    scenario = _build_scenario(loaded.roadmap, placed, others, faults, ReadWork())
     faults.stop()
     assert scenario is not None, "or there was a fault"
-    return Loaded(scenario=scenario, notes=tuple(_notes(loaded, scenario)))
+    return Loaded(scenario=scenario, notes=tuple(_list_notes(loaded, scenario)))
 
 
 def _find_map_beside(path: Path, row: ScenRow) -> Path:
@@ -196,7 +196,7 @@ def _guess_map(data: str | list[Any]) -> str:
     return f"map: {{{key}: {quote(data)}}}"
 
 
-def _rules_of(data: Any) -> Rules:
+def _read_rules(data: Any) -> Rules:
     from rightofway.io.scenario.shape import RulesDocument
 
     if data == "classic":
@@ -209,13 +209,13 @@ def _rules_of(data: Any) -> Rules:
     return Rules(**own)
 
 
-def _units_of(data: Any) -> Units:
+def _read_units(data: Any) -> Units:
     from rightofway.io.scenario.shape import UnitsDocument
 
     return Units(**validate(UnitsDocument, data).get_given("length", "time"))
 
 
-def _closures(data: Any, on: LoadedMap | None) -> list[Closure]:
+def _read_closures(data: Any, on: LoadedMap | None) -> list[Closure]:
     """Return the closures, or raise all their faults; without a map, none."""
     from rightofway.io.scenario.shape import ClosureDocument
 
@@ -239,7 +239,7 @@ def _closures(data: Any, on: LoadedMap | None) -> list[Closure]:
     return closures
 
 
-def _deal_homes(
+def _assign_homes(
     placed: Sequence[PlacedRobot], roadmap: Roadmap, rules: Rules, notes: list[Fact]
 ) -> Sequence[PlacedRobot]:
     """Return the robots, each with a home; add a note on the homes that were dealt out."""
@@ -251,7 +251,7 @@ def _deal_homes(
     ]
 
 
-def _assemble(
+def _build_scenario(
     roadmap: Roadmap,
     placed: Sequence[PlacedRobot],
     others: dict[str, Any],
@@ -281,7 +281,7 @@ def _assemble(
         return None
 
 
-def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[Fact]:
+def _list_notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[Fact]:
     grid = loaded.roadmap.grid
     if loaded.floor and grid:
         yield Fact(
@@ -299,7 +299,7 @@ def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[Fact]:
     if loaded.rounding:
         yield note_on_rounding(*loaded.rounding, scenario.units)
     yield from note_on_hidden_stations(scenario.roadmap)
-    yield from _type_notes(scenario)
+    yield from _list_type_notes(scenario)
     yield from note_crossings(scenario)
     largest = max(robot.radius for robot in scenario.robots)
     for fact, remedy in find_odd_sizes(scenario, largest):
@@ -308,7 +308,7 @@ def _notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[Fact]:
         yield Fact("times rounded up", about=scenario, tick=1, parts=MAX_TICKS_OF_SHORTEST)
 
 
-def _type_notes(scenario: Scenario) -> Iterator[Fact]:
+def _list_type_notes(scenario: Scenario) -> Iterator[Fact]:
     """Yield a note on each type of robots that nothing is barred for, where one was nearly meant.
 
     Types that edges and vertices are barred for are known; any other type is allowed.

@@ -38,11 +38,11 @@ def dump_scenario(scenario: Scenario) -> dict[str, Any]:
     roadmap = scenario.roadmap
     return {
         "format": SCENARIO_FORMAT,
-        "map": _map(roadmap) | _spacing(scenario),
-        **_units(scenario.units),
-        "robots": [_robot(robot, scenario) for robot in scenario.robots],
+        "map": _map(roadmap) | _write_spacing(scenario),
+        **_write_units(scenario.units),
+        "robots": [_write_robot(robot, scenario) for robot in scenario.robots],
         "rules": list_plain_attributes(scenario.rules) | dump_rules_of_jobs(scenario.rules),
-        **_closures(scenario),
+        **_write_closures(scenario),
         **dump_work(scenario),
     }
 
@@ -122,23 +122,23 @@ def format_yaml(document: dict[str, Any]) -> str:
     )
 
 
-def _units(units: Units) -> dict[str, Any]:
+def _write_units(units: Units) -> dict[str, Any]:
     known = {"length": units.length, "time": units.time}
     written_units = {key: value for key, value in known.items() if value is not None}
     return {"units": written_units} if written_units else {}
 
 
 def _map(roadmap: Roadmap) -> dict[str, Any]:
-    return {**_shape(roadmap), **_picture(roadmap.drawing.picture)}
+    return {**_write_shape(roadmap), **_write_picture(roadmap.drawing.picture)}
 
 
-def _spacing(scenario: Scenario) -> dict[str, str]:
+def _write_spacing(scenario: Scenario) -> dict[str, str]:
     """Return that lanes have been split, where a reader would split them for sizes."""
     splits = any(robot.radius for robot in scenario.robots) and not scenario.roadmap.has_cells
     return {"spacing": "whole"} if splits else {}
 
 
-def _picture(picture: Picture | None) -> dict[str, Any]:
+def _write_picture(picture: Picture | None) -> dict[str, Any]:
     """Return the picture below a map, if a scenario has named it."""
     if picture is None or not picture.name:
         return {}
@@ -154,13 +154,13 @@ def _picture(picture: Picture | None) -> dict[str, Any]:
     return {"picture": data}
 
 
-def _shape(roadmap: Roadmap) -> dict[str, Any]:
+def _write_shape(roadmap: Roadmap) -> dict[str, Any]:
     grid, frame = roadmap.grid, roadmap.frame
     y = {"y": "up"} if frame.y_up else {}
     yaw = {"yaw": format_number(frame.yaw)} if frame.yaw else {}
     if grid is None:
         pivot = {"origin": [format_number(frame.x), format_number(frame.y)]} if frame.yaw else {}
-        return {"roadmap": _roadmap(roadmap), **y, **pivot, **yaw}
+        return {"roadmap": _write_roadmap(roadmap), **y, **pivot, **yaw}
     size = grid.cell_size
     left, bottom = frame.to_site((-size / 2, grid.rows * size - size / 2))
     usual = (Fraction(0), Fraction(0) if frame.y_up else grid.rows * size)
@@ -181,11 +181,11 @@ def _shape(roadmap: Roadmap) -> dict[str, Any]:
     return {**shape, "obstacles": named} if named else shape
 
 
-def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
+def _write_roadmap(roadmap: Roadmap) -> dict[str, Any]:
     passed = () if roadmap.passing is None else sorted(roadmap.passing.vertices)
     roadmap = roadmap.fold()
     name = roadmap.name
-    positions = _positions(roadmap)
+    positions = _write_positions(roadmap)
     vertices: dict[str, Any] = {name(vertex): position for vertex, position in enumerate(positions)}
     for vertex, types in roadmap.barred_vertices.items():
         vertices[name(vertex)] = {"at": positions[vertex], "barred": sorted(types)}
@@ -198,7 +198,10 @@ def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
         }
         for tail, head, points in roadmap.drawing.controls
     }
-    names, of_class = list(vertices), [_of_class(edge_class) for edge_class in roadmap.edge_classes]
+    names, of_class = (
+        list(vertices),
+        [_write_class(edge_class) for edge_class in roadmap.edge_classes],
+    )
     tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
     columns = (tails.tolist(), roadmap.heads.tolist(), roadmap.class_of_edge.tolist())
     edges = [
@@ -226,7 +229,7 @@ def _roadmap(roadmap: Roadmap) -> dict[str, Any]:
     }
 
 
-def _positions(roadmap: Roadmap) -> list[list[Any]]:
+def _write_positions(roadmap: Roadmap) -> list[list[Any]]:
     """Return x and y of each vertex in the site's frame before its yaw, exactly."""
     frame = roadmap.frame
     down = -1 if frame.y_up else 1
@@ -248,7 +251,7 @@ def _format_coordinate(number: Fraction) -> float | str:
     return decimal if Fraction(repr(decimal)) == number else str(number)
 
 
-def _of_class(edge_class: EdgeClass) -> dict[str, Any]:
+def _write_class(edge_class: EdgeClass) -> dict[str, Any]:
     """Return what the edges of a class have in common."""
     data: dict[str, Any] = {"length": format_number(edge_class.length), "both_ways": False}
     if edge_class.max_speed is not None:
@@ -264,7 +267,7 @@ def _of_class(edge_class: EdgeClass) -> dict[str, Any]:
     return data
 
 
-def _closures(scenario: Scenario) -> dict[str, Any]:
+def _write_closures(scenario: Scenario) -> dict[str, Any]:
     name = scenario.roadmap.name
     lanes = []
     for closure in scenario.closures:
@@ -279,7 +282,7 @@ def _closures(scenario: Scenario) -> dict[str, Any]:
     return {"closures": lanes} if lanes else {}
 
 
-def _robot(robot: Robot, scenario: Scenario) -> dict[str, Any]:
+def _write_robot(robot: Robot, scenario: Scenario) -> dict[str, Any]:
     roadmap = scenario.roadmap
     stops = [
         {"at": roadmap.name(stop.at), "work": format_number(stop.work)} for stop in robot.stops
