@@ -45,7 +45,7 @@ def read_content(path: Path, most: int | None = None) -> bytes | bytearray:
 
     Notes
     -----
-    A pipe can be read only once: what was read of one is kept.
+    A pipe can be read only once: its content is kept.
     """
     most = MAX_BYTES if most is None else most
     try:
@@ -148,7 +148,7 @@ def refuse_special(path: Path) -> None:
 
 
 def find_remedy_for_missing(path: Path) -> str:
-    """Return what to do about a file that is not there."""
+    """Return the remedy for a file that is not there."""
     if path.parts[:1] == ("examples",):
         return "rightofway examples --copy . writes the examples"
     return "check the path"

@@ -69,7 +69,7 @@ class Faults:
 
 
 def read_both(first: Callable[[], T], second: Callable[[], U]) -> tuple[T, U]:
-    """Return what two functions read, or raise the faults of both."""
+    """Return the results of two readers, or raise the faults of both."""
     try:
         return first(), second()
     except InputError:

@@ -172,7 +172,7 @@ def write_scen(scenario: Scenario, path: Path | str, *, map_name: str) -> tuple[
     Returns
     -------
     tuple of str
-        What the scenario says and a `.scen` file cannot: a sentence each.
+        Parts of the scenario that a `.scen` file cannot hold: a sentence each.
 
     Raises
     ------

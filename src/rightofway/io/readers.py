@@ -1,4 +1,4 @@
-"""Files opened by what is in them: scenarios, plans, workbooks, files of other programs."""
+"""Files opened by their content: scenarios, plans, workbooks, files of other programs."""
 
 from __future__ import annotations
 

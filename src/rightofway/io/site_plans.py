@@ -49,7 +49,7 @@ class SitePlanFormat:
     Attributes
     ----------
     summary
-        What it is, in a few words.
+        Its kind, in a few words.
     write
         Returns the text of a plan.
     """
@@ -71,7 +71,7 @@ def format_site_plan(plan: Plan, name: str) -> tuple[str, tuple[str, ...]]:
     Returns
     -------
     tuple
-        The text, and what had to be assumed, a sentence each.
+        The text, and the assumptions, a sentence each.
     """
     name = make_words(*sorted(SITE_PLAN_FORMATS)).read_at("name", name)
     return SITE_PLAN_FORMATS[name].write(plan), tuple(_list_assumed(plan, name))

@@ -1,4 +1,4 @@
-"""What `rightofway inspect` reads: layouts with all their levels, maps and scenarios, as sites."""
+"""Input of `rightofway inspect`: layouts with all their levels, maps and scenarios, as sites."""
 
 from __future__ import annotations
 

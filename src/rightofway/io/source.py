@@ -1,7 +1,7 @@
-"""A value of a file and its place in that file: what the readers of all formats are given.
+"""A value of a file and its place in that file: the input of the readers of all formats.
 
 JSON, YAML and graphs become mappings and lists, with a path; elements of XML and rows of CSV become
-mappings, with a line. What does not fit is a fault at the place of the value.
+mappings, with a line. A value that does not fit is a fault at its place.
 """
 
 from __future__ import annotations

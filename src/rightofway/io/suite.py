@@ -121,7 +121,7 @@ class MapCasesDocument(Document):
 
 
 class SuiteFleetDocument(RuleAttributes):
-    """What the robots of a fleet are like, and their rules."""
+    """Properties of the robots of a fleet, and their rules."""
 
     name: Name = Field(description="a name of its own in results")
     speeds: list[Positive] = make_optional("speeds of the robots; 1 by default", min_length=1)

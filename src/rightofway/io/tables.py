@@ -89,7 +89,7 @@ class CellDocument:
     cells
         For paths into the document, like ``("robots", 2, "speed")``, the place of the cell.
     faults
-        What is wrong with cells, so that they are no part of the document.
+        Faults of cells, which are no part of the document.
     """
 
     part: Any

@@ -82,7 +82,7 @@ class _Open:
 
 @dataclass(slots=True)
 class _Builder:
-    """Takes events one by one; `data` is what they make."""
+    """Takes events one by one; `data` is their result."""
 
     number_keys: bool
     data: Any = None

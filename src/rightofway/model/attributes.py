@@ -30,7 +30,7 @@ class Attribute:
     default
         Its value where none is given; None in a robot follows the rules.
     measure
-        What it measures, for reports.
+        The quantity that it measures, for reports.
     unset
         What reports say for None.
     is_always_written

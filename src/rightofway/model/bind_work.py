@@ -1,4 +1,4 @@
-"""Jobs, states and tours in ticks: what planners of work read, and itineraries made from tours."""
+"""Jobs, states and tours in ticks for planners, and itineraries made from tours."""
 
 from __future__ import annotations
 
@@ -199,7 +199,7 @@ def get_capacity(robot: Robot) -> int:
 
 
 def get_state(robot: Robot) -> RobotState:
-    """Return where a robot begins and what it has done."""
+    """Return where a robot begins and the work it has done."""
     return robot.start or RobotState(at=robot.home)
 
 

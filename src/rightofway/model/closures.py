@@ -51,8 +51,8 @@ class Closure:
     until
         When it ends [time unit]; None for never.
     radius
-        What is nearer to the vertex or edge than this, the radius of a robot and the clearance is
-        closed for that robot, too [length unit]; None for the vertex or edge alone.
+        Everything nearer to the vertex or edge than this, the radius of a robot and the clearance
+        is closed for that robot, too [length unit]; None for the vertex or edge alone.
 
     Raises
     ------
@@ -79,7 +79,7 @@ class Closure:
 
 
 def find_closure_faults(closure: Closure, roadmap: Roadmap) -> Iterator[InputFault]:
-    """Yield what is wrong with a closure."""
+    """Yield the faults of a closure."""
     if (closure.at is None) == (closure.edge is None):
         yield InputFault("", "closes not exactly one of a vertex and an edge (give at, or edge)")
     if closure.until is not None and closure.until <= closure.from_:

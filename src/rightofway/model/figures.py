@@ -1,4 +1,4 @@
-"""What plans and scenarios answer although rooms above the model compute or draw it.
+"""Answers of plans and scenarios that rooms above the model compute or draw.
 
 The model imports no room above. The package, which may import all of them, provides one object with
 these answers when it is imported: see `rightofway.figures`.
@@ -26,7 +26,7 @@ class Figures(Protocol):
         """Return all waits of a plan."""
 
     def compute_lost_time(self, plan: Any) -> tuple[LostTime, ...]:
-        """Return what each robot of a plan loses to others."""
+        """Return the losses of each robot of a plan to others."""
 
     def make_event_columns(self, plan: Any) -> dict[str, list[Any]]:
         """Return the columns of the table of all visits of a plan."""
@@ -42,5 +42,5 @@ class Figures(Protocol):
 
 
 def get_figures() -> Figures:
-    """Return what the package provides."""
+    """Return the answers that the package provides."""
     return cast("Figures", _provided["figures"])

@@ -74,7 +74,7 @@ def make_lap(roadmap: Roadmap, itinerary: Itinerary, route: Route) -> Lap:
     roadmap
         The graph the route runs on.
     itinerary
-        What the robot has to do in one lap; it ends at home.
+        The trip of the robot in one lap; it ends at home.
     route
         Where it goes for that; the last visit serves all stages at home at the end.
     """

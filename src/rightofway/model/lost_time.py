@@ -1,4 +1,4 @@
-"""What robots lose to others, and where: the parts of a completion time, and their causes."""
+"""Losses of robots to others, and where: the parts of a completion time, and their causes."""
 
 from __future__ import annotations
 
@@ -106,9 +106,9 @@ class LostTime:
         Parameters
         ----------
         robot
-            What stands for a robot: its index, or for example its name.
+            The form of a robot: its index, or for example its name.
         place
-            What stands for a vertex.
+            The form of a vertex.
         """
         marks = dict.fromkeys(("robot", "for_robot"), robot)
         marks |= dict.fromkeys(("vertex", "until_vertex", "towards", "freed"), place)

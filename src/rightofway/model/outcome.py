@@ -1,4 +1,4 @@
-"""What a planner has proven about its answer: the kind, the objective and a lower bound."""
+"""The proof of a planner about its answer: the kind, the objective and a lower bound."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from rightofway.site import VertexId
 
 
 class Objective(StrEnum):
-    """What a planner minimizes, or proves a bound of [ticks].
+    """The quantity that a planner minimizes, or proves a bound of [ticks].
 
     Attributes
     ----------
@@ -87,7 +87,7 @@ class Objective(StrEnum):
 
 
 def choose_objective(scenario: Scenario) -> Objective:
-    """Return what the planners of this package minimize for a scenario."""
+    """Return the objective of the planners of this package for a scenario."""
     if any(itinerary.weight != 1 for itinerary in scenario.problem.itineraries):
         return Objective.WEIGHTED
     return Objective.COST if scenario.roadmap.has_surcharges else Objective.FLOWTIME
@@ -127,7 +127,7 @@ class Proof:
     bound
         No plan has a smaller objective [ticks].
     objective
-        What the bound is of.
+        The objective of the bound.
     factor
         The factor above the least objective that the planner claims for its plan, 1 or more; None
         where it claims none.
@@ -140,14 +140,14 @@ class Proof:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Outcome:
-    """How a search ended, and what is proven.
+    """How a search ended, and its proof.
 
     Attributes
     ----------
     kind
         Optimal, bounded by a factor, best found, no plan exists, or gave up.
     objective
-        What the bound and the factor are of.
+        The objective of the bound and the factor.
     bound
         No plan has a smaller objective [ticks]; None where none is known.
     factor
@@ -169,14 +169,14 @@ class ForcedLoss:
     robots
         By index, the smaller first: two or more, of the makespan also one.
     ticks
-        What they lose together in every plan, at least, of time and of surcharges; of the weighted
+        Their least losses together in every plan, of time and of surcharges; of the weighted
         flowtime as often as their weights say. Of the makespan, before which tick not all of them
         can have completed [ticks].
     vertex
         Where the first two of them that meet would meet, each on its best track alone; of one
         robot, its last stop.
     objective
-        What is lost: `FLOWTIME`, `COST`, `WEIGHTED` or `MAKESPAN`.
+        The quantity that is lost: `FLOWTIME`, `COST`, `WEIGHTED` or `MAKESPAN`.
     """
 
     robots: tuple[int, ...]

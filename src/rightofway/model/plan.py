@@ -105,7 +105,7 @@ class Reroute:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Improvement:
-    """What a planner gained by changing its first plan, or the plan it was given.
+    """The gain of a planner by changing its first plan, or the plan it was given.
 
     Attributes
     ----------
@@ -158,9 +158,10 @@ class PlannerRun:
     reroutes
         Robots that were rerouted.
     improvement
-        What changes of the first plan gained, or None where there were none. Files do not keep it.
+        The gain of changes of the first plan, or None where there were none. Files do not keep it.
     start
-        What was kept of the plan that it was made from, or None where it was made from nothing.
+        How much was kept of the plan from which it was made, or None where it was made from
+        nothing.
     forced_losses
         Of an optimal plan: groups of robots that lose time to each other in every plan, those that
         lose most first. A robot may be in several groups, so that losses do not add up.
@@ -168,7 +169,7 @@ class PlannerRun:
         The least completion of each robot without the others [ticks], or None where planning did
         not compute it. Files do not keep it.
     outcome
-        What is proven of the plan, or None where its maker does not say.
+        The proof of the plan, or None where its maker gives none.
     """
 
     name: str = "unknown"
@@ -358,7 +359,7 @@ class Plan:
 
     @property
     def lost_time(self) -> tuple[LostTime, ...]:
-        """What each robot loses to others: how much, where and for which robot.
+        """The losses of each robot to others: how much, where and for which robot.
 
         Raises
         ------

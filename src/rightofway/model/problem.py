@@ -1,4 +1,4 @@
-"""A scenario in ticks: what each robot has to do, how fast it crosses edges, how it books."""
+"""A scenario in ticks: the trip of each robot, how fast it crosses edges, how it books."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ class Itinerary:
     home
         The vertex it is at from tick 0: the home, or the start of a robot with a state.
     stages
-        What it has to do, in order. The vertex of the last one is where it stays for ever.
+        Its stages, in order. The vertex of the last one is where it stays for ever.
     edge_ticks
         Ticks it needs for an edge, by edge class of the roadmap; -1 where it is barred.
     surcharges

@@ -1,4 +1,4 @@
-"""What robots book, and which bookings exclude each other.
+"""Bookings of robots, and which of them exclude each other.
 
 A resource is a vertex or an edge. A point is a robot of size nothing: a vertex excludes itself, an
 edge nothing. Robots of different sizes exclude different resources, so a
@@ -101,7 +101,7 @@ def find_too_short_edges(roadmap: Roadmap) -> Iterator[tuple[int, int, Fraction,
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ClosePairs:
-    """What a drawing brings close together; a lane is its two ends, whichever way it is driven.
+    """Places that are close together on a drawing; a lane is its two ends, in either direction.
 
     Attributes
     ----------
@@ -131,7 +131,7 @@ def close_pairs(roadmap: Roadmap, distance: Fraction) -> ClosePairs:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, weakref_slot=True)
 class Resources:
-    """What a fleet may book, in rows; `rightofway.native` finds which rows exclude each other.
+    """Possible bookings of a fleet, in rows; `rightofway.native` finds those that exclude others.
 
     Attributes
     ----------

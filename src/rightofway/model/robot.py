@@ -71,7 +71,7 @@ class Stop:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Robot:
-    """A robot and its trip. What is None follows the rules of the scenario.
+    """A robot and its trip. Values of None follow the rules of the scenario.
 
     Attributes
     ----------
@@ -99,8 +99,8 @@ class Robot:
     weight
         How much its completion time counts beside those of the other robots, positive.
     start
-        Where it begins and what it has done; None: at home, with nothing done. Like the next three
-        only in a scenario with jobs, in which a robot has no `stops`.
+        Where it begins and the work it has done; None: at home, with nothing done. Like the next
+        three only in a scenario with jobs, in which a robot has no `stops`.
     capacity
         The largest load, not negative; None for 1.
     battery
@@ -232,7 +232,7 @@ class Rules:
         How fast robots turn on the spot [degrees per time unit], positive. None: a change of
         heading takes no time.
     objective
-        What a plan minimizes after the weight of unserved jobs; None for ``service``. Like `late`
+        The objective after the weight of unserved jobs; None for ``service``. Like `late`
         only in a scenario with jobs.
     late
         How much a time unit of a job after its `due` costs, compared with one of service time, not

@@ -1,4 +1,4 @@
-"""Routes and tracks, and what each visit serves: its stages, its least dwell, its drive.
+"""Routes and tracks, and the service of each visit: its stages, its least dwell, its drive.
 
 A stage is served in the first visit of its vertex, from the one that serves the stage before it on,
 that lasts long enough beyond its drive; several stages that follow each other at one vertex may
@@ -136,7 +136,7 @@ def join_route(roadmap: Roadmap, itinerary: Itinerary, legs: Sequence[Sequence[V
     roadmap
         The graph the paths run on.
     itinerary
-        What the robot has to do.
+        The trip of the robot.
     legs
         One path for each stage, from where the stage before it is (or home) to its own vertex, both
         included. A stage at the vertex where the robot already is has a leg of that one vertex.
@@ -192,14 +192,14 @@ def make_route_through(
 
 
 def make_route(roadmap: Roadmap, itinerary: Itinerary, track: Track) -> Route:
-    """Keep where a robot goes and what it does there, and forget when.
+    """Keep where a robot drives and works, and forget when.
 
     Parameters
     ----------
     roadmap
         The graph the track runs on.
     itinerary
-        What the robot has to do.
+        The trip of the robot.
     track
         Where it is, when; keeps the rules. Each stage is served as early as a visit lasts long
         enough, the last one in the last visit.
@@ -302,7 +302,7 @@ def find_serving_visits(
     Parameters
     ----------
     stages
-        What the robot has to do, in order.
+        The stages of the robot, in order.
     vertices, spare
         Where each visit is, and how long it lasts beyond its drive and the turn before [ticks];
         shape (n,).

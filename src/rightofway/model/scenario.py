@@ -36,13 +36,13 @@ class Scenario:
     robots
         At least one, each with a name and a home of its own.
     rules
-        What holds for the whole fleet.
+        The rules of the whole fleet.
     clock
-        The clock to keep, where this is what is left of another scenario; else one is chosen.
+        The clock to keep, where this is the rest of another scenario; else one is chosen.
     closures
         Vertices and edges that nobody may book for a while.
     units
-        What lengths and times are measured in; only for people, no plan depends on it.
+        The units of lengths and times; only for people, no plan depends on it.
     jobs
         The work of the fleet; None for robots with trips of their own.
     batteries
@@ -162,7 +162,7 @@ def _find_turn_faults(turn: Turn | None, place: Where, roadmap: Roadmap) -> Iter
 
 
 def _find_space_faults(scenario: Scenario) -> Iterator[InputFault]:
-    """Yield what does not fit to robots that have a size, or to a fleet in which none has."""
+    """Yield faults of rules that do not fit robots with a size, or to a fleet in which none has."""
     rules = scenario.rules
     if rules.walls == "strict" and scenario.roadmap.grid is None:
         message = "'strict' needs a grid or a floor in cells of one size (take it out)"

@@ -1,4 +1,4 @@
-"""What each visit of a fleet is for: work, turns, drives and waits; and the costs that follow."""
+"""The purpose of each visit of a fleet: work, turns, drives and waits; and costs."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ class Stays:
 def find_stays(
     scenario: Scenario, tracks: Sequence[Track], tours: Sequence[PlannedTour] | None = None
 ) -> tuple[Stays, ...]:
-    """Return what the visits of a fleet are for.
+    """Return the purpose of each visit of a fleet.
 
     Parameters
     ----------
@@ -252,7 +252,7 @@ def compute_flowtime(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
 
 
 def compute_cost(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
-    """Return what planners minimize: the costs of all robots, by their weights [ticks].
+    """Return the objective of planners: the costs of all robots, by their weights [ticks].
 
     Parameters
     ----------

@@ -175,7 +175,7 @@ class Battery:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RobotState:
-    """Where a robot begins, and what it has done.
+    """Where a robot begins, and the work it has done.
 
     Attributes
     ----------
@@ -329,11 +329,11 @@ class BoundBattery:
     full
         The least number of which all shares are whole parts, at most `LARGEST_BATTERY`.
     drive
-        What a drive along an edge of each class takes; 0 where it is barred.
+        The charge that a drive along an edge of each class takes; 0 where it is barred.
     on, work
-        What a tick takes before the robot rests, and a tick of work.
+        The charge that a tick takes before the robot rests, and a tick of work.
     charge
-        What a tick of a charge gains, net.
+        The net gain of a tick of a charge.
     reserve
         The least state of charge.
     soc
@@ -341,7 +341,7 @@ class BoundBattery:
 
     Notes
     -----
-    What takes or gains more than a full battery is ``full + 1``.
+    A change of more than a full battery is ``full + 1``.
     """
 
     full: int
@@ -401,7 +401,7 @@ class Work:
     robots
         One for each robot.
     objective
-        What a plan minimizes after the weight of unserved jobs.
+        The objective after the weight of unserved jobs.
     late
         How much a tick of a job after `BoundJob.due` costs, compared with one of service time.
     """

@@ -24,7 +24,7 @@ MAX_STOPS = 1_000_000
 
 
 def find_work_faults(scenario: Scenario) -> Iterator[InputFault]:
-    """Yield all faults of what a scenario with jobs has, or of its use without jobs.
+    """Yield all faults of the keys of jobs, or of their use without jobs.
 
     Robots, rules and the roadmap are of the right kinds; vertices may be out of range.
     """
@@ -47,7 +47,7 @@ def find_work_faults(scenario: Scenario) -> Iterator[InputFault]:
 
 
 def _find_lone_keys(scenario: Scenario) -> Iterator[InputFault]:
-    """Yield what only a scenario with jobs may have."""
+    """Yield the keys that only a scenario with jobs may have."""
     lone: dict[Where, object] = {
         "batteries": scenario.batteries or None,
         "charging": scenario.charging or None,

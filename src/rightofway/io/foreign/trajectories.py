@@ -1,4 +1,4 @@
-"""What plans of other programs have in common: agents on the cells of a grid, step by step.
+"""Common parts of plans of other programs: agents on the cells of a grid, step by step.
 
 Read as a `Plan`, an agent is a robot of unit speed under the classic rules: a move takes one time
 unit, turns take none, there is no way back. Its home is its first cell. Its stops are the goals and

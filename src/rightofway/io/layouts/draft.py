@@ -91,7 +91,7 @@ class DraftLanes:
     attributes
         Where that is an attribute of a graph, which may be no length, its name.
     kinds
-        What it has in common with others; an index into `kind_values`.
+        Its properties in common with others; an index into `kind_values`.
     shapes, curves
         How lanes are drawn and driven that are not straight, by index.
     """
@@ -120,7 +120,7 @@ class DraftLanes:
 
 @dataclass(slots=True)
 class LevelDraft:
-    """What was read of one level so far."""
+    """The parts of one level that were read so far."""
 
     name: str
     vertices: dict[str, LayoutVertex] = field(default_factory=dict)
@@ -330,7 +330,7 @@ def find_name(source: Source, *keys: str) -> str | None:
 
 
 def name_piece(source: Source, *keys: str) -> str:
-    """Return what a piece is called: the value of the first key that names it, or its place."""
+    """Return the name of a piece: the value of the first key that names it, or its place."""
     return find_name(source, *keys) or str(source.location)
 
 

@@ -44,9 +44,9 @@ class LayoutFormat:
     Attributes
     ----------
     summary
-        What it is, in a few words.
+        Its kind, in a few words.
     content
-        What `recognizes` and `read` are given: plain data of JSON or YAML, the root of an XML
+        The input of `recognizes` and `read`: plain data of JSON or YAML, the root of an XML
         file, or text.
     recognizes
         Returns whether a content is of this format.
@@ -157,7 +157,7 @@ def is_layout(path: Path | str) -> bool:
 
 
 def refuse_layout(path: Path, text: str | None = None) -> None:
-    """Refuse a layout where a scenario or a plan is wanted, with words on what to do.
+    """Refuse a layout where a scenario or a plan is wanted, with a remedy in words.
 
     Parameters
     ----------
@@ -195,7 +195,7 @@ def refuse_layout(path: Path, text: str | None = None) -> None:
 
 
 def describe_layout(layout: Layout | Occupancy | CellMap) -> Fact:
-    """Return what a layout is and how large: ``a LIF layout with 5 vertices, 6 lanes``.
+    """Return the kind and size of a layout: ``a LIF layout with 5 vertices, 6 lanes``.
 
     Parameters
     ----------

@@ -216,7 +216,7 @@ def _read_nurbs(trajectory: Source) -> Nurbs:
 
 
 def _note_unused_properties(own: Source, name: str, draft: LayoutDraft) -> None:
-    """Note what is written for one type of robots and has no effect on plans.
+    """Note the properties for one type of robots that have no effect on plans.
 
     False and 0 have a meaning here. Defaults have an effect on no plan.
     """

@@ -91,7 +91,7 @@ def _check_version(root: Element) -> None:
 
 
 def _note_unused(element: Element, draft: LayoutDraft) -> None:
-    """Note what an element has that has no effect on plans: attributes, and elements inside.
+    """Note the attributes and elements of an element that have no effect on plans.
 
     Angles that are not given are NaN.
     """

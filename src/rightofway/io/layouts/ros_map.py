@@ -120,7 +120,7 @@ def read(document: Any, path: Path) -> Occupancy:
 def _make_table(
     largest: int, free: Fraction, occupied: Fraction, *, negate: bool
 ) -> NDArray[np.uint8]:
-    """Return what a pixel of each value shows; dark is occupied unless negated.
+    """Return the meaning of a pixel of each value; dark is occupied unless negated.
 
     Between the thresholds it is unknown (``trinary``) or costly (``scale``), and not free for us.
     """
@@ -133,7 +133,7 @@ def _make_table(
 
 
 def _make_raw_table(largest: int) -> NDArray[np.uint8]:
-    """Return what a pixel of each value shows where values are occupancies from 0 to 100."""
+    """Return the meaning of a pixel of each value where values are occupancies from 0 to 100."""
     table = np.full(largest + 1, UNKNOWN, np.uint8)
     scaled = np.arange(largest + 1) * OPAQUE // largest
     table[scaled == 0], table[scaled == FULL] = FREE, OCCUPIED

@@ -1,6 +1,6 @@
-"""Layouts, written for other programs; what a format has no place for is named.
+"""Layouts, written for other programs; parts without a place in a format are named.
 
-Reading what was written gives the same layout, but for what `list_losses` names.
+Reading a written layout gives the same one, apart from the losses of `list_losses`.
 """
 
 from __future__ import annotations
@@ -36,11 +36,11 @@ class LayoutWriter:
     Attributes
     ----------
     summary
-        What it is, in a few words.
+        Its kind, in a few words.
     write
         Returns the text of a layout.
     says
-        What it has a place for beside vertices, directed lanes and speed limits.
+        Its parts apart from vertices, directed lanes and speed limits.
     """
 
     summary: str

@@ -1,4 +1,4 @@
-"""The shape of a plan document: which keys there are, and what each may hold."""
+"""The shape of a plan document: its keys, and the values that each may hold."""
 
 from __future__ import annotations
 
@@ -62,14 +62,14 @@ class RerouteDocument(Document):
 
 
 class StartDocument(Document):
-    """What was kept of the plan, of another scenario, that the plan was made from."""
+    """How much was kept of the plan of another scenario from which the plan was made."""
 
     routes: int = Field(ge=0, description="how many robots have the same route")
     tracks: int = Field(ge=0, description="how many of these have it at the same times")
 
 
 class OutcomeDocument(Document):
-    """What is proven of a plan."""
+    """The proof of a plan."""
 
     kind: Literal["optimal", "bounded", "best found", "no plan exists", "gave up"] = Field(
         description="optimal, bounded, best found, no plan exists, or gave up"

@@ -48,7 +48,7 @@ class Example(NamedTuple):
     text
         Its text.
     notes
-        What the reader of the layout mended or left out, and which part of it was chosen.
+        Mendings and omissions of the reader of the layout, and the part of it that was chosen.
     """
 
     text: str

@@ -66,7 +66,7 @@ class FleetRows:
     file, rows
         The file, and its first rows.
     speeds, works
-        What is dealt out.
+        The speeds and works that are dealt out.
     own
         The attributes that all have.
     place, aliases
@@ -84,7 +84,7 @@ class FleetRows:
 
     @property
     def traits(self) -> FleetTraits:
-        """What a map depends on."""
+        """Properties of a fleet on which a map depends."""
         speeds, radius = self.speeds[: len(self.rows)], self.own.get("radius", Fraction(0))
         return FleetTraits(speeds=speeds, radius=radius, types=frozenset([self.own.get("type")]))
 
@@ -98,11 +98,11 @@ class ListedRobot:
     index
         Its number in the list, from 0.
     data, document
-        What is written; and that as a document with places as written, None where it has faults.
+        The robot as written; and as a document with places as written, None where it has faults.
     own
         The attributes that can be read.
     faults
-        What is wrong with it, apart from its places.
+        Its faults, apart from those of its places.
     """
 
     index: int
@@ -178,7 +178,7 @@ class ListedFleet:
 
     @property
     def traits(self) -> FleetTraits:
-        """What a map depends on."""
+        """Properties of a fleet on which a map depends."""
         known = all(
             isinstance(robot.data, dict) and ("speed" in robot.own or "speed" not in robot.data)
             for robot in self.robots

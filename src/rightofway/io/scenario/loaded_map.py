@@ -1,4 +1,4 @@
-"""A map that a document names or draws, as its roadmap and what people want to know of it."""
+"""A map that a document names or draws, as its roadmap and details for people."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from rightofway.units import Units
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FleetTraits:
-    """What a map depends on of the fleet that drives there.
+    """Properties of a fleet on which its map depends.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class FleetTraits:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LoadedMap:
-    """A roadmap, and what its document says beyond it."""
+    """A roadmap, and the other parts of its document."""
 
     roadmap: Roadmap
     lines: tuple[str, ...] = ()  # of a grid, as they were written
@@ -59,7 +59,7 @@ class LoadedMap:
     notes: tuple[Fact, ...] = ()  # of a layout's reader
 
     def find(self, written: object) -> VertexId:
-        """Return the vertex at a place as written; an InputError says what is there instead."""
+        """Return the vertex at a place as written; an InputError names the obstacle there."""
         place = as_place(written, self.roadmap)
 
         def what_blocks(row: int, column: int) -> str:
@@ -77,7 +77,7 @@ class LoadedMap:
 
 
 def _describe_obstacle(row: int, column: int, floor: Floor, grid: Grid) -> str:
-    """Return what stands on a cell of a floor."""
+    """Return the obstacle on a cell of a floor."""
     size = grid.cell_size
     for index, obstacle in enumerate(floor.obstacles):
         if (

@@ -137,7 +137,7 @@ def _map_of_floor(
 ) -> LoadedMap | None:
     """Cut a floor into cells, from its upper left corner on; where y grows upwards, the lower one.
 
-    What is left at the other borders is not used. The names of obstacles stay with the grid where
+    The rest at the other borders is not used. The names of obstacles stay with the grid where
     the scenario names its units; plan files of floors without units are as they have always been.
     """
     with locate_faults("floor"):

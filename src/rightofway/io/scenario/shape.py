@@ -1,4 +1,4 @@
-"""The shape of a scenario document: which keys there are, and what each may hold."""
+"""The shape of a scenario document: its keys, and the values that each may hold."""
 
 from __future__ import annotations
 
@@ -435,7 +435,7 @@ class RuleAttributes(Document):
 
 
 class RulesDocument(RuleAttributes):
-    """What holds for the whole fleet."""
+    """Rules of the whole fleet."""
 
     objective: Objective = make_optional(
         "service, flowtime, makespan or both: what plans minimize, for jobs; service by default"

@@ -252,7 +252,7 @@ def _format_coordinate(number: Fraction) -> float | str:
 
 
 def _write_class(edge_class: EdgeClass) -> dict[str, Any]:
-    """Return what the edges of a class have in common."""
+    """Return the common properties of the edges of a class."""
     data: dict[str, Any] = {"length": format_number(edge_class.length), "both_ways": False}
     if edge_class.max_speed is not None:
         data["max_speed"] = format_number(edge_class.max_speed)

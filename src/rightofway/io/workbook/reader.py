@@ -196,7 +196,7 @@ def _read_rows(sheet: Sheet, offset: tuple[int, int]) -> Iterator[Row]:
 
 
 def _convert_reference(value: Any, offset: tuple[int, int]) -> Any:
-    """Return what a cell holds; for a reference to a cell of the map its row and column there."""
+    """Return the value of a cell; for a reference to a cell of the map its row and column there."""
     cell = find_reference(value) if isinstance(value, str) else None
     if cell is None:
         return value
@@ -206,7 +206,7 @@ def _convert_reference(value: Any, offset: tuple[int, int]) -> Any:
 def _add_rules(
     sheet: Sheet, document: dict[str, Any], cells: dict[Steps, Where], faults: Faults
 ) -> None:
-    """Add the rows of the rules sheet: rules, units, and what belongs to the map."""
+    """Add the rows of the rules sheet: rules, units, and keys of the map."""
     from rightofway.io.scenario.shape import MAPS, MapDocument, RulesDocument
 
     rules = list_keys(RulesDocument)

@@ -55,14 +55,14 @@ Position = tuple[int, int]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sheet:
-    """What is in a sheet.
+    """The content of a sheet.
 
     Attributes
     ----------
     name
         Its name in the workbook.
     values
-        What the cells hold that hold anything: text, whole numbers, fractions, true or false.
+        The values of the cells that hold any: text, whole numbers, fractions, true or false.
     dark
         For cells with a fill, whether it is dark.
     """

@@ -320,7 +320,7 @@ def _add_hint(
 
 
 def _find_description(model: Any, key: str) -> str:
-    """Return what a document says of a key."""
+    """Return the description of a key of a document."""
     fields = {field.alias or name: field for name, field in model.model_fields.items()}
     return fields[key].description or "" if key in fields else ""
 
