@@ -328,7 +328,7 @@ TEST_CASE("a robot whose work has to wait leaves and comes back if others pass")
     one.earliest = {6, 0};
     one.latest = {never, never};
     REQUIRE(one.run(found) == SearchEnd::found);
-    CHECK(found.vertices[2] >= 2);  // one of the two other vertices
+    CHECK(found.vertices[2] >= 2);               // one of the two other vertices
     CHECK(found.enter == Ticks{0, 1, 2, 5, 9});  // works from 6 to 8
 }
 
