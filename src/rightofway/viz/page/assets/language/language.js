@@ -66,7 +66,7 @@ export function templateOf(kind) {
  * @param {Values} values
  * @returns {string}
  */
-export function fill(template, values) {
+function fill(template, values) {
   return filled(chosen(template, values), (name, form) => written(values[name], form));
 }
 
