@@ -140,8 +140,8 @@ def test_weights_shift_laps_to_who_is_worth_more() -> None:
     ("options", "message"),
     [
         ({"weights": [Fraction(1)]}, "weights: 1 for 2 robots"),
-        ({"weights": [Fraction(1), Fraction(0)]}, r"weights\[1\]: 0 is not above 0"),
-        ({"least_fairness": Fraction(2)}, "least_fairness: 2 is not from 0 to 1"),
+        ({"weights": [Fraction(1), Fraction(0)]}, r"weights\[1\]: 0 is not positive"),
+        ({"least_fairness": Fraction(2)}, "least_fairness: 2 is above 1"),
         ({"time_limit": None}, "rounds: neither they nor the time are limited"),
     ],
 )

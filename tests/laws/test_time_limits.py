@@ -18,6 +18,7 @@ import pytest
 
 import rightofway
 from rightofway import _core
+from rightofway.assign import AssignmentSearch
 from rightofway.cyclic import find_best_timetable
 from rightofway.errors import NoPlanExists, RightOfWayError
 from rightofway.model import BookingRules, Lap, Plan, Rules, Scenario, Tick
@@ -38,8 +39,10 @@ from rightofway.search import (
     plan_by_lacam,
 )
 from rightofway.site import VertexId
+from tests.builders.any_work import draw_work
 from tests.builders.fleets import grid_fleet, random_fleet
 from tests.builders.periodic import random_timetable
+from tests.builders.timed import with_problem
 
 LIMITS = [0.0, -0.0, -1.0, -1e-9, 1e-9, 1e-4]
 
@@ -111,6 +114,21 @@ def prioritize(scenario: Scenario, limit: float) -> None:
 def repair(scenario: Scenario, limit: float) -> None:
     search = FleetSearch(scenario.problem)
     search.repair(order(scenario), searches=10**9, time_limit=limit)
+
+
+def move_one_at_a_time(scenario: Scenario, limit: float) -> None:
+    timed = with_problem(scenario, list(scenario.problem.itineraries))
+    FleetSearch(timed.problem).move_one_at_a_time(time_limit=limit)
+
+
+def search_tours(limit: float, *, has_first: bool) -> None:
+    """Assign a hundred jobs to ten robots, or improve such an assignment."""
+    search = AssignmentSearch(*draw_work(1, n_jobs=100, n_robots=10, size=100))
+    if not has_first:
+        search.construct(limit)
+        return
+    search.construct()
+    search.improve(10**9, limit)
 
 
 def track(scenario: Scenario, limit: float) -> None:
@@ -193,11 +211,14 @@ CALLS: dict[str, Callable[[Scenario, float], object]] = {
     "FleetSearch.alone": lambda one, limit: compute_least_completions(one, time_limit=limit),
     "FleetSearch.resume": resume,
     "FleetSearch.improve": improve,
+    "FleetSearch.move_one_at_a_time": move_one_at_a_time,
     "FleetSearch.prioritize": prioritize,
     "FleetSearch.repair": repair,
     "PeriodicBookings.find_route": find_route,
     "PeriodicBookings.search": search,
     "PriceAscent.run": raise_prices,
+    "TourSearch.construct": lambda _, limit: search_tours(limit, has_first=False),
+    "TourSearch.improve": lambda _, limit: search_tours(limit, has_first=True),
     "critical_circuit": lambda _, limit: event_graph().find_critical_circuit(time_limit=limit),
     "earliest_times": lambda _, limit: event_graph().compute_earliest(
         Tick(10**6), time_limit=limit

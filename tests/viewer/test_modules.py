@@ -1,4 +1,4 @@
-"""The map as modules of another page: a site alone, a canvas and a theme are enough."""
+"""The map as modules of another page: a site, a canvas, a theme and texts are enough."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from rightofway.io.sites import Choice, read_sites
+from rightofway.languages import read_texts
 from rightofway.viz import make_site_data
 from rightofway.viz.page import document
 from rightofway.viz.page.document import make_style_sheet
@@ -32,6 +33,9 @@ PAGE = """<!doctype html><title>editor</title><style>STYLE</style>
 import { MapView } from "./assets/map/map_view.js";
 import { Site } from "./assets/plan/site.js";
 import { Theme } from "./assets/drawing/theme.js";
+import { learn, setLanguage } from "./assets/language/language.js";
+learn({ en: await (await fetch("texts.json")).json() });
+setLanguage("en");
 const raw = await (await fetch("site.json")).json();
 const view = new MapView(document.getElementById("plot"), new Site(raw), new Theme());
 view.viewport.fit();
@@ -62,6 +66,7 @@ def test_a_site_alone_is_drawn(browser: Browser, tmp_path: Path, address: str) -
     (tmp_path / "index.html").write_text(
         PAGE.replace("STYLE", make_style_sheet()), encoding="utf-8"
     )
+    (tmp_path / "texts.json").write_text(json.dumps(read_texts()), encoding="utf-8")
     (tmp_path / "favicon.ico").write_bytes(b"")
     context = browser.new_context()
     viewer = Canvases(context.new_page())

@@ -31,13 +31,13 @@ def check_format(document: Any, known: str, *others: str) -> dict[str, Any]:
             raise InputError.at("", message)
         raise InputError.at("format", f"is missing (put {line} at the top)")
     name = document["format"]
-    if name not in {known, *others}:
+    if name not in (known, *others):  # it may be a list or a mapping
         raise InputError.at("format", f"{quote(name)} is {_describe_unwanted(name, known)}")
     return document
 
 
 def _describe_unwanted(value: object, known: str) -> str:
-    if value in {PLAN_FORMAT, PLAN_OF_JOBS_FORMAT} and known == SCENARIO_FORMAT:
+    if value in (PLAN_FORMAT, PLAN_OF_JOBS_FORMAT) and known == SCENARIO_FORMAT:
         return "a plan, not a scenario (its scenario is in it; check or show it as it is)"
     if value == SCENARIO_FORMAT and known == PLAN_FORMAT:
         return "a scenario, not a plan (plan it first)"

@@ -31,6 +31,7 @@ from rightofway.kinds.table import (
     NUMBER,
     PATH,
     TEXT,
+    TIME_LIMIT,
     TRUTH,
     WHOLE,
     Kind,
@@ -140,7 +141,8 @@ def checks_arguments(call: Callable[P, R]) -> Callable[P, R]:
     @functools.cache
     def read_kinds() -> dict[str, Kind[Any]]:
         hints = get_type_hints(call)
-        return {name: read_annotation(hints.get(name, Any)) for name in named_ones}
+        kinds = {name: read_annotation(hints.get(name, Any)) for name in named_ones}
+        return {**kinds, "time_limit": TIME_LIMIT} if "time_limit" in kinds else kinds
 
     @functools.wraps(call)
     def checked(*given: P.args, **named: P.kwargs) -> R:

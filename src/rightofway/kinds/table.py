@@ -11,6 +11,7 @@ tuples. A truth value is no number, text is no list, and None belongs to no kind
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
@@ -326,6 +327,11 @@ def mapping_of(kind: Kind[T], *, in_order: bool = False) -> Kind[tuple[tuple[str
 
 STRING: Schema = {"type": "string"}
 
+
+def _is_real(value: object) -> TypeGuard[float]:
+    return isinstance(value, Real) and not isinstance(value, bool)
+
+
 ANYTHING = make_kind("anything", object)
 TRUTH = make_kind(
     "true or false",
@@ -352,6 +358,13 @@ LINE = make_kind(
 NAMES: Kind[frozenset[str]] = Kind(
     "a list of texts", {}, lambda value: frozenset(list_of(TEXT).read(value))
 )
+TIME_LIMIT: Kind[float | None] = make_kind(
+    "0 or more, or None for no limit",
+    lambda value: value is None or (_is_real(value) and value >= 0),
+    "is no number of seconds",
+    convert=lambda value: None if value is None or value > sys.float_info.max else float(value),
+)
+"""Seconds; a limit above every float is none."""
 PATH = make_kind("a path", (str, os.PathLike), "is no path")
 FUNCTION = make_kind("a function", callable, "is no function")
 

@@ -8,13 +8,11 @@ scenario a whole number.
 from __future__ import annotations
 
 import math
-import sys
 from dataclasses import dataclass
 from fractions import Fraction
-from numbers import Real
 from typing import TYPE_CHECKING, NewType
 
-from rightofway.errors import InputError, quote
+from rightofway.kinds.table import TIME_LIMIT
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -99,9 +97,4 @@ def require_time_limit(seconds: float | None) -> float | None:
     InputError
         If it is negative or no number.
     """
-    if seconds is None:
-        return None
-    if isinstance(seconds, bool) or not isinstance(seconds, Real) or not seconds >= 0:
-        message = f"{quote(seconds)} is no number of seconds (give 0 or more, or None for no limit)"
-        raise InputError.at("time_limit", message)
-    return None if seconds > sys.float_info.max else float(seconds)
+    return TIME_LIMIT.read_at("time_limit", seconds)
