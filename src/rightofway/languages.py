@@ -15,7 +15,7 @@ import json
 import re
 from collections.abc import Mapping
 from functools import cache
-from importlib.resources import files
+from pathlib import Path
 from typing import Any, TypeAlias
 
 __all__ = [
@@ -27,6 +27,9 @@ __all__ = [
     "list_values",
     "read_texts",
 ]
+
+TEXTS = Path(__file__).with_name("texts")
+"""The folder of texts: `importlib.resources` would import zipfile at each start."""
 
 LANGUAGES = ("en", "de")
 """Codes of the languages of pages; the command line speaks the first."""
@@ -40,7 +43,7 @@ VALUE = re.compile(r"\{(\w+)(?::(\w+))?\}")
 @cache
 def read_texts(language: str = "en") -> Mapping[str, Any]:
     """Return the texts of a language: its name, templates of facts by kind, labels of pages."""
-    text = files("rightofway").joinpath("texts", f"{language}.json").read_text("utf-8")
+    text = (TEXTS / f"{language}.json").read_text("utf-8")
     texts: Mapping[str, Any] = json.loads(text)
     return texts
 
