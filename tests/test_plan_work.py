@@ -109,6 +109,18 @@ def test_begun_jobs_are_never_left_out() -> None:
         solve(parse_scenario(document))
 
 
+@pytest.mark.parametrize("planner", ["lns", "prioritized"])
+def test_a_search_that_ends_early_does_not_speak_of_time(planner: str) -> None:
+    """R1 stands where R2 has to go with its load, and cannot let it pass."""
+    document = make_document([carry("J1", 1, 3)]) | {"map": {"grid": ["...."]}}
+    document["robots"] = [
+        {"name": "R1", "home": "N3"},
+        {"name": "R2", "home": "N0", "start": {"at": "N1", "begun": {"J1": 1}}},
+    ]
+    with pytest.raises(GaveUp, match="though time was left"):
+        solve(parse_scenario(document), planner)
+
+
 def test_each_better_plan_is_handed_over() -> None:
     """Costs of the plans fall, and the last one is the result."""
     plans: list[Plan] = []

@@ -97,7 +97,8 @@ def improve_best(
         together = _plan_together(task) if is_simple else plan_fleet(task)
         plans = [together] if together is not None else []
     if not plans:
-        raise GaveUp(Fact("time over without a plan"))
+        is_over = task.deadline.measure_seconds_left() == 0
+        raise GaveUp(Fact("time over without a plan" if is_over else "no first plan"))
     best = min(plans, key=lambda plan: task.measure_worth(plan.tracks))
     proof = None if first is None else first.proof
     return _run_improvement(task, search, replace(best, proof=proof), is_enough)

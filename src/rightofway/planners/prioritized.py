@@ -57,7 +57,8 @@ def prioritized(task: Task) -> Draft:
     if draft is not None:
         return draft
     if task.scenario.problem.has_times:
-        raise GaveUp(Fact("time over without a plan"))
+        is_over = task.deadline.measure_seconds_left() == 0
+        raise GaveUp(Fact("time over without a plan" if is_over else "no first plan"))
     task.deadline.check(Fact("planning in turn"))
     status = Status("together after in turn")
     return replace(plan_fleet(task), status=status)
