@@ -33,7 +33,7 @@ Value = Fraction | int | float
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Units:
-    """What a scenario's numbers are measured in; None where the scenario does not say.
+    """The units of a scenario's numbers; None where the scenario gives none.
 
     Attributes
     ----------

@@ -36,7 +36,7 @@ _REASONS: dict[_core.UnservedReason, UnservedReason] = {
 
 
 class AssignmentCost(NamedTuple):
-    """What an assignment costs without other robots in the way; compared from left to right.
+    """The cost of an assignment without other robots in the way; compared from left to right.
 
     Attributes
     ----------

@@ -38,7 +38,8 @@ class BatteryKind:
     charging
         Indices of the places at which it may be charged.
     drives
-        What drives between places take on the quickest way, without `on`; int64, shape (P, P).
+        The charge that drives between places take on the quickest way, without `on`; int64, shape
+        (P, P).
     to_charging
         The least that is needed from each place to a charging place, with `on`; int64, shape (P,).
         More than full where there is no way.
@@ -52,7 +53,7 @@ class BatteryKind:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Travel:
-    """What drives between the places of a fleet's work take.
+    """Times and energies of drives between the places of a fleet's work.
 
     Attributes
     ----------

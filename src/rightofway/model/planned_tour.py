@@ -46,4 +46,4 @@ class PlannedItem:
 
 
 PlannedTour = tuple[PlannedItem, ...]
-"""What a robot does, in order."""
+"""The items of a robot, in order."""

@@ -25,11 +25,11 @@ from rightofway.model.units import Tick
 from rightofway.site import VertexId
 
 WorkObjective = Literal["service", "flowtime", "makespan", "both"]
-"""What a plan minimizes after the weight of unserved jobs: the service times of jobs, or the
+"""The objective after the weight of unserved jobs: the service times of jobs, or the
 completion times of robots."""
 
 OBJECTIVE: WorkObjective = "service"
-"""What a plan minimizes by default."""
+"""The objective by default."""
 
 LATE = Fraction(10)
 """How much a time unit after `Job.due` costs by default, compared with one of service time."""
@@ -355,7 +355,7 @@ class BoundBattery:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BoundRobot:
-    """The state of a robot in ticks, and what it needs for its tour.
+    """The state of a robot in ticks, and its properties that a tour depends on.
 
     Attributes
     ----------
