@@ -17,7 +17,7 @@ from pathlib import Path
 
 from rightofway.errors import InputError, InputFault, Location, name_file, quote
 from rightofway.files import write_whole
-from rightofway.io.content import read_text
+from rightofway.io.content import is_regular, read_text
 from rightofway.io.faults import Faults
 from rightofway.model import Robot, Rules, Scenario, Stop
 from rightofway.site import Grid, Roadmap, make_grid_roadmap
@@ -91,6 +91,25 @@ def _check_rows(lines: list[str], header: dict[str, str], above: int) -> tuple[s
         faults.note(Location(line=above + 1 + min(len(rows), height)), message)
     faults.stop()
     return rows
+
+
+def find_beside(path: Path, named: str, folder: str) -> Path | None:
+    """Return a file that another file names, or None.
+
+    Parameters
+    ----------
+    path
+        The file that names it.
+    named
+        A path relative to that file. Its last part is also looked for next to the file, and in
+        a folder next to the folder of the file. No part leads upwards.
+    folder
+        The name of that folder.
+    """
+    parts = re.split(r"[\\/]", named)
+    inside = path.parent.joinpath(*parts) if not {"", ".."}.intersection(parts) else path.parent
+    beside = path.parent / parts[-1], path.parent / ".." / folder / parts[-1]
+    return next((file for file in (inside, *beside) if is_regular(file)), None)
 
 
 def load_scen(path: Path | str) -> tuple[ScenRow, ...]:

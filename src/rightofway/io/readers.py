@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from rightofway.errors import InputError, name_file
 from rightofway.files import as_path
@@ -23,8 +24,9 @@ def load(path: Path | str, count: int | None = None) -> Scenario:
     Parameters
     ----------
     path
-        A scenario as YAML or JSON; a workbook (`.xlsx`); or a `.scen` file, which is classic MAPF:
-        unit speeds, no work, no turning, no way back, the map beside it or in ``../maps``.
+        A scenario as YAML or JSON; a workbook (`.xlsx`); a problem of the League of Robot Runners;
+        or a `.scen` file, which is classic MAPF: unit speeds, no work, no turning, no way back, the
+        map beside it or in ``../maps``.
     count
         Number of robots: the first rows of a `.scen` file; None for all. Other files say
         themselves how many robots they have.
@@ -65,7 +67,16 @@ def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
         _refuse_foreign(text)
         refuse_layout(path, text)
     with pause_garbage_collection(), open_document(path, text) as document:
-        return read_scenario(document, path.parent)
+        return _read_scenario(document, text, path)
+
+
+def _read_scenario(document: Any, text: str, path: Path) -> Loaded:
+    """Return the scenario of a document, which may be a problem of the League of Robot Runners."""
+    from rightofway.io.scenario import league
+
+    if league.recognizes(text):
+        return league.read_problem(document, path)
+    return read_scenario(document, path.parent)
 
 
 @checks_arguments
@@ -143,7 +154,7 @@ def load_either(
         is_plan = isinstance(kind, str) and kind.startswith("rightofway-plan/")
         if is_plan:
             return parse_plan(document, pictures=path.parent)
-        return read_scenario(document, path.parent)
+        return _read_scenario(document, text, path)
 
 
 def _read_text(path: Path) -> str:

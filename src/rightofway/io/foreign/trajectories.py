@@ -17,10 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import FEW, InputError, InputFault, Location, Steps, Where, quote
-from rightofway.io.content import is_regular
 from rightofway.io.faults import Faults
 from rightofway.io.formats import SCENARIO_FORMAT
-from rightofway.io.movingai import ScenRow, load_map, load_scen
+from rightofway.io.movingai import ScenRow, find_beside, load_map, load_scen
 from rightofway.io.scenario.reader import read_scenario
 from rightofway.model import Plan, PlannerRun, Scenario, Track
 from rightofway.site import Grid
@@ -128,11 +127,11 @@ def plan_of_trajectories(
 def _map_beside(path: Path, named: str | None) -> Path:
     if not named:
         raise InputError.at("", "the plan does not name its map (give it with --map FILE)")
-    name = Path(named.replace("\\", "/")).name
-    for beside in (path.parent / name, path.parent / ".." / "maps" / name):
-        if is_regular(beside):
-            return beside
-    raise InputError.at("", f"its map {quote(name)} is not beside it (give it with --map FILE)")
+    file = find_beside(path, named, "maps")
+    if file is None:
+        message = f"its map {quote(named)} is not beside it (give it with --map FILE)"
+        raise InputError.at("", message)
+    return file
 
 
 def _make_scenario(foreign: ForeignPlan, lines: Sequence[str], rows: Sequence[ScenRow]) -> Scenario:

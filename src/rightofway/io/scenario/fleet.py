@@ -21,6 +21,7 @@ from rightofway.errors import (
     InputFault,
     Location,
     Steps,
+    Where,
     locate_faults,
     name_file,
     quote,
@@ -198,8 +199,8 @@ class PlacedRobot:
     """A robot, its place in the document, and keys of it that stand elsewhere."""
 
     robot: Robot
-    place: Steps
-    aliases: Mapping[Steps, Steps]
+    place: Where
+    aliases: Mapping[Steps, Steps] = field(default_factory=dict)
 
 
 def read_robots(data: Any, base: Path | None, *, has_jobs: bool = False) -> ListedFleet | FleetRows:

@@ -6,7 +6,6 @@ A file becomes plain data (`open_document`), the data become checked parts (`sha
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -17,10 +16,9 @@ from typing import TYPE_CHECKING, Any
 from rightofway.assign import deal_homes
 from rightofway.errors import InputError, Steps, Where, find_nearest, name_file, quote
 from rightofway.facts import Fact
-from rightofway.io.content import is_regular
 from rightofway.io.faults import Faults, validate
 from rightofway.io.formats import SCENARIO_FORMAT, check_format
-from rightofway.io.movingai import ScenRow, load_scen
+from rightofway.io.movingai import ScenRow, find_beside, load_scen
 from rightofway.io.scenario.crossings import note_crossings
 from rightofway.io.scenario.fleet import (
     FleetRows,
@@ -59,10 +57,14 @@ class Loaded:
         The scenario.
     notes
         Sentences for the user: how a floor was cut into cells, whether durations are rounded.
+    reveal
+        How many unfinished jobs are known at a time, where the file limits it: of each robot, if
+        jobs are for one robot each; else of all. None for no limit.
     """
 
     scenario: Scenario
     notes: tuple[Fact, ...] = ()
+    reveal: int | None = None
 
 
 def parse_scenario(
@@ -140,11 +142,11 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
         placed = faults.attempt("", _assign_homes, placed, loaded.roadmap, rules, notes) or ()
     if loaded and placed:
         others = {"rules": rules, "units": loaded.units, "closures": tuple(closures)}
-        scenario = _build_scenario(loaded.roadmap, placed, others, faults, work)
+        scenario = build_scenario(loaded.roadmap, placed, others, faults, work)
     faults.stop(document)
     assert loaded is not None, "or there was a fault"
     assert scenario is not None, "or there was a fault"
-    return Loaded(scenario=scenario, notes=(*_list_notes(loaded, scenario), *notes))
+    return Loaded(scenario=scenario, notes=(*list_notes(loaded, scenario), *notes))
 
 
 def _read_table(document: dict[str, Any], base: Path | None) -> tuple[str, CellDocument] | None:
@@ -172,20 +174,21 @@ def read_classic(path: Path, count: int | None) -> Loaded:
     placed = place_robots(fleet, loaded, faults, deals=False)
     faults.stop()
     others = {"rules": CLASSIC, "units": loaded.units, "closures": ()}
-    scenario = _build_scenario(loaded.roadmap, placed, others, faults, ReadWork())
+    scenario = build_scenario(loaded.roadmap, placed, others, faults, ReadWork())
     faults.stop()
     assert scenario is not None, "or there was a fault"
-    return Loaded(scenario=scenario, notes=tuple(_list_notes(loaded, scenario)))
+    return Loaded(scenario=scenario, notes=tuple(list_notes(loaded, scenario)))
 
 
 def _find_map_beside(path: Path, row: ScenRow) -> Path:
     """Return the map of a `.scen` file, which is beside it or in ``../maps``."""
-    name = re.split(r"[\\/]", row.map_name)[-1]
-    for file in (path.parent / name, path.parent / ".." / "maps" / name):
-        if is_regular(file):
-            return file
-    message = f"its map {quote(name)} is neither beside it nor in ../maps (put it there)"
-    raise InputError.at("", message)
+    file = find_beside(path, row.map_name, "maps")
+    if file is None:
+        message = (
+            f"its map {quote(row.map_name)} is neither beside it nor in ../maps (put it there)"
+        )
+        raise InputError.at("", message)
+    return file
 
 
 def _guess_map(data: str | list[Any]) -> str:
@@ -251,7 +254,7 @@ def _assign_homes(
     ]
 
 
-def _build_scenario(
+def build_scenario(
     roadmap: Roadmap,
     placed: Sequence[PlacedRobot],
     others: dict[str, Any],
@@ -281,7 +284,8 @@ def _build_scenario(
         return None
 
 
-def _list_notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[Fact]:
+def list_notes(loaded: LoadedMap, scenario: Scenario) -> Iterator[Fact]:
+    """Yield notes on a scenario that was read on a map."""
     grid = loaded.roadmap.grid
     if loaded.floor and grid:
         yield Fact(

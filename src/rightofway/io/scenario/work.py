@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rightofway.errors import InputFault, Steps, locate_faults, quote
+from rightofway.errors import InputFault, Steps, Where, locate_faults, quote
 from rightofway.io.faults import Faults, list_keys, validate
 from rightofway.io.scenario.loaded_map import LoadedMap
 from rightofway.io.scenario.maps import find_file_beside
@@ -43,7 +43,7 @@ class ReadWork:
     jobs: tuple[Job, ...] | None = None
     batteries: tuple[tuple[str, Battery], ...] = ()
     charging: tuple[VertexId, ...] = ()
-    starts: Mapping[Steps, Steps] = field(default_factory=dict)
+    starts: Mapping[Steps, Where] = field(default_factory=dict)
     names: frozenset[str] = frozenset()
 
     def drop_followers(self, faults: Sequence[InputFault]) -> Iterator[InputFault]:
