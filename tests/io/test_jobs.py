@@ -38,7 +38,7 @@ jobs:
   - {name: J2, at: N3, work: 30, weight: 3, types: [fork], latest: 900, after: [J1]}
   - {name: J3, stops: [{at: N2, work: 10, load: 2}, {at: N1, load: -1}, {at: N5, load: -1}],
      robot: R1, latest: 500}
-rules: {objective: flowtime, late: 1/2}
+rules: {objective: flowtime, late: 1/2, patience: 90}
 """
 
 
@@ -85,7 +85,7 @@ def test_all_keys_of_jobs_are_read() -> None:
             robot="R1",
         ),
     )
-    rules = Rules(occupancy="one", objective="flowtime", late=F(1, 2))
+    rules = Rules(occupancy="one", objective="flowtime", late=F(1, 2), patience=F(90))
     assert scenario.rules == rules
 
 
@@ -101,7 +101,7 @@ def test_a_scenario_with_jobs_is_written_and_read_again() -> None:
 
 
 def test_the_builder_makes_the_scenario_of_the_file() -> None:
-    fleet = FleetBuilder(grid=[".....", "....."], objective="flowtime", late="1/2")
+    fleet = FleetBuilder(grid=[".....", "....."], objective="flowtime", late="1/2", patience=90)
     fleet.add_job(
         "J1", pickup="N2", dropoff="N9", pickup_work=20, dropoff_work=15, earliest=60, due=400
     )

@@ -374,7 +374,7 @@ def test_without_jobs_the_keys_of_jobs_are_refused() -> None:
         {"start": RobotState(at=V(1)), "capacity": 2, "stops": (Stop(at=V(5)),)},
         {"battery": "large", "charging": (), "stops": (Stop(at=V(6)),)},
     )
-    rules = Rules(objective="service", late=Fraction(10))
+    rules = Rules(objective="service", late=Fraction(10), patience=Fraction(9))
     with pytest.raises(InputError) as refused:
         make_work(jobs=None, robots=robots, rules=rules, charging=(V(0),))
     places = [
@@ -382,6 +382,7 @@ def test_without_jobs_the_keys_of_jobs_are_refused() -> None:
         "charging",
         "rules.objective",
         "rules.late",
+        "rules.patience",
         "robots[0].start",
         "robots[0].capacity",
         "robots[1].battery",

@@ -237,6 +237,9 @@ class Rules:
     late
         How much a time unit of a job after its `due` costs, compared with one of service time, not
         negative; None for 10.
+    patience
+        In a shift, jobs without `due` are overdue so long after their `earliest` [time unit], and
+        are then assigned before others; not negative, None for 1800. Plans do not depend on it.
 
     Raises
     ------
@@ -305,6 +308,7 @@ class Rules:
     )
     objective: WorkObjective | None = None
     late: Fraction | None = None
+    patience: Fraction | None = None
 
     def __post_init__(self) -> None:
         coerce_fields(
@@ -312,6 +316,7 @@ class Rules:
             "rules",
             objective=allow_none(make_words(*get_args(WorkObjective))),
             late=allow_none(NOT_NEGATIVE),
+            patience=allow_none(NOT_NEGATIVE),
             **list_kinds(Rules),
         )
 

@@ -34,6 +34,9 @@ OBJECTIVE: WorkObjective = "service"
 LATE = Fraction(10)
 """How much a time unit after `Job.due` costs by default, compared with one of service time."""
 
+PATIENCE = Fraction(1800)
+"""How long after `Job.earliest` a job without `Job.due` is overdue by default [time unit]."""
+
 CAPACITY = 1
 """The largest load of a robot by default."""
 

@@ -53,6 +53,7 @@ def _find_lone_keys(scenario: Scenario) -> Iterator[InputFault]:
         "charging": scenario.charging or None,
         ("rules", "objective"): scenario.rules.objective,
         ("rules", "late"): scenario.rules.late,
+        ("rules", "patience"): scenario.rules.patience,
     }
     for index, robot in enumerate(scenario.robots):
         for key in ("start", "capacity", "battery", "charging"):

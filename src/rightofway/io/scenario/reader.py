@@ -208,7 +208,7 @@ def _read_rules(data: Any) -> Rules:
         remedy = "give classic, or a mapping like {headway: 1}"
         raise InputError.at("", f"{quote(data)} is no name of rules ({remedy})")
     document = validate(RulesDocument, data)
-    own = document.get_own_attributes(Rules) | document.get_given("objective", "late")
+    own = document.get_own_attributes(Rules) | document.get_given("objective", "late", "patience")
     return Rules(**own)
 
 

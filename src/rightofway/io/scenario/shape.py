@@ -441,6 +441,10 @@ class RulesDocument(RuleAttributes):
         "service, flowtime, makespan or both: what plans minimize, for jobs; service by default"
     )
     late: NotNegative = make_optional("the cost of a time unit after due, for jobs; 10 by default")
+    patience: NotNegative = make_optional(
+        "how long after earliest a job without due is overdue in a shift [time unit], for jobs;"
+        " 1800 by default"
+    )
 
 
 class ClosureDocument(Document):

@@ -114,6 +114,19 @@ def _read_batteries(document: Mapping[str, Any], faults: Faults) -> Iterator[tup
             yield str(name), Battery(**battery.get_given(*BatteryDocument.model_fields))
 
 
+def read_job(data: Any, on: LoadedMap) -> Job:
+    """Return the job of a document on a map.
+
+    Raises
+    ------
+    InputError
+        With every fault of the document.
+    """
+    read = _read_job(data, on)
+    assert read is not None, "there is a map"
+    return read[0]
+
+
 def _read_job(data: Any, on: LoadedMap | None) -> tuple[Job, dict[Steps, Steps]] | None:
     """Return a job, and for places of its stops those of the document; without a map, None."""
     from rightofway.io.scenario.work_shape import JobDocument

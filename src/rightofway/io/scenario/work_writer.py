@@ -27,7 +27,7 @@ def dump_work(scenario: Scenario) -> dict[str, Any]:
         "charging": list(dict.fromkeys(map(roadmap.name, charging))),
     }
     known = {key: value for key, value in document.items() if value}
-    return {**known, "jobs": [_dump_job(job, roadmap) for job in scenario.jobs]}
+    return {**known, "jobs": [dump_job(job, roadmap) for job in scenario.jobs]}
 
 
 def dump_robot_of_jobs(robot: Robot, roadmap: Roadmap) -> dict[str, Any]:
@@ -42,7 +42,7 @@ def dump_robot_of_jobs(robot: Robot, roadmap: Roadmap) -> dict[str, Any]:
 
 def dump_rules_of_jobs(rules: Rules) -> dict[str, Any]:
     """Return the rules that only a scenario with jobs has."""
-    return _dump_given(rules, only=("objective", "late"))
+    return _dump_given(rules, only=("objective", "late", "patience"))
 
 
 def _dump_state(state: RobotState, roadmap: Roadmap) -> dict[str, Any]:
@@ -50,8 +50,8 @@ def _dump_state(state: RobotState, roadmap: Roadmap) -> dict[str, Any]:
     return {"at": roadmap.name(state.at), **_dump_given(state, but=("at", "begun")), **begun}
 
 
-def _dump_job(job: Job, roadmap: Roadmap) -> dict[str, Any]:
-    """Return a job in the shortest form that has all of its stops."""
+def dump_job(job: Job, roadmap: Roadmap) -> dict[str, Any]:
+    """Return the document of a job, in the shortest form that has all of its stops."""
     names = {key: list(value) for key in ("types", "after") if (value := getattr(job, key))}
     others = _dump_given(job, but=("name", "stops", "types", "after"))
     return {"name": job.name, **_dump_stops(job, roadmap), **others, **names}

@@ -1,0 +1,22 @@
+"""Dispatch: work that arrives while robots drive, planned in rounds for as long as a shift lasts.
+
+It contains no network, no journal and no clock. The simulated floor and the control of robots use
+the same rounds.
+"""
+
+from __future__ import annotations
+
+from rightofway.dispatch.pool import Pool, PooledJob, PoolEvent
+from rightofway.dispatch.reveal import Reveal
+from rightofway.dispatch.view import FleetView, PlannedStep, RobotView, Round
+
+__all__ = [
+    "FleetView",
+    "PlannedStep",
+    "Pool",
+    "PoolEvent",
+    "PooledJob",
+    "Reveal",
+    "RobotView",
+    "Round",
+]

@@ -1,0 +1,230 @@
+"""The pool: jobs that are known and not finished, a fold over events.
+
+A journal keeps the events; the pool follows from them. An event that is applied twice changes
+nothing, because each names its job, and a job that has left the pool never comes back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, Literal, get_args
+
+from rightofway.errors import InputError, quote
+from rightofway.io.scenario.loaded_map import LoadedMap
+from rightofway.io.scenario.work import read_job
+from rightofway.io.scenario.work_writer import dump_job
+from rightofway.model import Job, Tick, UnservedReason
+from rightofway.site import Roadmap
+
+__all__ = ["EventKind", "Pool", "PoolEvent", "PooledJob"]
+
+EventKind = Literal[
+    "job known", "job changed", "job withdrawn", "stop begun", "stop done", "job unserved"
+]
+"""What may happen to a job: `job unserved` is for good."""
+
+KEYS: dict[EventKind, tuple[str, ...]] = {
+    "job known": ("job",),
+    "job changed": ("job",),
+    "job withdrawn": ("name",),
+    "stop begun": ("name", "robot", "stop"),
+    "stop done": ("name", "robot", "stop"),
+    "job unserved": ("name", "reason"),
+}
+"""The fields of each kind of event in a document, beside `kind` and `at`."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PoolEvent:
+    """Something that has happened to a job.
+
+    Attributes
+    ----------
+    kind
+        What has happened.
+    at
+        When, from the start of the shift [ticks].
+    name
+        The name of the job.
+    job
+        The job, of `job known` and `job changed`.
+    robot, stop
+        Index of the robot, and of the stop among all stops of the job, of `stop begun` and
+        `stop done`. A stop is begun when its work is released to the robot.
+    reason
+        Why no robot does the job, of `job unserved`.
+    """
+
+    kind: EventKind
+    at: Tick
+    name: str
+    job: Job | None = None
+    robot: int | None = None
+    stop: int | None = None
+    reason: UnservedReason | None = None
+
+    def to_document(self, roadmap: Roadmap) -> dict[str, Any]:
+        """Return the event as JSON has it, with the job as scenario files have it."""
+        document: dict[str, Any] = {"kind": self.kind, "at": self.at}
+        for key in KEYS[self.kind]:
+            value = getattr(self, key)
+            document[key] = dump_job(value, roadmap) if isinstance(value, Job) else value
+        return document
+
+    @classmethod
+    def of_document(cls, document: Mapping[str, Any], roadmap: Roadmap) -> PoolEvent:
+        """Return the event of a document.
+
+        Raises
+        ------
+        InputError
+            For an unknown kind, and for a job that scenario files may not have either.
+        """
+        kind: Any = document.get("kind")
+        if kind not in get_args(EventKind):
+            message = f"{quote(kind)} is no event of a job (give {', '.join(get_args(EventKind))})"
+            raise InputError.at("kind", message)
+        values = {key: document[key] for key in KEYS[kind]}
+        if "job" in values:
+            values["job"] = read_job(values["job"], LoadedMap(roadmap=roadmap))
+            values["name"] = values["job"].name
+        return cls(kind=kind, at=Tick(document["at"]), **values)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PooledJob:
+    """A job of the pool.
+
+    Attributes
+    ----------
+    job
+        The job; its times count from the start of the shift.
+    known
+        When it became known [ticks].
+    robot
+        Index of the robot that has begun it; None before.
+    begun, done
+        The numbers of its first stops that are begun, and that are done.
+    """
+
+    job: Job
+    known: Tick
+    robot: int | None = None
+    begun: int = 0
+    done: int = 0
+
+    @property
+    def is_begun(self) -> bool:
+        """Whether its first work is released: from then on only one robot may finish it."""
+        return self.robot is not None
+
+
+class Pool:
+    """The jobs that are known and not finished, in the order in which they became known.
+
+    Attributes
+    ----------
+    jobs
+        The jobs by name.
+    left
+        How each job has left the pool, by name: ``done``, ``withdrawn``, or a reason of
+        `rightofway.model.work.UnservedReason`.
+    """
+
+    def __init__(self) -> None:
+        self.jobs: dict[str, PooledJob] = {}
+        self.left: dict[str, str] = {}
+
+    def apply(self, event: PoolEvent) -> bool:
+        """Apply an event; return whether it has changed anything.
+
+        A job that is begun is neither changed nor withdrawn. Events of unknown jobs, of jobs that
+        have left, and of another robot than the one that has begun the job change nothing.
+
+        Parameters
+        ----------
+        event
+            What has happened.
+        """
+        own = self.jobs.get(event.name)
+        if own is None:
+            is_new = event.kind == "job known" and event.name not in self.left
+            if is_new and event.job is not None:
+                self.jobs[event.name] = PooledJob(job=event.job, known=event.at)
+            return is_new
+        later = _advance_job(own, event)
+        if isinstance(later, str):
+            del self.jobs[event.name]
+            self.left[event.name] = later
+            return True
+        self.jobs[event.name] = later
+        return later != own
+
+    def list_begun(self, robot: int) -> Iterator[PooledJob]:
+        """Yield the jobs that a robot has begun."""
+        return (own for own in self.jobs.values() if own.robot == robot)
+
+    def is_over(self, name: str) -> bool:
+        """Return whether a job has left the pool."""
+        return name in self.left
+
+    def to_document(self, roadmap: Roadmap) -> dict[str, Any]:
+        """Return the pool as JSON has it."""
+        jobs = [
+            {
+                "job": dump_job(own.job, roadmap),
+                "known": own.known,
+                "robot": own.robot,
+                "begun": own.begun,
+                "done": own.done,
+            }
+            for own in self.jobs.values()
+        ]
+        return {"jobs": jobs, "left": dict(self.left)}
+
+    @classmethod
+    def of_document(cls, document: Mapping[str, Any], roadmap: Roadmap) -> Pool:
+        """Return the pool of a document.
+
+        Raises
+        ------
+        InputError
+            For a job that scenario files may not have either.
+        """
+        pool, on = cls(), LoadedMap(roadmap=roadmap)
+        for own in document["jobs"]:
+            job = read_job(own["job"], on)
+            pool.jobs[job.name] = PooledJob(
+                job=job,
+                known=Tick(own["known"]),
+                robot=own["robot"],
+                begun=own["begun"],
+                done=own["done"],
+            )
+        pool.left.update(document["left"])
+        return pool
+
+
+def _advance_job(own: PooledJob, event: PoolEvent) -> PooledJob | str:
+    """Return a job after an event, or how it has left the pool."""
+    match event.kind:
+        case "job changed" if event.job is not None and not own.is_begun:
+            return replace(own, job=event.job)
+        case "job withdrawn" if not own.is_begun:
+            return "withdrawn"
+        case "job unserved":
+            return event.reason or "not found"
+        case "stop begun" | "stop done" if event.robot is not None and event.stop is not None:
+            return _count_stop(own, event.robot, event.stop, is_done=event.kind == "stop done")
+    return own
+
+
+def _count_stop(own: PooledJob, robot: int, stop: int, *, is_done: bool) -> PooledJob | str:
+    """Return a job whose stops up to one are begun, or done."""
+    if own.robot not in {None, robot} or not 0 <= stop < len(own.job.stops):
+        return own
+    done = max(own.done, stop + 1) if is_done else own.done
+    if done == len(own.job.stops):
+        return "done"
+    return replace(own, robot=robot, begun=max(own.begun, stop + 1), done=done)

@@ -1,0 +1,138 @@
+"""What a round reads and returns: the fleet forecast for the takeover, and a plan behind it.
+
+A round begins at `FleetView.now`; its plan takes over at `FleetView.takeover`. Until then the old
+plan stands. Each robot keeps the part of its route that it has begun by then, its *kept part*, and
+the round plans what comes behind it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from rightofway.facts import Fact
+from rightofway.model import Tick, Track, UnservedReason
+from rightofway.site import VertexId
+
+__all__ = ["FleetView", "PlannedStep", "RobotView", "Round"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlannedStep:
+    """Work at a stop of a job, or a charge, in a visit of a robot.
+
+    Attributes
+    ----------
+    visit
+        Index in the track that the step belongs to.
+    vertex
+        Where.
+    begin, end
+        From the takeover [ticks].
+    job, stop
+        Name of the job, and index of the stop among all its stops; None and None for a charge.
+    """
+
+    visit: int
+    vertex: VertexId
+    begin: Tick
+    end: Tick
+    job: str | None = None
+    stop: int | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RobotView:
+    """One robot as a round sees it.
+
+    Attributes
+    ----------
+    kept
+        The kept part, from the vertex on at which the robot has arrived; at least that vertex.
+        Times count from the takeover; those to come are forecast [ticks].
+    free
+        When the robot is expected to have arrived at the end of the kept part, and to have done
+        its work there, from the takeover [ticks], not negative.
+    heading
+        As `RobotState.heading`, at the end of the kept part [degrees].
+    soc
+        The state of charge then, forecast, from 0 to 1.
+    begun
+        Names of jobs that the robot has begun and not ended when it is free, each with the number
+        of its first stops that are done then.
+    is_able
+        Whether it can drive; if not, what it holds is a closure.
+    track, steps
+        The rest of the old plan: the route from the end of the kept part on, which is its first
+        vertex, and the work along it. None and nothing without an old plan.
+    """
+
+    kept: Track
+    free: Tick = field(default=Tick(0))
+    heading: Fraction | None = None
+    soc: Fraction = Fraction(1)
+    begun: tuple[tuple[str, int], ...] = ()
+    is_able: bool = True
+    track: Track | None = None
+    steps: tuple[PlannedStep, ...] = ()
+
+    @property
+    def at(self) -> VertexId:
+        """The vertex at the end of the kept part."""
+        return VertexId(int(self.kept.vertices[-1]))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FleetView:
+    """The fleet as a round sees it.
+
+    Attributes
+    ----------
+    now, takeover
+        When the round begins, and when its plan takes over, from the start of the shift [ticks].
+    robots
+        One for each robot of the scenario.
+    ends
+        Forecast ends of jobs that end in kept parts, by name, from the takeover [ticks]: jobs
+        after them begin then or later.
+    closed
+        Edges that robots shall not enter, tail and head.
+    """
+
+    now: Tick
+    takeover: Tick
+    robots: tuple[RobotView, ...]
+    ends: tuple[tuple[str, Tick], ...] = ()
+    closed: frozenset[tuple[int, int]] = frozenset()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Round:
+    """The plan of a round.
+
+    Attributes
+    ----------
+    tracks
+        For each robot its route behind the kept part, from the end of that on. Times count from
+        the takeover [ticks]; they order, and robots may be later.
+    steps
+        For each robot its work and charges along that route.
+    unserved
+        Names of the jobs that the round has tried and that no robot does in it, with reasons.
+    postponed
+        Names of the jobs that are left to later rounds.
+    stands
+        Whether the old plan stands, because nothing better was found.
+    facts
+        What the round has to tell.
+    seconds
+        How long it took [s].
+    """
+
+    tracks: tuple[Track, ...]
+    steps: tuple[tuple[PlannedStep, ...], ...]
+    unserved: tuple[tuple[str, UnservedReason], ...] = ()
+    postponed: tuple[str, ...] = ()
+    stands: bool = False
+    facts: tuple[Fact, ...] = ()
+    seconds: float = 0.0
