@@ -94,17 +94,10 @@ def _check_rows(lines: list[str], header: dict[str, str], above: int) -> tuple[s
 
 
 def find_beside(path: Path, named: str, folder: str) -> Path | None:
-    """Return a file that another file names, or None.
+    """Return a file that another file names, or None if there is none.
 
-    Parameters
-    ----------
-    path
-        The file that names it.
-    named
-        A path relative to that file. Its last part is also looked for next to the file, and in
-        a folder next to the folder of the file. No part leads upwards.
-    folder
-        The name of that folder.
+    Its name may be a path from there that does not lead upwards. The last part is also looked for
+    next to the file that names it, and in a folder of a given name next to that file's folder.
     """
     parts = re.split(r"[\\/]", named)
     inside = path.parent.joinpath(*parts) if not {"", ".."}.intersection(parts) else path.parent

@@ -61,7 +61,7 @@ def read_problem(document: Any, path: Path) -> Loaded:
     map_file = faults.attempt("", _find_file, problem, "mapFile", path)
     agents = faults.attempt("", _read_rows, problem, "agentFile", path)
     tasks = faults.attempt("", _read_rows, problem, "taskFile", path)
-    loaded = map_file and faults.attempt("mapFile", _load_map, map_file)
+    loaded = None if map_file is None else faults.attempt("mapFile", _load_map, map_file)
     team = faults.attempt("", _read_team, problem, agents)
     has_agents = faults.attempt("", _read_strategy, problem)
     reveal = faults.attempt("", _read_reveal, problem, team or 1, has_agents)
