@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import json
 from contextlib import suppress
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -27,7 +28,7 @@ from rightofway.io import (
     load_plan,
     write_plan,
 )
-from rightofway.model import Plan
+from rightofway.model import Plan, Track
 from rightofway.solve import solve
 from tests.builders.fleets import PAPER, paper_scenario
 
@@ -286,6 +287,53 @@ def test_what_is_written_is_read_back_with_the_same_visits(hall: Path, name: str
     assert [kind for kind in check(again).counts if kind != "wrong home"] == []
     (hall / "plan").write_text(format_foreign(plan, name), encoding="utf-8")
     assert load_either(hall / "plan", map_file=hall / "hall.map") == again
+
+
+def read_league(tmp_path: Path, tasks: str) -> Plan:
+    """Return a plan of a problem of the League: two agents on two rows of four cells."""
+    files = {
+        "hall.map": "type octile\nheight 2\nwidth 4\nmap\n....\n....\n",
+        "two.agents": "2\n0\n7\n",
+        "few.tasks": tasks,
+        "problem.json": json.dumps(
+            {"mapFile": "hall.map", "agentFile": "two.agents", "taskFile": "few.tasks",
+             "teamSize": 2, "numTasksReveal": 1.5, "version": "2024 LoRR"}
+        ),
+    }  # fmt: skip
+    for name, text in files.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    return solve(load(tmp_path / "problem.json"))
+
+
+def test_jobs_of_robots_that_turn_are_tasks_and_actions_of_the_league(tmp_path: Path) -> None:
+    """A0 goes from [0, 0] to [0, 1] and back; A1 from [1, 3], where it faces a wall, to [1, 2]."""
+    plan = read_league(tmp_path, "2\n1,0\n6\n")
+    document = json.loads(format_foreign(plan, "planviz"))
+    assert document["actualPaths"] == ["F,R,R,F", "R,R,F,W"]
+    assert document["start"] == [[0, 0, "E"], [1, 3, "E"]]
+    assert document["tasks"] == [[0, 0, [0, 1, 0, 0]], [1, 0, [1, 2]]]
+    assert document["events"] == [[1, 0, 0, 1], [3, 1, 1, 1], [4, 0, 0, 2]]
+    assert document["actualSchedule"] == ["1:0", "1:1"]
+    assert (document["makespan"], document["numTaskFinished"]) == (4, 2)
+    assert (document["actionModel"], document["version"]) == ("MAPF_T", "2024 LoRR")
+    path = tmp_path / "result.json"
+    path.write_text(json.dumps(document), encoding="utf-8")
+    assert names(load_plan(path, tmp_path / "hall.map")) == names(plan)
+
+
+def test_an_errand_that_the_league_does_not_count_is_not_finished(tmp_path: Path) -> None:
+    """One robot does both tasks at one cell and instant: the second one is not counted there."""
+    plan = read_league(tmp_path, "2\n1,0\n6\n")
+    twice = replace(plan, tours=((*plan.tours[0], plan.tours[0][-1]), ()))
+    document = json.loads(format_foreign(twice, "planviz"))
+    assert document["events"] == [[1, 0, 0, 1], [4, 0, 0, 2], [5, 0, 0, 2]]
+
+
+def test_a_move_without_the_time_for_its_turn_is_refused(tmp_path: Path) -> None:
+    plan = read_league(tmp_path, "2\n1,0\n6\n")
+    early = Track.of([7, 6], [0, 2])
+    with pytest.raises(InputError, match=r"robots\[1\]: drives 2 ticks after it came, and turns"):
+        format_foreign(replace(plan, tracks=(plan.tracks[0], early)), "planviz")
 
 
 @pytest.mark.parametrize("text", [STEPS, PATHS, SCHEDULE, MOVES, TURNS, RUNS])

@@ -89,16 +89,32 @@ def test_agents_are_robots_that_head_east_turn_by_a_right_angle_and_do_not_retur
 def test_tasks_of_2023_are_dealt_to_the_agents_in_turn(hall: Path) -> None:
     loaded = load_with_notes(write(hall, OLD, tasks=OLD_TASKS))
     assert loaded.reveal == 1  # for each agent
-    assert [(job.name, job.robot) for job in loaded.scenario.jobs or ()] == [
-        ("T0", "A0"),
-        ("T1", "A1"),
-        ("T2", "A0"),
-        ("T3", "A1"),
-        ("T4", "A0"),
+    assert [(job.name, job.robot, job.after) for job in loaded.scenario.jobs or ()] == [
+        ("T0", "A0", ()),
+        ("T1", "A1", ()),
+        ("T2", "A0", ("T0",)),  # an agent does its tasks in the order of the file
+        ("T3", "A1", ("T1",)),
+        ("T4", "A0", ("T2",)),
     ]
     greedy = load_with_notes(write(hall, {**OLD, "taskAssignmentStrategy": "greedy"}))
     assert greedy.reveal == 2  # one for each of two agents
     assert {job.robot for job in greedy.scenario.jobs or ()} == {None}
+
+
+def test_an_errand_where_the_one_before_it_is_takes_a_step_of_its_own(hall: Path) -> None:
+    """The League counts one errand of an agent in a step, and none before step 1."""
+    jobs = load(write(hall, OLD, tasks="4\n4\n3\n4\n8\n")).jobs or ()
+    assert [(s.earliest, s.work) for job in jobs for s in job.stops] == [
+        (1, 0),
+        (1, 0),
+        (1, 1),  # like T0, the task of A0 before it
+        (1, 0),
+    ]
+    jobs = load(write(hall, PROBLEM, tasks="2\n4,4,3\n3,0\n")).jobs or ()
+    assert [[(s.earliest, s.work) for s in job.stops] for job in jobs] == [
+        [(1, 0), (0, 1), (0, 0)],
+        [(1, 0), (0, 0)],
+    ]
 
 
 def test_all_cells_but_those_of_the_blocked_characters_are_free(hall: Path) -> None:

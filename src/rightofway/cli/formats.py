@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -218,19 +218,29 @@ def _write_plan(plan: Plan, path: str, name: str | None) -> None:
             say_of(path, note)
     elif name is not None:
         put_text(format_foreign(plan, name), path)
-        stages = [itinerary.stages for itinerary in plan.scenario.problem.itineraries]
-        if any(len(own) > 1 or own[0].work for own in stages):
-            say_of(
-                path,
-                "work, turning and ways back are left out, only cells and steps are kept",
-            )
-        if plan.scenario.problem.clock.tick != 1:
-            step = choose_quantities(plan.scenario).format_duration(1)
-            say_of(path, f"a step lasts {step}")
+        for note in _list_losses(plan, name):
+            say_of(path, note)
     elif path == "-" or path.lower().endswith((".json", ".xlsx")):
         write(plan, path)
     else:
         _write_scenario(plan.scenario, path)
+
+
+def _list_losses(plan: Plan, name: str) -> Iterator[str]:
+    """Yield what a plan for another program leaves out, a sentence each."""
+    from rightofway.io.foreign.planviz_writer import count_missed_errands, has_turns
+
+    stages = [itinerary.stages for itinerary in plan.scenario.problem.itineraries]
+    keeps_all = name == "planviz" and has_turns(plan.scenario)
+    if not keeps_all and any(len(own) > 1 or own[0].work for own in stages):
+        yield "work, turning and ways back are left out, only cells and steps are kept"
+    missed = count_missed_errands(plan) if keeps_all else 0
+    if missed:
+        rule = "the League counts one errand of an agent in a step"
+        yield f"stops that are not finished there: {missed}, because {rule}"
+    if plan.scenario.problem.clock.tick != 1:
+        step = choose_quantities(plan.scenario).format_duration(1)
+        yield f"a step lasts {step}"
 
 
 def _write_scenario(scenario: Scenario, path: str) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from rightofway.errors import InputError
 from rightofway.io.content import read_text
-from rightofway.io.foreign import lacam, lns2, planviz, schedule
+from rightofway.io.foreign import lacam, lns2, planviz, planviz_writer, schedule
 from rightofway.io.foreign.trajectories import ForeignPlan, plan_of_trajectories
 from rightofway.io.locations import add_lines
 from rightofway.kinds.table import make_words
@@ -52,7 +52,8 @@ FOREIGN_FORMATS: dict[str, ForeignFormat] = {
     ),
     "planviz": ForeignFormat(
         summary="PlanViz, League of Robot Runners: actions of each agent as JSON",
-        is_document=True, recognizes=planviz.recognizes, read=planviz.read, write=planviz.write,
+        is_document=True, recognizes=planviz.recognizes, read=planviz.read,
+        write=planviz_writer.write,
     ),
     "schedule": ForeignFormat(
         summary="multi_agent_path_planning, libMultiRobotPlanning: a YAML schedule",

@@ -16,7 +16,6 @@ complete. Its stops are the errands that it finishes, in order, and its last cel
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
@@ -27,17 +26,13 @@ from numpy.typing import NDArray
 from rightofway.errors import InputError, quote
 from rightofway.io.faults import Faults
 from rightofway.io.foreign.trajectories import (
-    MAX_STEP,
     Cell,
     ForeignPlan,
     Trajectory,
     Visits,
-    make_cells,
 )
 from rightofway.io.json_text import parse_json
 from rightofway.io.source import Source
-from rightofway.model import Plan
-from rightofway.model.route import compute_drives_along, compute_turns_along, find_serving_visits
 
 HEADINGS = {"E": (0, 1), "N": (-1, 0), "W": (0, -1), "S": (1, 0)}
 """Change of row and column, in the order of turns back (counterclockwise)."""
@@ -313,59 +308,3 @@ def _list_finished(source: Source, agent: int) -> Iterator[tuple[int, int, tuple
             raise source.make_fault(f'{quote(row)} is no event (give [task, step, "finished"])')
         if row[2] == "finished":
             yield row[1], agent, (row[0], 0)
-
-
-def write(plan: Plan) -> str:
-    """Return the text of a plan: actions without headings, as of the round of 2023.
-
-    Each stop is a task, finished when the robot has worked there.
-
-    Raises
-    ------
-    InputError
-        If the roadmap is no grid.
-    """
-    cells = make_cells(plan)
-    names = {move: action for action, move in MOVES.items()} | {(0, 0): "W"}
-    steps = zip(np.diff(cells.rows).tolist(), np.diff(cells.columns).tolist(), strict=True)
-    paths = [",".join(names.get(move, "W") for move in zip(*moves, strict=True)) for moves in steps]
-    tasks, events = list[list[int]](), list[list[list[int | str]]]()
-    grid = plan.scenario.roadmap.grid
-    assert grid is not None, "cells were found"
-    for robot, itinerary in enumerate(plan.scenario.problem.itineraries):
-        own: list[list[int | str]] = []
-        assigned = 0
-        for stage, finished in zip(itinerary.stages, _list_served(plan, robot), strict=False):
-            own += [[len(tasks), assigned, "assigned"], [len(tasks), finished, "finished"]]
-            tasks.append([len(tasks), *grid.get_cell(stage.vertex)])
-            assigned = finished
-        events.append(own)
-    document = {
-        "actionModel": "MAPF",
-        "AllValid": "Yes",
-        "teamSize": len(paths),
-        "start": [[*next(cells.list_cells(robot)), "N/A"] for robot in range(len(paths))],
-        "numTaskFinished": len(tasks),
-        "sumOfCost": sum(int(track.enter[-1]) for track in plan.tracks),
-        "makespan": max(int(track.enter[-1]) for track in plan.tracks),
-        "actualPaths": paths,
-        "plannerPaths": paths,
-        "plannerTimes": [],
-        "errors": [],
-        "events": events,
-        "tasks": tasks,
-    }
-    return json.dumps(document) + "\n"
-
-
-def _list_served(plan: Plan, robot: int) -> Sequence[int]:
-    """Return when each stop of a robot is done [ticks]."""
-    itinerary, track = plan.scenario.problem.itineraries[robot], plan.tracks[robot]
-    drive = compute_drives_along(plan.scenario.roadmap, itinerary, track.vertices.tolist())
-    turns = compute_turns_along(plan.scenario.roadmap, itinerary, track.vertices)
-    spare = np.append(np.diff(track.enter) - drive - turns[:-1], MAX_STEP)
-    serves = find_serving_visits(itinerary.stages, track.vertices, spare)
-    return [
-        int(track.enter[visit]) + stage.work
-        for visit, stage in zip(serves, itinerary.stages, strict=False)
-    ]

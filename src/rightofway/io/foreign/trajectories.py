@@ -232,8 +232,8 @@ class CellsOfPlan:
         return zip(rows, columns, strict=True)
 
 
-def make_cells(plan: Plan) -> CellsOfPlan:
-    """Return the cells of a plan on a grid, for the writers of other programs' files.
+def require_grid(plan: Plan) -> Grid:
+    """Return the grid of a plan that is written cell by cell.
 
     Raises
     ------
@@ -248,7 +248,19 @@ def make_cells(plan: Plan) -> CellsOfPlan:
     if last * len(plan.tracks) > MAX_CELLS:
         message = f"{last} ticks for {len(plan.tracks)} robots are too many for a list of cells"
         raise InputError.at("robots", f"{message} (write .json)")
-    ticks = np.arange(last + 1)
+    return grid
+
+
+def make_cells(plan: Plan) -> CellsOfPlan:
+    """Return the cells of a plan on a grid, for the writers of other programs' files.
+
+    Raises
+    ------
+    InputError
+        If the roadmap is no grid, or the plan has too many ticks for a list of cells.
+    """
+    grid = require_grid(plan)
+    ticks = np.arange(max(int(track.enter[-1]) for track in plan.tracks) + 1)
     cells = np.stack(
         [
             grid.cells[track.vertices[np.searchsorted(track.enter, ticks, side="right") - 1]]

@@ -7,6 +7,10 @@ one of 2024 is several, which one agent visits in order.
 
 Agents start heading east, move one cell and turn 90 degrees in a time unit, and do not return.
 A robot does one task of several locations at a time: it loads at the first and unloads at the last.
+
+At each step from 1 on, an agent finishes the next location of its task if it is there. So jobs have
+an `earliest` of 1, and a stop where the agent's stop before it is has a work time of 1. Where any
+robot may do a task, the first stop has none: the stop before it is not known.
 """
 
 from __future__ import annotations
@@ -18,7 +22,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from rightofway.errors import InputError, Location, locate_faults, name_file, quote
+from rightofway.errors import InputError, Location, Steps, Where, locate_faults, name_file, quote
 from rightofway.io.content import read_text
 from rightofway.io.faults import Faults
 from rightofway.io.movingai import find_beside, load_map
@@ -72,7 +76,7 @@ def read_problem(document: Any, path: Path) -> Loaded:
     robots = list(_place_agents(agents, loaded, team or 0, faults))
     jobs = list(_make_jobs(tasks, loaded, robots if has_agents else (), faults))
     faults.stop()
-    starts = {("jobs", index): tasks.locate(index) for index in range(len(jobs))}
+    starts: dict[Steps, Where] = {("jobs", k): tasks.locate(k) for k in range(len(jobs))}
     others = {"rules": RULES, "units": loaded.units}
     work = ReadWork(jobs=tuple(jobs), starts=starts)
     scenario = build_scenario(loaded.roadmap, robots, others, faults, work)
@@ -200,21 +204,33 @@ def _place_agents(
 def _make_jobs(
     tasks: Rows, loaded: LoadedMap, robots: Sequence[PlacedRobot], faults: Faults
 ) -> Iterator[Job]:
-    """Yield the tasks as jobs in the order of the file; with robots, dealt out in turn."""
+    """Yield the tasks as jobs in the order of the file; with robots, dealt out in turn.
+
+    Each robot does its tasks in this order.
+    """
+    lasts: dict[str | None, tuple[str, VertexId | None]] = {}  # of each agent
     for index, row in enumerate(tasks.rows):
         vertices = [
             faults.attempt(tasks.locate(index), _find_vertex, location, loaded) for location in row
         ]
-        stops = tuple(_make_stops([vertex for vertex in vertices if vertex is not None]))
+        places = [vertex for vertex in vertices if vertex is not None]
         robot = robots[index % len(robots)].robot.name if robots else None
-        if stops:
-            yield Job(name=f"T{index}", stops=stops, robot=robot)
+        before, at = lasts.get(robot, ("", None))
+        if places:
+            stops, after = tuple(_make_stops(places, at)), (before,) if before else ()
+            yield Job(name=f"T{index}", stops=stops, robot=robot, after=after)
+        if places and robot:
+            lasts[robot] = f"T{index}", places[-1]
 
 
-def _make_stops(vertices: Sequence[VertexId]) -> Iterator[JobStop]:
+def _make_stops(vertices: Sequence[VertexId], before: VertexId | None) -> Iterator[JobStop]:
+    """Yield the stops of a task, by the rule that an agent finishes one location in a step."""
     last = len(vertices) - 1
     for number, vertex in enumerate(vertices):
-        yield JobStop(at=vertex, load=(number == 0) - (number == last))
+        load = (number == 0) - (number == last)
+        earliest, work = Fraction(number == 0), Fraction(vertex == before)
+        yield JobStop(at=vertex, load=load, earliest=earliest, work=work)
+        before = vertex
 
 
 def _find_vertex(location: int, loaded: LoadedMap) -> VertexId:
