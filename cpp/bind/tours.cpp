@@ -146,6 +146,21 @@ Returns
 tuple of (int32[n], int32[n])
     In the order of jobs.)";
 
+constexpr auto tour_compare_doc =
+    R"(Return the objective with a job at its best place in the best tour of each robot.
+
+The job is in no other tour, and the jobs that come after it are in none.
+
+Parameters
+----------
+job : int
+    The job.
+
+Returns
+-------
+int64[R + 1]
+    `NEVER` where the job does not fit; the last is the objective without the job.)";
+
 constexpr auto tour_cost_doc = R"(Return what the best tours cost; compared from left to right.
 
 Returns
@@ -263,6 +278,16 @@ std::tuple<ArrayOut<std::int32_t>, ArrayOut<std::int32_t>> list_unserved(TourSea
     return {to_numpy(std::move(jobs)), to_numpy(std::move(reasons))};
 }
 
+ArrayOut<std::int64_t> compare_robots(TourSearch& self, std::int32_t job) {
+    const std::vector<std::int32_t> jobs{job};
+    require_ids("job", jobs, static_cast<std::int32_t>(self.problem().n_jobs()));
+    std::vector<std::int64_t> values;
+    for (const auto& value : self.compare_robots(job)) {
+        values.push_back(value.value_or(never));
+    }
+    return to_numpy(std::move(values));
+}
+
 void bind_tour_input(nb::module_& module) {
     using Ids = ArrayIn<std::int32_t>;
     using Wholes = ArrayIn<std::int64_t>;
@@ -339,6 +364,7 @@ void bind_tours(nb::module_& module) {
             "unserved",
             [](TourSearch& self) { return list_unserved(self, self.problem().n_jobs()); },
             tour_unserved_doc)
+        .def("compare_robots", &compare_robots, nb::arg("job"), tour_compare_doc)
         .def_prop_ro(
             "cost",
             [](const TourSearch& self) {

@@ -520,6 +520,26 @@ bool TourSearch::insert_by_regret(std::vector<std::int32_t> jobs, std::span<cons
     return true;
 }
 
+std::vector<std::optional<std::int64_t>> TourSearch::compare_robots(std::int32_t job) {
+    TourPlan without = best_;
+    without.remove(std::span(&job, 1));
+    const TourPlan kept = std::exchange(trial_, without);
+    std::vector<std::optional<std::int64_t>> values(problem_.n_robots() + 1);
+    values.back() = without.cost().value;
+    Insertion best;
+    for (RobotId robot = 0; index(robot) < problem_.n_robots() && trial_.is_open(job); ++robot) {
+        best.score = impossible;
+        best.robot = nobody;
+        try_robot(job, robot, 0, best);
+        if (best.exists() && trial_.insert(job, best)) {
+            values[index(robot)] = trial_.cost().value;
+            trial_.restore(without);
+        }
+    }
+    trial_ = kept;
+    return values;
+}
+
 UnservedReason TourSearch::explain(std::int32_t job) {
     const auto& after = problem_.job(job).after;
     if (!std::all_of(after.begin(), after.end(),

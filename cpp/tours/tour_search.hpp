@@ -47,6 +47,10 @@ class TourSearch {
     const TourPlan& best() const { return best_; }
     // Of each job: the reason for which it is in no tour.
     UnservedReason explain(std::int32_t job);
+    // Of each robot: the objective of the best tours with the job at its best place in the robot's
+    // tour, without the job in any other; nothing where it does not fit. The last entry is that
+    // without the job. Jobs that come after it are in no tour.
+    std::vector<std::optional<std::int64_t>> compare_robots(std::int32_t job);
 
   private:
     struct Method;

@@ -1788,6 +1788,23 @@ class TourSearch:
             In the order of jobs.
         """
 
+    def compare_robots(self, job: int) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+        """
+        Return the objective with a job at its best place in the best tour of each robot.
+
+        The job is in no other tour, and the jobs that come after it are in none.
+
+        Parameters
+        ----------
+        job : int
+            The job.
+
+        Returns
+        -------
+        int64[R + 1]
+            `NEVER` where the job does not fit; the last is the objective without the job.
+        """
+
     @property
     def cost(self) -> tuple[int, int, int, int]:
         """

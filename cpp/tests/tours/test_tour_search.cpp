@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -51,6 +52,18 @@ TEST_CASE("a job waits for the end of a job of another robot") {
     CHECK(stops_of(search, 0) == Ids{0});
     CHECK(stops_of(search, 1) == Ids{1});
     CHECK(search.best().tour(1).times().begin == std::vector<Tick>{7});
+}
+
+TEST_CASE("a job is compared on all robots, and the best tours stay") {
+    // From 0 to 5 and from 20 to 5.
+    const auto problem =
+        make_line({{{{5}}}, {{{18}}}}, {{.start = 0}, {.start = 20}}, TourObjective::service);
+    TourSearch search(*problem, 1);
+    search.construct({});
+    // 5 ticks before or after nothing; after 18 at 2 another 13; 2 is what the other job costs.
+    CHECK(search.compare_robots(0) == std::vector<std::optional<std::int64_t>>{2 + 5, 2 + 15, 2});
+    CHECK(search.best().cost() == TourCost{0, 0, 7, 7});
+    CHECK(search.compare_robots(0) == search.compare_robots(0));
 }
 
 TEST_CASE("jobs that wait for each other are refused") {

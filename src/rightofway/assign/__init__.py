@@ -7,11 +7,16 @@ from typing import TYPE_CHECKING
 from rightofway.provision import import_later
 
 if TYPE_CHECKING:
+    from rightofway.assign.alternatives import JobCost, list_job_costs
     from rightofway.assign.homes import HOMELESS, deal_homes
     from rightofway.assign.tours import AssignmentCost, AssignmentSearch
     from rightofway.assign.travel import Travel, measure_travel
 
 _MODULES = {
+    "alternatives": (
+        "JobCost",
+        "list_job_costs",
+    ),
     "homes": (
         "HOMELESS",
         "deal_homes",
@@ -30,8 +35,10 @@ __all__ = [
     "HOMELESS",
     "AssignmentCost",
     "AssignmentSearch",
+    "JobCost",
     "Travel",
     "deal_homes",
+    "list_job_costs",
     "measure_travel",
 ]
 

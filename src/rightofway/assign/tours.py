@@ -139,6 +139,16 @@ class AssignmentSearch:
         """
         return self._search.improve(n_steps, time_limit)
 
+    def compare_robots(self, job: int) -> tuple[list[int | None], int]:
+        """Return the objective with a job on each robot, and without the job.
+
+        The job is at its best place in the best tour of the robot; None where it fits nowhere. It
+        is in no other tour, and the jobs that come after it are in none. Values are those of
+        `AssignmentCost.value`.
+        """
+        *values, without = self._search.compare_robots(job).tolist()
+        return [None if value == _core.NEVER else value for value in values], without
+
     @property
     def cost(self) -> AssignmentCost:
         """What the best assignment costs."""

@@ -9,6 +9,7 @@ from rightofway.metrics.jobs import JobTimes, list_job_times
 from rightofway.metrics.lost_time import compute_lost_time, join_waits
 from rightofway.metrics.measure import Metrics, measure
 from rightofway.metrics.outcome import derive_outcome
+from rightofway.metrics.tours import TourCourse, trace_tours
 from rightofway.metrics.waits import waits
 from rightofway.provision import import_later
 
@@ -83,6 +84,7 @@ __all__ = [
     "NearMiss",
     "Site",
     "Swap",
+    "TourCourse",
     "compare",
     "compute_alone_completions",
     "compute_lost_time",
@@ -101,6 +103,7 @@ __all__ = [
     "make_event_columns",
     "measure",
     "name_collisions",
+    "trace_tours",
     "waits",
 ]
 
