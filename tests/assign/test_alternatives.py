@@ -56,5 +56,8 @@ def test_the_cost_is_of_the_objective_of_the_rules(objective: str, costs: list[i
 
 
 def test_jobs_that_come_after_a_job_do_not_count() -> None:
-    jobs = [{"name": "J1", "at": "N3"}, {"name": "J2", "at": "N4", "after": ["J1"]}]
+    jobs: list[dict[str, Any]] = [
+        {"name": "J1", "at": "N3"},
+        {"name": "J2", "at": "N4", "after": ["J1"]},
+    ]
     assert _list_costs(jobs)[0] == [(0, 3), (1, 6)]
