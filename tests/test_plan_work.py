@@ -10,7 +10,7 @@ import pytest
 from rightofway import check, solve
 from rightofway.check import Report
 from rightofway.deadline import NO_DEADLINE, Deadline
-from rightofway.errors import GaveUp
+from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.facts import Fact
 from rightofway.io import parse_scenario
 from rightofway.metrics import compute_lost_time, derive_outcome, list_job_times
@@ -119,6 +119,31 @@ def test_a_search_that_ends_early_does_not_speak_of_time(planner: str) -> None:
     ]
     with pytest.raises(GaveUp, match="though time was left"):
         solve(parse_scenario(document), planner)
+
+
+def test_robots_that_stand_in_each_others_ways_make_room() -> None:
+    """Whoever does J2 has to pass the other robot twice, at the only place where the lane forks."""
+    places = [("N0", 1), ("N0", 0), ("N6", -1), ("N5", 0)]
+    stops = [{"at": place, "load": load} for place, load in places]
+    jobs = [{"name": "J1", "at": "N5"}, {"name": "J2", "stops": stops, "after": ["J1"]}]
+    document = make_document(jobs) | {"map": {"grid": [".@", ".@", "..", ".@"]}}
+    document["robots"] = [{"name": "R1", "home": "N4"}, {"name": "R2", "home": "N2"}]
+    document["rules"] = {"occupancy": "both", "headway": 1, "turn": 0}
+    plan = solve(parse_scenario(document))
+    assert check(plan).ok
+    assert not plan.unserved
+    assert "in waves" in str(plan.run.status.as_dict())
+
+
+def test_robots_that_cannot_pass_each_other_have_no_plan_whatever_they_do() -> None:
+    """Both have to go to the other end of a lane. Jobs could be left out, the way home cannot."""
+    document = make_document([{"name": "J1", "at": "N2"}]) | {"map": {"grid": ["....."]}}
+    document["robots"] = [
+        {"name": "R1", "home": "N0", "start": {"at": "N4"}},
+        {"name": "R2", "home": "N4", "start": {"at": "N0"}},
+    ]
+    with pytest.raises(NoPlanExists, match="R1 and R2 block each other"):
+        solve(parse_scenario(document))
 
 
 def test_each_better_plan_is_handed_over() -> None:

@@ -155,6 +155,7 @@ class Status(KeptFact):
         "then": {"first": _STATUS, "second": _STATUS},
         "in turn": {},
         "one at a time": {},
+        "in waves": {},
         "in turn at one pace": {},
         "together": {},
         "together after in turn": {},

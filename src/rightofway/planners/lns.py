@@ -23,7 +23,7 @@ from rightofway.errors import GaveUp
 from rightofway.facts import Fact
 from rightofway.model import Improvement, Objective, Status, Tick, Track
 from rightofway.planners.lacam import plan_by_instants, plan_fleet
-from rightofway.planners.prioritized import MOST_ROBOTS, plan_in_turn
+from rightofway.planners.prioritized import MOST_ROBOTS, plan_in_turn, plan_whole_fleet
 from rightofway.precedence import build_graph_of_plan
 from rightofway.repair.fleet_search import make_fleet_search
 from rightofway.repair.task import Draft, Task
@@ -92,9 +92,9 @@ def improve_best(
         has_plan = first is not None or together is not None
         drafts = (first, together, _plan_in_turn(task, search, has_plan=has_plan))
     plans = [plan for plan in drafts if plan is not None]
-    if not plans and not problem.has_times:
-        is_simple = problem.resources.are_points and problem.is_open
-        together = _plan_together(task) if is_simple else plan_fleet(task)
+    if not plans:
+        is_simple = problem.resources.are_points and problem.is_open and not problem.has_times
+        together = _plan_together(task) if is_simple else plan_whole_fleet(task)
         plans = [together] if together is not None else []
     if not plans:
         is_over = task.deadline.measure_seconds_left() == 0

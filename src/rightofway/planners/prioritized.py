@@ -18,13 +18,13 @@ from dataclasses import replace
 from fractions import Fraction
 
 from rightofway.deadline import Deadline
-from rightofway.errors import GaveUp
 from rightofway.facts import Fact
 from rightofway.model import Scenario, Status, Stop, compute_cost
 from rightofway.planners.lacam import plan_fleet
 from rightofway.precedence import build_graph_of_plan, build_timetable
 from rightofway.repair.fleet_search import make_fleet_search
 from rightofway.repair.task import Draft, Task
+from rightofway.repair.waves import plan_in_waves
 from rightofway.search import FleetSearch
 
 SHARE, SHARE_AT_ONE_PACE, SHARE_OF_MORE = 0.3, 0.9, 0.8
@@ -56,12 +56,17 @@ def prioritized(task: Task) -> Draft:
     draft = plan_in_turn(task, make_fleet_search(task), task.options["order"])
     if draft is not None:
         return draft
-    if task.scenario.problem.has_times:
-        is_over = task.deadline.measure_seconds_left() == 0
-        raise GaveUp(Fact("time over without a plan" if is_over else "no first plan"))
     task.deadline.check(Fact("planning in turn"))
+    together = plan_whole_fleet(task)
     status = Status("together after in turn")
-    return replace(plan_fleet(task), status=status)
+    return together if task.scenario.problem.has_times else replace(together, status=status)
+
+
+def plan_whole_fleet(task: Task) -> Draft:
+    """Plan the whole fleet at once, in waves where stages have times."""
+    if task.scenario.problem.has_times:
+        return plan_in_waves(task, plan_fleet)
+    return plan_fleet(task)
 
 
 def plan_in_turn(
