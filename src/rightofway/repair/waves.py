@@ -20,7 +20,7 @@ import numpy as np
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.facts import Fact
 from rightofway.model import Robot, Scenario, Status, Stop, Tick, Track
-from rightofway.model.stays import compute_completions
+from rightofway.model.stays import compute_completions, find_stays
 from rightofway.repair.task import Draft, Task
 from rightofway.site import VertexId
 
@@ -39,7 +39,7 @@ def plan_in_waves(task: Task, plan_wave: PlanWave) -> Draft:
     NoPlanExists
         If robots without tours cannot all drive home.
     GaveUp
-        If no plan of a wave was found, or the scenario has closures.
+        If no plan of a wave was found, a stage would end too late, or the scenario has closures.
     """
     scenario, itineraries = task.scenario, task.scenario.problem.itineraries
     if scenario.closures:
@@ -69,12 +69,25 @@ def plan_in_waves(task: Task, plan_wave: PlanWave) -> Draft:
         # Who comes next to a place keeps the headway behind who was there in the wave before.
         lasted = max(compute_completions(wave, tracks))
         begins = Tick(begins + lasted + scenario.problem.booking_rules.headway)
-    task.has_plan()
     tracks = tuple(
         Track(vertices=np.array(own, np.int32), enter=np.array(times, np.int64))
         for own, times in zip(vertices, enter, strict=True)
     )
+    if not _is_in_time(scenario, tracks):
+        raise GaveUp(Fact("no first plan"))
+    task.has_plan()
     return Draft(tracks=tracks, status=Status("in waves"))
+
+
+def _is_in_time(scenario: Scenario, tracks: Sequence[Track]) -> bool:
+    """Return whether each stage ends at its `latest` or before."""
+    return all(
+        stage.latest is None or end <= stage.latest
+        for itinerary, stays in zip(
+            scenario.problem.itineraries, find_stays(scenario, tracks), strict=True
+        )
+        for stage, end in zip(itinerary.stages, stays.ends, strict=False)
+    )
 
 
 class _Waves:
