@@ -13,7 +13,13 @@ from rightofway.deadline import NO_DEADLINE, Deadline
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.facts import Fact
 from rightofway.io import parse_scenario
-from rightofway.metrics import compute_lost_time, derive_outcome, list_job_times
+from rightofway.metrics import (
+    compute_lost_time,
+    derive_outcome,
+    list_job_times,
+    measure,
+    waits,
+)
 from rightofway.model import OutcomeKind, Plan, PlannerRun
 from rightofway.model.scenario import assign_tours
 from rightofway.model.work import Assignment
@@ -82,6 +88,22 @@ def test_time_until_a_job_may_begin_is_not_lost() -> None:
     assert derive_outcome(plan).kind is OutcomeKind.BEST_FOUND
 
 
+def test_a_robot_that_waits_for_the_job_of_another_names_that_robot() -> None:
+    """R1 stands at N1 until R2 has ended J1; it makes no detour."""
+    jobs = [carry("J1", 2, 10) | {"robot": "R2"}, {"name": "J2", "at": "N1", "after": ["J1"]}]
+    document = make_document(jobs) | {"map": {"grid": ["....", ".@.@", "...."]}}
+    document["robots"] = [{"name": "R1", "home": "N0"}, {"name": "R2", "home": "N3"}]
+    plan = solve(parse_scenario(document))
+    first = compute_lost_time(plan)[0]
+    (loss,) = first.losses
+    assert (loss.kind, loss.for_robot, loss.vertex) == ("waits for job", 1, 1)
+    assert loss.ticks == first.waiting == first.lost == measure(plan).waiting
+    assert [(wait.tick, wait.ticks, wait.for_robot) for wait in waits(plan)] == [
+        (loss.tick, loss.ticks, 1)
+    ]
+    assert loss.end == list_job_times(plan)[0].end
+
+
 def test_fewer_jobs_are_planned_where_all_of_them_have_no_plan() -> None:
     """The heaviest jobs are kept; those that are dropped, and those after them, have a reason."""
     jobs = [carry("J1", 1, 3), carry("J2", 4, 5, weight=5), carry("J3", 16, 14, after=["J1"])]
@@ -125,14 +147,17 @@ def test_robots_that_stand_in_each_others_ways_make_room() -> None:
     """Whoever does J2 has to pass the other robot twice, at the only place where the lane forks."""
     places = [("N0", 1), ("N0", 0), ("N6", -1), ("N5", 0)]
     stops = [{"at": place, "load": load} for place, load in places]
-    jobs = [{"name": "J1", "at": "N5"}, {"name": "J2", "stops": stops, "after": ["J1"]}]
+    jobs: list[dict[str, Any]] = [
+        {"name": "J1", "at": "N5"},
+        {"name": "J2", "stops": stops, "after": ["J1"]},
+    ]
     document = make_document(jobs) | {"map": {"grid": [".@", ".@", "..", ".@"]}}
     document["robots"] = [{"name": "R1", "home": "N4"}, {"name": "R2", "home": "N2"}]
     document["rules"] = {"occupancy": "both", "headway": 1, "turn": 0}
     plan = solve(parse_scenario(document))
     assert check(plan).ok
     assert not plan.unserved
-    assert "in waves" in str(plan.run.status.as_dict())
+    assert "in waves" in str(plan.run.status)
 
 
 def test_robots_that_cannot_pass_each_other_have_no_plan_whatever_they_do() -> None:

@@ -84,6 +84,7 @@ def _list_events_of(plan: Plan, robot: int, stay: Stays, losses: Sequence[Loss])
     enters = track.enter.tolist()
     waited = [loss for loss in losses if loss.kind != "makes room"]
     room = [loss for loss in losses if loss.kind == "makes room"]
+    waits_for = {hold.visit: hold.for_robot for hold in stay.holds}
     columns = (track.vertices, stay.dwell, stay.waits, stay.turns)
     rows = zip(*(column.tolist() for column in columns), strict=True)
     for visit, (vertex, dwell, waiting, turns) in enumerate(rows):
@@ -100,7 +101,7 @@ def _list_events_of(plan: Plan, robot: int, stay: Stays, losses: Sequence[Loss])
             enter=Tick(enters[visit]),
             leave=Tick(enters[visit + 1]) if visit + 1 < len(enters) else None,
             waits=Tick(waiting),
-            waits_for=None if reason is None else reason.for_robot,
+            waits_for=waits_for.get(visit) if reason is None else reason.for_robot,
             to_leave=None if reason is None else reason.freed,
         )
 

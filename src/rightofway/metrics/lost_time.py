@@ -23,7 +23,7 @@ from rightofway.kinds.arguments import checks_arguments
 from rightofway.kinds.table import require_one_for_each
 from rightofway.metrics.collisions import BookedPlaces, list_bookings
 from rightofway.metrics.measure import measure
-from rightofway.metrics.waits import NOBODY, find_freeing_visits
+from rightofway.metrics.waits import NOBODY, drop_holds, find_freeing_visits
 from rightofway.model import (
     Itinerary,
     Loss,
@@ -123,7 +123,8 @@ def _join_waits(
 ) -> Iterator[Loss]:
     lengths = np.array([len(track) for track in tracks])
     robot = np.repeat(np.arange(len(tracks)), lengths)
-    waiting = np.concatenate([stay.waits for stay in stays])
+    waiting = np.concatenate([drop_holds(stay) for stay in stays])
+    yield from _list_holds(tracks, stays)
     enter = np.concatenate([track.enter for track in tracks])
     begin = (enter + np.concatenate([stay.dwell for stay in stays])).tolist()
     vertex = [
@@ -141,6 +142,26 @@ def _join_waits(
         joined.append(wait)
     if joined:
         yield _join_wait(joined, robot, vertex, begin, waiting)
+
+
+def _list_holds(tracks: Sequence[Track], stays: Sequence[Stays]) -> Iterator[Loss]:
+    """Yield the waits at stops for jobs of other robots."""
+    for robot, (track, stay) in enumerate(zip(tracks, stays, strict=True)):
+        for hold in stay.holds:
+            place = VertexId(int(track.vertices[hold.visit]))
+            yield Loss(
+                kind="waits for job",
+                robot=robot,
+                for_robot=hold.for_robot,
+                vertex=place,
+                until_vertex=place,
+                towards=place,
+                freed=None,
+                tick=hold.tick,
+                end=Tick(hold.tick + hold.ticks),
+                ticks=hold.ticks,
+                count=1,
+            )
 
 
 def _find_next_bound(frees: NDArray[np.int64], robot: NDArray[np.int64]) -> NDArray[np.int64]:

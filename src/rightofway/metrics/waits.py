@@ -39,7 +39,7 @@ def waits_in(
 ) -> tuple[Wait, ...]:
     """Return all waits of tracks that keep the rules, given the parts of their visits."""
     lengths = [len(track) for track in tracks]
-    waiting = np.concatenate([stay.waits for stay in stays])
+    waiting = np.concatenate([drop_holds(stay) for stay in stays])
     enter = np.concatenate([track.enter for track in tracks])
     vertex = np.concatenate([track.vertices for track in tracks])
     begin = enter + np.concatenate([stay.dwell for stay in stays])
@@ -55,7 +55,7 @@ def waits_in(
         vertex[visit + 1],
         np.where(frees == NOBODY, NOBODY, robot[frees])[visit + 1],
     )
-    return tuple(
+    found = [
         Wait(
             robot=robot,
             vertex=VertexId(vertex),
@@ -67,7 +67,28 @@ def waits_in(
         for robot, vertex, tick, ticks, towards, for_robot in zip(
             *(column.tolist() for column in columns), strict=True
         )
-    )
+    ]
+    holds = [
+        Wait(
+            robot=robot,
+            vertex=(place := VertexId(int(track.vertices[hold.visit]))),
+            tick=hold.tick,
+            ticks=hold.ticks,
+            towards=place,
+            for_robot=hold.for_robot,
+        )
+        for robot, (track, stay) in enumerate(zip(tracks, stays, strict=True))
+        for hold in stay.holds
+    ]
+    return tuple(sorted([*found, *holds], key=lambda wait: (wait.tick, wait.robot)))
+
+
+def drop_holds(stay: Stays) -> NDArray[np.int64]:
+    """Return the waits of each visit of a robot without those for jobs of others; int64."""
+    waiting = stay.waits.copy()
+    for hold in stay.holds:
+        waiting[hold.visit] -= hold.ticks
+    return waiting
 
 
 def find_freeing_visits(

@@ -20,6 +20,7 @@ class Loss:
     kind
         ``waits``: the robot stands still with nothing to do. ``follows``: it waits several times
         behind the same robot, along a run of vertices that both drive in the same direction.
+        ``waits for job``: it stands at a stop until a job of another robot has ended.
         ``makes room``: it leaves a vertex and comes back to it without a stop in between.
     robot
         The robot that loses time, by index.
@@ -31,11 +32,12 @@ class Loss:
         Where it waits last; for a single wait, and for a robot that makes room, equal to
         ``vertex``.
     towards
-        The vertex where it goes after the last wait; or the first one that it makes room in.
+        The vertex where it goes after the last wait; or the first one that it makes room in; or
+        the stop where it waits for a job.
     freed
         The vertex that ``for_robot`` leaves, for the last wait, at the very tick from which the
         robot may book its way on: ``towards``, a vertex further on the route, or one too near to
-        these for robots with a size. None where no robot is the cause.
+        these for robots with a size. None where no robot is the cause, or its job is.
     tick, end
         When the first wait begins and the last one ends; or when the robot leaves the vertex and
         when it is back [ticks].
@@ -45,7 +47,7 @@ class Loss:
         How many waits are joined; 1 for a robot that makes room.
     """
 
-    kind: Literal["waits", "follows", "makes room"]
+    kind: Literal["waits", "follows", "makes room", "waits for job"]
     robot: int
     for_robot: int | None
     vertex: VertexId
@@ -76,8 +78,8 @@ class LostTime:
     waiting
         How long it stands still with nothing to do [ticks].
     losses
-        The causes, by tick, then the longest first: those that wait or follow sum up to
-        ``waiting``, the others to ``making_room``.
+        The causes, by tick, then the longest first: those that make room sum up to
+        ``making_room``, the others to ``waiting``.
     """
 
     robot: int
@@ -143,11 +145,11 @@ class Wait:
     ticks
         How long it lasts [ticks].
     towards
-        The vertex where the robot goes next.
+        The vertex where the robot goes next; where it waits, if it waits for the end of a job.
     for_robot
         The robot whose right of way binds the visit of that vertex: the waiting robot books it as
-        soon as that robot is out of the way. None if no right of way does: then the reason lies
-        further on the route.
+        soon as that robot is out of the way; or the robot that ends a job first. None if no right
+        of way does: then the reason lies further on the route.
     """
 
     robot: int

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,25 @@ from rightofway.model.units import NEVER, Tick
 from rightofway.site import Roadmap
 
 
+class Hold(NamedTuple):
+    """A robot stands at a stop until a job of another robot has ended.
+
+    Attributes
+    ----------
+    visit
+        Its visit.
+    tick, ticks
+        When it could begin its own work, and how long it waits then [ticks].
+    for_robot
+        The other robot.
+    """
+
+    visit: int
+    tick: Tick
+    ticks: Tick
+    for_robot: int
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Stays:
     """The visits of one robot.
@@ -35,7 +55,7 @@ class Stays:
     drive
         Ticks of the edge that ends each visit, 0 for the last one; int64, shape (n,).
     waits
-        Ticks of each visit beyond both, 0 for the last one; int64, shape (n,).
+        Ticks of each visit beyond both, for the last one those of `holds`; int64, shape (n,).
     turns
         How long the robot turns on the spot between two edges, a part of `dwell`, 0 for the first
         visit and the last one; int64, shape (n,).
@@ -47,6 +67,8 @@ class Stays:
     begins, ends
         In a scenario with jobs, when the work of each of these stages begins and ends [ticks]. Then
         `dwell` also holds the ticks until the robot is ready, and before works may begin.
+    holds
+        In a plan with jobs, the waits for jobs of other robots, in order; a part of `waits`.
     """
 
     dwell: NDArray[np.int64]
@@ -57,6 +79,7 @@ class Stays:
     completion: Tick
     begins: tuple[Tick, ...] = ()
     ends: tuple[Tick, ...] = ()
+    holds: tuple[Hold, ...] = ()
 
 
 def find_stays(
@@ -93,15 +116,17 @@ def find_stays(
     spare[ends - 1] = NEVER
     if scenario.problem.has_times and tours is None:
         return _find_stays_in_time(scenario.problem, tracks, owns, (drive, turns, spare))
-    all_serves = []
+    all_serves, all_holds = [], list[tuple[Hold, ...]]()
     for robot, (own, track) in enumerate(zip(owns, tracks, strict=True)):
         if tours is None:
             stages = scenario.problem.itineraries[robot].stages
             serves = find_serving_visits(stages, track.vertices, spare[own])
             dwell[own] = compute_least_dwells(stages, serves, len(track))
+            all_holds.append(())
         else:
             serves = [item.visit for item in tours[robot]]
-            dwell[own] = _dwells_of_tour(scenario, robot, track, tours)
+            dwell[own], holds = _dwells_of_tour(scenario, robot, track, tours)
+            all_holds.append(tuple(holds))
         all_serves.append(tuple(serves))
     dwell += turns
     completion = (enter + dwell)[ends - 1].tolist()
@@ -111,7 +136,10 @@ def find_stays(
             for robot, (track, tour) in enumerate(zip(tracks, tours, strict=True))
         ]
     waits = spare + turns - dwell
-    waits[ends - 1] = 0
+    waits[ends - 1] = [
+        sum(hold.ticks for hold in holds if hold.visit == len(track) - 1)
+        for track, holds in zip(tracks, all_holds, strict=True)
+    ]
     return tuple(
         Stays(
             dwell=dwell[own],
@@ -120,43 +148,49 @@ def find_stays(
             turns=turns[own],
             serves=serves,
             completion=Tick(done),
+            holds=holds,
         )
-        for own, serves, done in zip(owns, all_serves, completion, strict=True)
+        for own, serves, done, holds in zip(owns, all_serves, completion, all_holds, strict=True)
     )
 
 
 def _dwells_of_tour(
     scenario: Scenario, robot: int, track: Track, tours: Sequence[PlannedTour]
-) -> NDArray[np.int64]:
-    """Return the ticks of each visit in which nobody is in the way of the robot; shape (n,).
+) -> tuple[NDArray[np.int64], list[Hold]]:
+    """Return the ticks of each visit in which nobody is in the way of the robot, and its holds.
 
     Work, charges, the turn at a stop, and the time until the robot is ready or its job may begin.
     """
     assert scenario.problem.work is not None, "tours are of jobs"
     state, jobs = scenario.problem.work.robots[robot], scenario.problem.work.jobs
-    dwell, free = np.zeros(len(track), np.int64), state.ready
+    dwell, free, holds = np.zeros(len(track), np.int64), state.ready, list[Hold]()
     dwell[0] = state.ready
     for item in tours[robot]:
         arrived = max(free, int(track.enter[item.visit]))
-        idle = 0
+        opens = arrived
         if item.job is not None and item.stop is not None:
             job = jobs[item.job]
-            opens = [0]
             if item.stop >= job.first:
-                opens.append(job.stops[item.stop - job.first].earliest)
+                earliest = job.stops[item.stop - job.first].earliest
+                opens = max(arrived, min(item.begin, earliest))
             if item.stop == job.first:
-                opens += (_find_end(tours, before) for before in job.after)
-            idle = max(0, min(item.begin, max(opens)) - arrived)
-        dwell[item.visit] += idle + item.end - item.begin
+                end, other = max((_find_end(tours, before) for before in job.after), default=(0, 0))
+                if min(item.begin, end) > opens:
+                    ticks = Tick(min(item.begin, end) - opens)
+                    holds.append(Hold(item.visit, Tick(opens), ticks, other))
+        dwell[item.visit] += opens - arrived + item.end - item.begin
         free = item.end
     left = sorted({item.visit for item in tours[robot] if item.visit < len(track) - 1})
     dwell[left] += state.turn
-    return dwell
+    return dwell, holds
 
 
-def _find_end(tours: Sequence[PlannedTour], job: int) -> int:
-    """Return when a job ends [ticks]; 0 for a job that no robot does."""
-    return max((item.end for tour in tours for item in tour if item.job == job), default=0)
+def _find_end(tours: Sequence[PlannedTour], job: int) -> tuple[int, int]:
+    """Return when a job ends [ticks], and the robot that does it; 0 and 0 for one without."""
+    ends = (
+        (item.end, robot) for robot, tour in enumerate(tours) for item in tour if item.job == job
+    )
+    return max(ends, default=(0, 0))
 
 
 def _complete_tour(scenario: Scenario, robot: int, track: Track, tour: PlannedTour) -> Tick:

@@ -68,7 +68,7 @@ def plan_in_waves(task: Task, plan_wave: PlanWave) -> Draft:
         waves.serve(counts)
         # Who comes next to a place keeps the headway behind who was there in the wave before.
         lasted = max(compute_completions(wave, tracks))
-        begins = Tick(begins + lasted + scenario.problem.booking_rules.headway)
+        begins = Tick(begins + scenario.problem.booking_rules.end(lasted))
     tracks = tuple(
         Track(vertices=np.array(own, np.int32), enter=np.array(times, np.int64))
         for own, times in zip(vertices, enter, strict=True)

@@ -199,6 +199,8 @@ def describe_loss(words: Words, loss: Loss) -> Phrase:
                 return Phrase("follows at place", **names)
             end_place = words.name_place(loss.until_vertex)
             return Phrase("follows along way", **names, there=end_place)
+        case "waits for job":
+            return Phrase("waits for job", **names)
         case "makes room":
             if loss.for_robot is None:
                 return Phrase("makes room", **names)

@@ -88,7 +88,7 @@ Stoppages = Sequence[tuple[Tick, Tick | None]]
 DECIMALS = 3
 """Decimals of a place in the diagram; a thousandth of a length unit cannot be seen."""
 
-LOSSES = ("waits", "follows", "makes room")
+LOSSES = ("waits", "follows", "makes room", "waits for job")
 """Kinds of lost time; the page is given their places in this list."""
 
 
