@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
+from typing import Any
 
 from rightofway.facts import Fact
 from rightofway.metrics import Finding, Site, inspect
@@ -11,6 +13,7 @@ from rightofway.report.facts import FactWriter
 from rightofway.report.inspection import describe_finding, describe_site, export_finding
 from rightofway.site import VertexId, make_grid_roadmap
 from rightofway.units import Units
+from tests.builders.languages import translate
 
 CELLS = make_grid_roadmap(["...", "..."])
 METRES = Units(length="m", time="s")
@@ -73,3 +76,29 @@ def test_the_sizes_of_many_parts_are_cut_and_counted() -> None:
     site = Site(roadmap=make_grid_roadmap([".@" * 10]))
     _, parts = describe_site(site, inspect(site))
     assert parts == "10 strongly connected parts, of 1, 1, 1, 1, 1, 1, 1 and 3 more vertices."
+
+
+def test_findings_on_jobs_and_a_well_formed_fleet_have_sentences_in_both_languages() -> None:
+    site = Site(roadmap=CELLS, robots=(ROBOT, replace(ROBOT, name="R2", home=VertexId(2))))
+    writer = FactWriter(site)
+    own: dict[str, Any] = {"job": "J1", "robot": 0, "place": 4}
+    shares = {"need": Fraction(91, 100), "most": Fraction(9, 10)}
+    facts = [
+        (Fact("job without robot", site, job="J1"), "no robot may do J1 and can carry it"),
+        (Fact("job without way", site, **own), "R1 has no way to N4 (stop of R1 and R2) for J1"),
+        (Fact("job through homes", site, **own), "only through homes of other robots"),
+        (
+            Fact("job beyond battery", site, **own, **shares),
+            "J1 takes 91 % of a full battery of R1, and 90 % may be used",
+        ),
+        (Fact("home does not charge", site, **own | {"place": 0}), "is not charged at N0 (home of"),
+        (Fact("starts away from home", site, robots=(0,)), "R1 does not start at home"),
+        (Fact("home closed", site, robots=(0, 1)), "the homes of R1 and R2 are closed for some"),
+        (Fact("jobs begun", site, robots=(1,)), "R2 has begun a job"),
+        (Fact("well formed"), "The fleet is well formed"),
+    ]
+    for fact, sentence in facts:
+        assert sentence in writer.write(fact)
+        translated = translate(writer.write(fact))
+        assert translated != writer.write(fact)
+        assert "{" not in translated

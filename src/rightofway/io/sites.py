@@ -201,6 +201,7 @@ def make_sites(scenario: Scenario, notes: tuple[Fact, ...]) -> Sites:
         units=scenario.units,
         robots=scenario.robots,
         rules=scenario.rules,
+        scenario=None if scenario.jobs is None else scenario,
     )
     grid = scenario.roadmap.grid
     ground = (

@@ -27,6 +27,7 @@ from rightofway.metrics.connectivity import (
 )
 from rightofway.metrics.nearness import find_nearness, round_distance
 from rightofway.metrics.site import SEVERITIES, Finding, Inspection, Kind, Site, list_trip
+from rightofway.metrics.well_formed import find_ill_formed_jobs
 from rightofway.site import Roadmap
 from rightofway.site.scale import find_odd_sizes
 from rightofway.site.walls import find_narrowest, reaches_walls
@@ -81,6 +82,7 @@ def inspect(site: Site) -> Inspection:
         *_find_odd_sizes(site),
         *_find_impossible_trips(site, ways, parts),
         *_find_narrow_trips(site, ways),
+        *find_ill_formed_jobs(site),
         *_find_outside(site, ways, parts),
         *find_nearness(site, ways.joints),
         *_find_on_the_way(site, ways, main, apart, load=load, total=total),
@@ -96,6 +98,9 @@ def inspect(site: Site) -> Inspection:
         parts=tuple(map(len, parts)),
         sampled=sampled,
         findings=tuple(sorted(findings, key=lambda finding: SEVERITIES.index(finding.severity))),
+        well_formed=(
+            None if site.scenario is None else all(finding.kind != "job" for finding in findings)
+        ),
     )
 
 
@@ -104,7 +109,7 @@ def _load(
 ) -> tuple[dict[int, float], float, tuple[int, int] | None]:
     """Return the load of shortest routes, how many there are, and from how many sources of all."""
     trips: dict[int, dict[int, float]] = defaultdict(dict)
-    if site.robots:
+    if site.has_trips:
         inside = set(part)
         for (start, goal), count in site.trips.items():
             if {start, goal} <= inside:
@@ -121,7 +126,7 @@ def _load(
     chosen = _sample_evenly(sorted(trips), most)
     taken = {start: trips[start] for start in chosen}
     total = sum(sum(goals.values()) for goals in taken.values())
-    sources = len(trips) if site.robots or len(places) > 1 else len(part)
+    sources = len(trips) if site.has_trips or len(places) > 1 else len(part)
     is_sampled = len(chosen) < sources
     return measure_route_load(ways, taken), total, (len(chosen), sources) if is_sampled else None
 
@@ -351,7 +356,7 @@ def _find_corridors(
         first = set(reach_from(ends[:1], ways.along, _make_outside_test(inside)))
         using = _list_using(site, first, inside)
         is_only = ends[1] not in first
-        if site.robots and is_only:
+        if site.has_trips and is_only:
             if len(using) < 2:  # noqa: PLR2004 - a robot alone meets nobody
                 continue
             users = Fact("robots in corridor", some=len(using), robots=len(site.robots))

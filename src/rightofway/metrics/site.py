@@ -11,7 +11,7 @@ from itertools import pairwise
 from typing import Literal
 
 from rightofway.facts import Fact
-from rightofway.model import Robot, Rules
+from rightofway.model import Robot, Rules, Scenario
 from rightofway.site import Roadmap
 from rightofway.units import Units
 
@@ -20,7 +20,7 @@ Severity = Literal["error", "warning", "note"]
 
 Kind = Literal[
     "trip", "trap", "unreachable", "cut off", "too near", "crossing", "through way", "corridor",
-    "bottleneck", "scale",
+    "bottleneck", "scale", "job",
 ]  # fmt: skip
 """What a finding is about."""
 
@@ -76,6 +76,8 @@ class Inspection:
         From how many of how many places shortest routes were counted; None for all.
     findings
         Weaknesses, the worst first.
+    well_formed
+        Whether the fleet of a scenario with jobs is well formed; None without jobs.
     """
 
     vertices: int
@@ -85,6 +87,7 @@ class Inspection:
     parts: tuple[int, ...]
     sampled: tuple[int, int] | None
     findings: tuple[Finding, ...]
+    well_formed: bool | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -103,6 +106,8 @@ class Site:
         The fleet; if there is one, only its homes and stops count as places.
     rules
         The rules of the fleet.
+    scenario
+        A scenario whose jobs are inspected, with the robots; None without jobs.
     """
 
     roadmap: Roadmap
@@ -111,6 +116,7 @@ class Site:
     parking: Mapping[str, int] = field(default_factory=dict)
     robots: Sequence[Robot] = ()
     rules: Rules = field(default_factory=Rules)
+    scenario: Scenario | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "roadmap", self.roadmap.fold())
@@ -127,6 +133,13 @@ class Site:
     @cached_property
     def places(self) -> dict[int, Fact]:
         """Vertices where robots stop or stay, each with its use."""
+        if self.scenario is not None and self.scenario.jobs is not None:
+            uses = {
+                int(stop.at): Fact("place of job", job=job.name)
+                for job in reversed(self.scenario.jobs)
+                for stop in job.stops
+            }
+            return uses | self.homes
         if not self.robots:
             stations = {
                 vertex: Fact("named station", name=name)
@@ -155,6 +168,11 @@ class Site:
         return Counter({ends: count for ends, count in counts.items() if ends[0] != ends[1]})
 
     @property
+    def has_trips(self) -> bool:
+        """Whether robots have trips of their own."""
+        return bool(self.robots) and self.scenario is None
+
+    @property
     def gist(self) -> Hashable:
         """All that findings depend on: two sites with the same gist have the same findings."""
         robots = [
@@ -162,7 +180,11 @@ class Site:
         ]
         named = (*self.stations.items(), None, *self.parking.items())
         rules = self.rules.walls, self.rules.clearance
-        return (self.roadmap, self.units, named, tuple(robots), rules)
+        work: Hashable = None
+        if self.scenario is not None:
+            own = self.scenario
+            work = own.robots, own.rules, own.jobs, own.batteries, own.charging, own.closures
+        return (self.roadmap, self.units, named, tuple(robots), rules, work)
 
     @property
     def radii(self) -> tuple[Fraction, Fraction]:

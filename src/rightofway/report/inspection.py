@@ -65,6 +65,8 @@ def _list_facts(site: Site, inspection: Inspection) -> Iterator[Fact]:
     if inspection.sampled:
         some, of_all = inspection.sampled
         yield Fact("sampled routes", some=some, all=of_all)
+    if inspection.well_formed:
+        yield Fact("well formed")
 
 
 def describe_finding(site: Site, finding: Finding) -> tuple[str, str]:

@@ -391,6 +391,7 @@ export interface PageTexts {
     "through way": string;
     corridor: string;
     bottleneck: string;
+    job: string;
     [key: string]: string;
   };
 }
