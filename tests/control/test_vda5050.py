@@ -310,6 +310,7 @@ def test_the_condition_of_a_robot_comes_back_as_it_was_sent(version: str) -> Non
         actions={"a": "WAITING", "b": "FINISHED"},
         is_driving=True,
         condition=CONDITION,
+        charge=0.5,
     )
     document = write_message(StateMessage.of(sent, ["N1"], frozenset("b")), header(version))
     validator(version, "state").validate(document)

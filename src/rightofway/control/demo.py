@@ -27,6 +27,7 @@ from rightofway.control.identities import Identity, make_simulated_identities
 from rightofway.control.laps import LapsToDrive
 from rightofway.control.notices import Notices
 from rightofway.control.order_map import make_order_maps
+from rightofway.control.simulated_battery import make_simulated_battery
 from rightofway.control.simulated_robot import SimulatedRobot
 from rightofway.control.story import Story
 from rightofway.control.supervisor import Supervisor
@@ -113,7 +114,9 @@ def drive_demo(
     clock = SimulatedClock(plan)
     record = None if journal is None else DemoRecord(journal, clock, pace, stays=stays)
     try:
-        control = FleetControl(record.journal if record else NothingKept())
+        control = FleetControl(
+            record.journal if record else NothingKept(), roadmap=plan.scenario.roadmap
+        )
         dispatcher = Dispatcher(control, plan, repeated)
         demo = _Demo(dispatcher, durations, identities, clock, record, watch=watch, report=report)
         demo.switches = switch
@@ -171,11 +174,16 @@ class _Demo:
         self._robots = [
             TimedRobot(
                 RobotEnd(
-                    SimulatedRobot(own.route.places[0]), number, identity, self._write_timestamp
+                    SimulatedRobot(own.route.places[0]),
+                    number,
+                    identity,
+                    self._write_timestamp,
+                    make_simulated_battery(plan.scenario, number),
                 ),
+                plan.scenario,
                 partial(durations.stay, number, own),
                 partial(durations.drive, number, own),
-                stoppages[number],
+                stoppages=stoppages[number],
                 times_kept=1 if dispatcher.is_endless else None,
             )
             for number, (own, identity) in enumerate(
@@ -240,17 +248,18 @@ class _Demo:
             if not self._wait_for(moment, wait_until):
                 continue
             if moment == change:
+                charging = [robot for robot in self._robots if robot.end.robot.is_charging]
+                self._deliver([robot.report_state(self._now) for robot in charging])
                 self._deliver(self._end.make_letters(self._supervisor.take_turn()))
             elif agenda:
                 _, number = heapq.heappop(agenda)
                 self._robots[number].end_step(self._now)
                 self._may_begin.add(number)
-                self._deliver([self._robots[number].end.report_state()])
+                self._deliver([self._robots[number].report_state(self._now)])
 
     def _find_next_change(self) -> int | None:
-        """Return when a closure of the scenario may let robots go on [ticks]; None if none does."""
-        closures = self._dispatcher.closures
-        return None if closures is None or self._control.is_done else closures.find_next_change()
+        """Return when time may let robots go on [ticks]; None if it lets none."""
+        return None if self._control.is_done else self._dispatcher.find_next_change()
 
     @property
     def _waits_for_people(self) -> bool:
@@ -315,7 +324,7 @@ class _Demo:
             else:
                 self._may_begin.add(number)
                 self._robots[number].end.receive(letter)
-                queue.append(self._robots[number].end.report_state())
+                queue.append(self._robots[number].report_state(self._now))
 
     def _make_result(self, *, is_endless: bool) -> DriveResult:
         robots = self._control.ledger.robots
@@ -323,18 +332,27 @@ class _Demo:
         return DriveResult(
             plan=self._plan,
             trace=trace,
-            completion=None if trace is None else tuple(trace.completion),
-            jobs=tuple(own.jobs_done for own in robots),
+            completion=self._list_completions() if trace is None else tuple(trace.completion),
+            jobs=self._control.ledger.count_jobs(),
             laps=tuple(own.laps_done for own in robots),
             now=Tick(self._now),
             waits=tuple(self._story.waits),
             messages=dict(sorted(self._sent.items())),
         )
 
+    def _list_completions(self) -> tuple[Tick | None, ...] | None:
+        """Return when robots came to the end of their work of jobs; None for laps."""
+        if self._plan.scenario.jobs is None:
+            return None
+        rows = zip(self._robots, self._control.ledger.robots, strict=True)
+        return tuple(Tick(robot.since) if own.is_done else None for robot, own in rows)
+
     @property
     def _is_as_planned(self) -> bool:
         """Whether robots have done all their work, and people have not changed it."""
         name = self._plan.scenario.roadmap.name
+        if self._plan.scenario.jobs is not None:  # robots stay as long as jobs and batteries want
+            return False
         return self._control.is_done and not any(
             own.is_off
             or own.route.end != len(track)

@@ -15,6 +15,8 @@ from itertools import pairwise
 from rightofway.control.clocked_closures import ClockedClosures, Closed
 from rightofway.control.commitments import find_last_open, list_stops_to_make
 from rightofway.control.fleet_control import FleetControl
+from rightofway.control.held_work import HeldWork
+from rightofway.control.job_events import list_known_jobs
 from rightofway.control.journal import Entry
 from rightofway.control.laps import LapsToDrive, build_graph_behind_released
 from rightofway.control.ledger import Edge, Ledger
@@ -61,7 +63,7 @@ class Dispatcher:
     control, plan
         As given.
     closures
-        The closures of the scenario, if it has any; `keep_closures` sets them.
+        The closures of the scenario, if it has any; `keep_time` sets them.
     report
         Receives a fact when no plan of the rest is found, and when one is found again; a
         supervisor sets it. A command that is refused for this reason has the answer instead.
@@ -88,6 +90,7 @@ class Dispatcher:
         self._tries_in = self._patience  # calls of `pass_stuck` until the next try
         self._is_new = True  # `pass_stuck` was not called since the start
         self.closures: ClockedClosures | None = None
+        self._waiting_work: HeldWork | None = None
         self._planned_round = set[Edge]()  # what closures closed when the rest was planned
         control.dispatch, control.may_drive = self._add_laps, cache(self._may_drive)
         control.may_stop = self._rest.may_stop
@@ -115,9 +118,11 @@ class Dispatcher:
         InputError
             If robots of the plan move round a circle at one instant.
         """
-        graph = ReleaseGraph.of(self.plan.scenario, self.plan.tracks)
-        names = [robot.name for robot in self.plan.scenario.robots]
-        self.control.begin(run, make_routes_to_drive(self.plan), graph, names)
+        scenario = self.plan.scenario
+        graph = ReleaseGraph.of(scenario, self.plan.tracks)
+        names = [robot.name for robot in scenario.robots]
+        jobs = list(list_known_jobs(scenario))
+        self.control.begin(run, make_routes_to_drive(self.plan), graph, names, jobs)
 
     def _may_drive(self, robot: int, tail: str, head: str) -> bool:
         """Return whether a lane leads from one vertex to another, and the robot is not barred."""
@@ -280,14 +285,17 @@ class Dispatcher:
 
     # --- closures of the scenario ----------------------------------------------------------------
 
-    def keep_closures(self, read_ticks: Callable[[], int]) -> None:
-        """Keep the closures of the scenario from now on; then call `follow_closures` every second.
+    def keep_time(self, read_ticks: Callable[[], int]) -> None:
+        """Keep the times of closures and jobs from now on; then call `follow_time` every second.
 
         Parameters
         ----------
         read_ticks
             Returns the time since the run began [ticks].
         """
+        if self.plan.scenario.jobs is not None:
+            self._waiting_work = HeldWork(self.plan.scenario, self.control, read_ticks)
+            self.control.may_begin = self._waiting_work.may_begin
         if self.plan.scenario.closures:
             self.closures = ClockedClosures(self.plan.scenario, read_ticks)
             self.control.may_enter = lambda robot, part: self.find_closed(robot, part) is None
@@ -298,14 +306,20 @@ class Dispatcher:
             return None
         return self.closures.find_closed(robot, self.ledger.robots[robot], part)
 
-    def follow_closures(self) -> list[Message]:
-        """Release the parts that closures of the scenario have kept back.
+    def find_next_change(self) -> int | None:
+        """Return when time alone may let a robot go on [ticks]; None if it lets none."""
+        clocks = [clock for clock in (self.closures, self._waiting_work) if clock is not None]
+        changes = [clock.find_next_change() for clock in clocks]
+        return min((change for change in changes if change is not None), default=None)
 
-        The plan has its times and ways from them. The rest is replanned where one without an end
-        begins, and where one ends that it was planned round.
+    def follow_time(self) -> list[Message]:
+        """Release parts that closures of the scenario have kept back, and work that has waited.
+
+        The plan has its times and ways from closures. The rest is replanned where one without an
+        end begins, and where one ends that it was planned round.
         """
         if self.closures is None:
-            return []
+            return self.control.note() if self._waiting_work else []
         closed, planned_round = self.closures.list_closed_edges(), self._planned_round
         for_good = self.closures.list_closed_edges(forever=True) - planned_round
         if self._is_led_over(for_good) or not planned_round <= closed:
@@ -327,6 +341,7 @@ class Dispatcher:
             if self._is_led_over(self.ledger.closed_edges):
                 return self.replan_if_possible() or []
         self._stuck_for = {k: self._stuck_for.get(k, 0) + 1 for k in self.control.list_stuck()}
+        self._stuck_for |= dict.fromkeys(self.control.stranded, self._patience)  # nothing helps it
         long = frozenset(k for k, times in self._stuck_for.items() if times >= self._patience)
         robots = self.ledger.robots
         has_moved = any(robots[k].held != self._held[k] for k in long & self._passed)

@@ -105,7 +105,8 @@ class Driver:
         self._journal, self._report = BatchedJournal(journal), report
         self._notices = notices = Notices(names, report, keep=self._keep)
         self._metrics = metrics
-        self.control = FleetControl(self._journal, report=notices.report_on)
+        roadmap = plan.scenario.roadmap
+        self.control = FleetControl(self._journal, report=notices.report_on, roadmap=roadmap)
         repeated = None if laps is None else LapsToDrive(plan, laps)
         self._dispatcher = dispatcher = Dispatcher(self.control, plan, repeated)
         self._began = time.time() if began is None else began
@@ -184,7 +185,7 @@ class Driver:
             plan=self._plan,
             trace=None,
             completion=None if self._is_endless else ends,
-            jobs=tuple(own.jobs_done for own in robots),
+            jobs=self.control.ledger.count_jobs(),
             laps=tuple(own.laps_done for own in robots),
             now=now,
             waits=tuple(self._story.waits),

@@ -20,6 +20,7 @@ from rightofway.control.identities import Identity
 from rightofway.control.messages import Condition, InstantAction, Message, Order, StateReport
 from rightofway.control.notices import Notices
 from rightofway.control.order_map import OrderLane, OrderMap, Place
+from rightofway.control.simulated_battery import SimulatedBattery
 from rightofway.control.simulated_robot import SimulatedRobot
 from rightofway.errors import InputError, describe_defect, escape_text, quote
 from rightofway.facts import Fact
@@ -330,7 +331,8 @@ class ControlEnd:
         for message in messages:
             order_map = self._maps[message.robot]
             if isinstance(message, Order):
-                body: vda5050.Body = vda5050.OrderMessage.of(message, order_map)
+                items = self.control.ledger.robots[message.robot].jobs_of
+                body: vda5050.Body = vda5050.OrderMessage.of(message, order_map, items)
                 name = "order"
             else:
                 body, name = vda5050.InstantActions.of(message), "instantActions"
@@ -365,12 +367,20 @@ class RobotEnd:
         The parts of its states that are not about its order.
     lanes
         How the edges of its orders are driven, by their ends.
+    battery
+        Its battery; None where it has none.
     """
 
     def __init__(
-        self, robot: SimulatedRobot, number: int, identity: Identity, now: Callable[[], str]
+        self,
+        robot: SimulatedRobot,
+        number: int,
+        identity: Identity,
+        now: Callable[[], str],
+        battery: SimulatedBattery | None = None,
     ) -> None:
         self.robot, self._number, self._identity = robot, number, identity
+        self.battery = battery
         self.condition = Condition()
         self.lanes: dict[tuple[str, str], OrderLane] = {}
         self._places: dict[str, Place] = {}
@@ -406,6 +416,16 @@ class RobotEnd:
 
     def _keep_order(self, message: vda5050.OrderMessage) -> None:
         """Keep how long and how fast the edges of an order are, and where its nodes are."""
+        steps = {
+            self._identity.start_charging.action: True,
+            self._identity.stop_charging.action: False,
+        }
+        self.robot.charging |= {
+            action.actionId: steps[action.actionType]
+            for node in message.nodes
+            for action in node.actions
+            if action.actionType in steps
+        }
         names = {node.sequenceId: node.nodeId for node in message.nodes}
         for node in message.nodes:
             if node.nodePosition is not None:
@@ -422,10 +442,11 @@ class RobotEnd:
         """Return its state as it is sent."""
         robot = self.robot
         body = vda5050.StateMessage.of(
-            robot.report_state(self.condition),
+            robot.report_state(self.condition, self.battery.soc if self.battery else None),
             [node.place for node in robot.ahead],
             frozenset(robot.instant_actions),
             self._places.get(robot.place),
+            is_charging=robot.is_charging,
         )
         return self._writer.make_letter(self._identity, "state", body)
 

@@ -16,7 +16,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from rightofway.control.journal import Entry, Journal, JournalFailed
 from rightofway.control.ledger import Ledger, make_plan_entry
 from rightofway.control.messages import Condition, InstantAction, Message, StateReport
-from rightofway.control.orders import make_order, make_update
+from rightofway.control.orders import MayBegin, make_order, make_update
 from rightofway.control.proofs import (
     find_proven_visit,
     has_stopped,
@@ -33,6 +33,7 @@ from rightofway.control.splices import refuse_changes, refuse_rotation, refuse_w
 from rightofway.errors import describe_defect
 from rightofway.facts import Fact
 from rightofway.precedence import Arrival, ReleaseGraph
+from rightofway.site import Roadmap
 
 
 class LedgerFailed(Exception):
@@ -67,6 +68,8 @@ class FleetControl:
         Jobs after which a robot gets a new order where it stands at the end of its base.
     report
         Receives a robot and a fact: its fault, or a job that failed.
+    roadmap
+        The map of the jobs; None where the plan has none.
 
     Attributes
     ----------
@@ -94,6 +97,14 @@ class FleetControl:
         dispatcher, which knows the closures of the scenario, sets it.
     may_stop
         Tells whether robots may stop at a vertex, by its name; a dispatcher sets it.
+    may_begin
+        Tells of a robot whether an item of its work may begin, see
+        `rightofway.control.work_items`: robots drive to the places of work that may not, and stand
+        there. A dispatcher sets it.
+    stranded
+        Robots whose batteries are too low for the way to a charging place.
+    charges
+        The state of charge of each robot, by its last state since the start, from 0 to 1.
     """
 
     def __init__(
@@ -104,20 +115,23 @@ class FleetControl:
         snapshot_every: int = SNAPSHOT_EVERY,
         long_order: int = LONG_ORDER,
         report: Callable[[int, Fact], None] = lambda *_: None,
+        roadmap: Roadmap | None = None,
     ) -> None:
         self._journal, self._look_ahead, self._report = journal, look_ahead, report
         self._snapshot_every, self._long_order = snapshot_every, long_order
-        self.ledger = Ledger()
+        self.ledger = Ledger(roadmap)
         self.conditions: dict[int, Condition] = {}
         self.places: dict[int, str] = {}
         self.points: dict[int, tuple[float, float]] = {}
-        self.lost, self.refused = set[int](), set[int]()
+        self.lost, self.refused, self.stranded = set[int](), set[int](), set[int]()
         self._reminded = set[int]()  # robots that were sent again what they have not answered
         self._just_sent = set[int]()  # robots that the next reminder leaves out
         self.dispatch: Callable[[], list[Message]] = list
         self.may_drive: Callable[[int, str, str], bool] = lambda *_: True
         self.may_enter: Callable[[int, int], bool] = lambda *_: True
         self.may_stop: Callable[[str], bool] = lambda _: True
+        self.may_begin: MayBegin = lambda *_: True
+        self.charges: dict[int, float] = {}
         self._since_snapshot = 0
         for number, entry in enumerate(journal.read_entries(), 1):
             self.ledger.read(number, entry)
@@ -131,6 +145,7 @@ class FleetControl:
         routes: Sequence[RouteToDrive],
         graph: ReleaseGraph,
         names: Sequence[str] = (),
+        notes: Sequence[Entry] = (),
     ) -> None:
         """Give an empty journal its plan.
 
@@ -142,6 +157,8 @@ class FleetControl:
             The routes of all robots, and who waits for whom.
         names
             Of the robots; left out, reports give their numbers.
+        notes
+            Entries that are committed together with the plan.
 
         Raises
         ------
@@ -154,7 +171,7 @@ class FleetControl:
         refuse_rotation(graph, names)
         refuse_ways(routes, committed, names, self.may_drive)
         entry = make_plan_entry("plan", run, routes, graph, committed=committed, names=names)
-        self.commit(entry)
+        self.commit(entry, *notes)
 
     def start(self) -> list[Message]:
         """Return the messages to send after a start: all unanswered ones, requests for states."""
@@ -240,7 +257,7 @@ class FleetControl:
         robot
             A robot of the plan.
         """
-        if robot in self.lost or robot in self.refused:
+        if robot in self.lost | self.refused | self.stranded:
             return False
         condition = self.conditions.get(robot)
         return condition is None or condition.is_fit
@@ -269,12 +286,15 @@ class FleetControl:
         self.conditions[robot], self.places[robot] = state.condition, state.last_place
         if state.position is not None:
             self.points[robot] = state.position[:2]
+        if state.charge is not None:
+            self.charges[robot] = state.charge
         self.lost.discard(robot)
         own, graph = self.ledger.robots[robot], self.ledger.graph
         before = own.arrived
         visit = self._find_proven(own, state)
         # Facts are committed before anything is released because of them (rule 5).
-        self.commit(*list_facts(self.ledger, robot, state, visit, self._report))
+        facts = list(list_facts(self.ledger, robot, state, visit, self._report))
+        self.commit(*facts)
         answers = list(self._follow_state(robot, state))
         self.commit(*answers)
         # At once: by the timer alone, a robot that says often that it has no order, because the
@@ -287,6 +307,8 @@ class FleetControl:
         # Nobody else can go on because of a state than those that wait for what it proves.
         let_go = (Arrival(robot, visit) for visit in range(before + 1, own.arrived + 1))
         others = {part.robot for arrival in let_go for part in graph.list_waiting_for(arrival)}
+        if any(fact["kind"] == "finished" for fact in facts):
+            others.update(self._list_holding())  # jobs wait for others to end
         return [*sends, *self._release(sorted({robot, *others})), *self.dispatch()]
 
     def connect(self, robot: int, *, is_connected: bool) -> list[Message]:
@@ -361,7 +383,7 @@ class FleetControl:
             # Rule 9: it stands at a vertex that it holds. The parts after it become free only when
             # a state shows the new order of this one node.
             elif has_stopped(own, state) and stands_at is not None:
-                order = make_order(self.ledger, robot, stands_at, stands_at)
+                order = self._make_order(robot, stands_at, stands_at)
                 yield {**order, "stands_at": stands_at}
         # Rule 8: no order, or one that is no longer current.
         elif not state.order_id or self.ledger.owns(robot, state.order_id):
@@ -383,13 +405,17 @@ class FleetControl:
             if stands_at is not None:
                 # Idle at a vertex that it holds: a new order from there with all its released
                 # parts. This proves no arrival: only states under the new order do.
-                yield make_order(self.ledger, robot, stands_at, own.released)
+                yield self._make_order(robot, stands_at, own.released)
             elif own.fault is None:
                 yield take_fault(robot, make_stray(state), state, self._report)
 
+    def _make_order(self, robot: int, begin: int, end: int) -> Entry:
+        """Return the entry of a new order over some parts."""
+        return make_order(self.ledger, robot, begin, end, self.may_begin)
+
     def _make_update(self, robot: int, end: int) -> Entry:
         """Return the entry of an update to a last part."""
-        return make_update(self.ledger, robot, end)
+        return make_update(self.ledger, robot, end, self.may_begin)
 
     # --- what may be released (rules 4 and 5) ----------------------------------------------------
 
@@ -409,17 +435,34 @@ class FleetControl:
             return None
         # Rule 3: the first order is the first vertex alone.
         if own.message is None:
-            return make_order(self.ledger, robot, own.arrived, own.arrived)
+            return self._make_order(robot, own.arrived, own.arrived)
         # Rule 6: at most one update without an answer, else one lost message would refuse all later
         # ones.
         if not own.is_acknowledged:
             return None
         if own.cancel is None:
-            return self._find_release(robot, own)
+            return self._find_held_work(robot, own) or self._find_release(robot, own)
         if own.cancel.action_id is None:
             action_id = f"{self.ledger.run}-{robot}-cancel{own.cancels}"
             return {"kind": "cancel asked", "robot": robot, "action": action_id}
         return None
+
+    def _list_holding(self) -> list[int]:
+        """Return the robots that stand where work had to wait."""
+        return [
+            robot
+            for robot, own in enumerate(self.ledger.robots)
+            if (item := own.find_next_item()) is not None and not own.is_asked_for(item)
+        ]
+
+    def _find_held_work(self, robot: int, own: RobotLedger) -> Entry | None:
+        """Return an order of the node where a robot stands, for work that had to wait there."""
+        item = own.find_next_item()
+        if item is None or own.is_on_hold or own.fault is not None or not self.is_fit(robot):
+            return None
+        if own.is_asked_for(item) or not self.may_begin(robot, item):
+            return None
+        return self._make_order(robot, own.released, own.released)
 
     def _find_release(self, robot: int, own: RobotLedger) -> Entry | None:
         """Return an update with all that may be released now, if there is any."""
@@ -438,7 +481,7 @@ class FleetControl:
             return None
         # All that was released to it is driven and acknowledged, so it stands without an order.
         if own.order_jobs >= self._long_order and own.arrived == own.released:
-            return make_order(self.ledger, robot, own.released, end)
+            return self._make_order(robot, own.released, end)
         return self._make_update(robot, end)
 
     _is_in_base = staticmethod(is_in_base)

@@ -14,6 +14,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field
 
+from rightofway.control.work_items import find_charge_step
 from rightofway.errors import InputError, find_nearest, name_file, quote
 from rightofway.io.content import read_text
 from rightofway.io.documents import parse_document
@@ -76,6 +77,8 @@ class Identity:
         How far from a vertex it may call itself arrived [m]; None for half the clearance.
     work
         Its action at a stop.
+    start_charging, stop_charging
+        Its actions at a charging place.
     repeats_work
         Whether an update repeats the work of the node that it begins with, as the norm has it. That
         work is finished; robots that do it twice want it left out.
@@ -94,6 +97,8 @@ class Identity:
     frame: Frame = field(default_factory=Frame)
     deviation: float | None = None
     work: WorkAction = field(default_factory=WorkAction)
+    start_charging: WorkAction = WorkAction(action="startCharging")
+    stop_charging: WorkAction = WorkAction(action="stopCharging")
     repeats_work: bool = True
 
     def __post_init__(self) -> None:
@@ -108,6 +113,13 @@ class Identity:
             if not value or FORBIDDEN & set(value):
                 message = f"{quote(value)} cannot be part of a topic (leave out / + # $)"
                 raise InputError.at(key, message)
+
+    def find_action(self, item: str) -> WorkAction:
+        """Return the action for an item of work, see `rightofway.control.work_items`."""
+        step = find_charge_step(item)
+        if step is None:
+            return self.work
+        return self.start_charging if step == "begin" else self.stop_charging
 
     def get_topic(self, name: str) -> str:
         """Return a topic of this robot.
@@ -163,6 +175,12 @@ class _SharedDocument(Document):
         "how far from a place the robot may call itself arrived [m]; half the clearance by default"
     )
     work: _WorkDocument = make_optional("{action, parameters} of what a robot does at a stop")
+    start_charging: _WorkDocument = make_optional(
+        "{action, parameters} with which a robot begins to charge; startCharging by default"
+    )
+    stop_charging: _WorkDocument = make_optional(
+        "{action, parameters} with which it ends that; stopCharging by default"
+    )
     repeats_work: bool = make_optional(
         "true, or false for robots that do work twice which the next update of an order repeats"
     )
@@ -233,14 +251,13 @@ def _read_identity(own: _RobotDocument, shared: _SharedDocument) -> Identity:
     given = {**shared.get_given(*keys), **own.get_given(*keys)}
     if "manufacturer" not in given:
         raise InputError.at("manufacturer", "is missing (give it here, or for all robots)")
-    frame, work = given.pop("frame", None), given.pop("work", None)
+    frame = given.pop("frame", None)
     if frame is not None:
         given["frame"] = Frame(**frame.get_given("x", "y", "yaw"))
-    if work is not None:
-        given["work"] = WorkAction(
-            action=work.action,
-            parameters=_convert_to_json(work.get_given("parameters").get("parameters", {})),
-        )
+    for key in ("work", "start_charging", "stop_charging"):
+        if (work := given.get(key)) is not None:
+            parameters = work.get_given("parameters").get("parameters", {})
+            given[key] = WorkAction(action=work.action, parameters=_convert_to_json(parameters))
     if "map" in given:
         given["map_id"] = given.pop("map")
     if "deviation" in given:

@@ -23,7 +23,7 @@ Entry = Mapping[str, Any]
 """A journal entry as JSON has it, with its ``kind``."""
 
 
-VERSION = 2
+VERSION = 3
 """The version of the file, its ``user_version``; no others are read."""
 
 UNFOLDED = ("notice", "pace")

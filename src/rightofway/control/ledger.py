@@ -4,28 +4,41 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict
-from typing import Any
+from typing import Any, get_args
 
 from rightofway.control.journal import UNFOLDED, Entry
 from rightofway.control.robot_ledger import APPLY_TO_ROBOT, RobotLedger
 from rightofway.control.routes import RouteToDrive
+from rightofway.control.work_items import find_stop
+from rightofway.dispatch.pool import EventKind, Pool, PoolEvent
 from rightofway.errors import InputError, describe_error, quote
+from rightofway.model import Tick
 from rightofway.precedence import Arrival, Part, ReleaseGraph
+from rightofway.site import Roadmap
 
 Names = tuple[str, ...]
 """What a person closes: a vertex, or the two ends of a lane."""
+
+JOB_EVENTS = frozenset(get_args(EventKind))
+"""Kinds of entries on jobs; stops that robots begin and end follow from orders and actions."""
 
 Edge = tuple[str, str]
 """The names of the vertices that an edge leaves and enters."""
 
 
 class Ledger:
-    """All robots, and the release graph of their routes.
+    """All robots, the release graph of their routes, and the jobs that are not finished.
 
     ``changed`` has the robots with entries that a story has not been told of yet.
+
+    Parameters
+    ----------
+    roadmap
+        The map of the jobs; None where there are none.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, roadmap: Roadmap | None = None) -> None:
+        self._roadmap, self.pool = roadmap, Pool()
         self.run = ""
         self.starts = 0
         self.names: tuple[str, ...] = ()
@@ -155,12 +168,40 @@ class Ledger:
         elif kind == "command":
             self.commands, self.answer = entry["number"], entry["answer"]
             self.failed = entry["failed"]
+        elif kind in JOB_EVENTS:
+            self.pool.apply(PoolEvent.of_document(entry, self.roadmap))
         elif kind in UNFOLDED:
             pass
         else:
             APPLY_TO_ROBOT[kind](self.robots[entry["robot"]], entry)
+            self._follow_jobs(entry)
             others = range(len(self.robots)) if kind == "fault" else ()  # it may be in their way
             self.changed.update((entry["robot"], *others))
+
+    @property
+    def roadmap(self) -> Roadmap:
+        """The map of the jobs."""
+        assert self._roadmap is not None, "a journal with jobs is read with its map"
+        return self._roadmap
+
+    def count_jobs(self) -> tuple[int, ...]:
+        """Return how many jobs each robot has done; of plans without jobs, its stops."""
+        has_jobs = self.pool.jobs or self.pool.left
+        return tuple(own.whole_jobs if has_jobs else own.jobs_done for own in self.robots)
+
+    def _follow_jobs(self, entry: Entry) -> None:
+        """Count stops of jobs: work is begun when it is released, and done when it is finished."""
+        kind: EventKind = "stop begun" if entry["kind"] == "order" else "stop done"
+        items = {
+            "order": lambda: [item for _, item, _ in entry["actions"]],
+            "finished": lambda: [entry["job"]],
+            "skipped": lambda: [entry["job"]],
+        }.get(entry["kind"], list)()
+        for name, stop in filter(None, map(find_stop, items)):
+            robot: int = entry["robot"]
+            event = PoolEvent(kind=kind, at=Tick(0), name=name, robot=robot, stop=stop)
+            if self.pool.apply(event) and self.pool.is_over(name):
+                self.robots[robot].whole_jobs += 1
 
     def make_snapshot(self) -> Entry:
         """Return an entry that says all that the entries before it say together."""
@@ -177,6 +218,7 @@ class Ledger:
             "failed": self.failed,
             "robots": robots,
             "waits": waits,
+            "pool": self.pool.to_document(self.roadmap) if self._roadmap else None,
         }
 
     def _apply_plan(self, entry: Entry) -> None:
@@ -199,6 +241,8 @@ class Ledger:
         self.failed = entry["failed"]
         self.robots = [RobotLedger.of_document(robot) for robot in entry["robots"]]
         self.graph = _make_graph([own.route for own in self.robots], entry["waits"])
+        if entry["pool"] is not None:
+            self.pool = Pool.of_document(entry["pool"], self.roadmap)
         self.changed.update(range(len(self.robots)))
 
 

@@ -165,6 +165,8 @@ class StateReport:
         Whether it is fit to drive on.
     position
         Where it is: x and y [m], and the map; None where it does not say. For people only.
+    charge
+        The state of charge of its battery, from 0 to 1; None where it does not say.
     """
 
     order_id: str
@@ -177,6 +179,7 @@ class StateReport:
     is_driving: bool = False
     condition: Condition = Condition()
     position: tuple[float, float, str] | None = None
+    charge: float | None = None
 
     @property
     def is_idle(self) -> bool:

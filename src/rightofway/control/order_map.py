@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from fractions import Fraction
 from typing import Any
 
@@ -101,11 +101,6 @@ class OrderMap:
         self._places, self._lanes, self._shapes = known.places, known.lanes, known.shapes
 
     @property
-    def work(self) -> WorkAction:
-        """The action of the robot at a stop."""
-        return self.identity.work
-
-    @property
     def _metre(self) -> Fraction:
         return self.scenario.units.metres or Fraction(1)
 
@@ -197,6 +192,7 @@ class OrderMap:
             "map": identity.map_id,
             "deviation": self.deviation,
             "work": [identity.work.action, identity.work.parameters, identity.repeats_work],
+            "charging": [asdict(identity.start_charging), asdict(identity.stop_charging)],
         }
 
 

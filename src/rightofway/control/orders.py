@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from rightofway.control.journal import Entry
 from rightofway.control.ledger import Ledger
 from rightofway.control.messages import Order, OrderNode
@@ -9,17 +11,25 @@ from rightofway.control.messages import Order, OrderNode
 __all__ = ["make_order", "make_update"]
 
 
-def make_order(ledger: Ledger, robot: int, begin: int, end: int) -> Entry:
+MayBegin = Callable[[int, str], bool]
+"""Whether an item of work of a robot may begin: others of the node wait behind it."""
+
+
+def make_order(
+    ledger: Ledger, robot: int, begin: int, end: int, may_begin: MayBegin = lambda *_: True
+) -> Entry:
     """Return the entry of a new order over some parts."""
     own = ledger.robots[robot]
     order_id = f"{ledger.run}-{robot}-{own.order_count}"
     parts = range(begin, end + 1)
-    nodes, actions = _make_nodes(ledger, robot, parts, begin)
+    nodes, actions = _make_nodes(ledger, robot, parts, begin, may_begin)
     order = Order(robot=robot, order_id=order_id, update_id=0, nodes=tuple(nodes))
     return _make_entry(order, begin, actions)
 
 
-def make_update(ledger: Ledger, robot: int, end: int) -> Entry:
+def make_update(
+    ledger: Ledger, robot: int, end: int, may_begin: MayBegin = lambda *_: True
+) -> Entry:
     """Return the entry of an update to a last part; it begins with the last node of the base.
 
     That node is sent again word for word; its actions are done once.
@@ -28,7 +38,7 @@ def make_update(ledger: Ledger, robot: int, end: int) -> Entry:
     assert own.message is not None
     sent = own.orders[own.order_id]
     parts = range(own.released + 1, end + 1)
-    nodes, actions = _make_nodes(ledger, robot, parts, sent.offset)
+    nodes, actions = _make_nodes(ledger, robot, parts, sent.offset, may_begin)
     order = Order(
         robot=robot,
         order_id=own.order_id,
@@ -39,7 +49,7 @@ def make_update(ledger: Ledger, robot: int, end: int) -> Entry:
 
 
 def _make_nodes(
-    ledger: Ledger, robot: int, parts: range, offset: int
+    ledger: Ledger, robot: int, parts: range, offset: int, may_begin: MayBegin
 ) -> tuple[list[OrderNode], list[tuple[str, str, int]]]:
     """Return the nodes of parts, and the id, job and number of their actions.
 
@@ -52,6 +62,8 @@ def _make_nodes(
         for job in own.route.get_jobs(part):
             if job in own.finished or job in own.failed:  # a person decides on failed ones
                 continue
+            if not may_begin(robot, job):
+                break  # the robot stands there until it may: then it gets an order of this node
             last = own.attempts.get(job, 0)
             attempt = max(last, 1)
             ids.append(f"{ledger.run}-{robot}-{job}-{attempt}")

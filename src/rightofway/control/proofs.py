@@ -11,6 +11,7 @@ from rightofway.control.journal import Entry
 from rightofway.control.ledger import Ledger
 from rightofway.control.messages import StateReport
 from rightofway.control.robot_ledger import RobotLedger
+from rightofway.control.work_items import describe_item
 from rightofway.errors import escape_text
 from rightofway.facts import Fact
 
@@ -47,7 +48,7 @@ def list_facts(
             and state.order_id == own.order_id
             and _is_failure(own, action_id, job)
         ):
-            report(robot, Fact("job failed", job=job))
+            report(robot, Fact("job failed", job=describe_item(job)))
             yield {"kind": "failed", "robot": robot, "job": job}
     if visit is not None and visit > own.arrived:
         yield {"kind": "arrived", "robot": robot, "visit": visit}

@@ -97,7 +97,7 @@ class Recording:
         self._moment, self._seen = 0.0, 0.0  # of the last row; when it was read
         self._pace: float | None = 1.0  # seconds of the journal in one; None for unknown
         self._is_simulated = False
-        self._ledger = Ledger()
+        self._ledger = Ledger(self._roadmap)
         self._story: Story | None = None
         self._shown: list[_Shown] = []
         self._general = _Shown()  # what is about no robot

@@ -9,6 +9,7 @@ from typing import Any
 from rightofway.control.journal import Entry
 from rightofway.control.messages import Order
 from rightofway.control.routes import RouteToDrive
+from rightofway.control.work_items import find_next_number
 
 __all__ = ["APPLY_TO_ROBOT", "RobotLedger", "SentOrder"]
 
@@ -67,7 +68,8 @@ class RobotLedger:
     finished: set[str] = field(default_factory=set)  # jobs of the route, skipped ones too
     failed: set[str] = field(default_factory=set)
     next_job: int = 0  # the number of the next new job: no name comes twice
-    jobs_done: int = 0  # of all
+    jobs_done: int = 0  # items of work of all
+    whole_jobs: int = 0  # of the pool that it has ended
     laps_done: int = 0
 
     @property
@@ -84,6 +86,18 @@ class RobotLedger:
     def is_done(self) -> bool:
         """Whether it is at the end of its route, with all its jobs done."""
         return self.arrived == self.route.end - 1 and self.finished >= self.route.all_jobs
+
+    def find_next_item(self) -> str | None:
+        """Return the next work of a robot that stands at the end of its released parts."""
+        if self.arrived < self.released:
+            return None
+        items = self.route.get_jobs(self.arrived)
+        return next((item for item in items if item not in self.finished), None)
+
+    def is_asked_for(self, item: str) -> bool:
+        """Return whether the last node of the last order has the work of an item, or it failed."""
+        actions = self.message.nodes[-1].actions if self.message else ()
+        return item in self.failed or any(self.jobs_of.get(action) == item for action in actions)
 
     def count_laps(self) -> int:
         """Return how many laps it has made, or will have made at the end of its route."""
@@ -108,8 +122,7 @@ class RobotLedger:
             self.arrived
         )
         self.route, jobs = route, route.all_jobs
-        numbers = (int(job.removeprefix("job")) for job in jobs)
-        self.next_job = max(self.next_job, max(numbers, default=-1) + 1)
+        self.next_job = max(self.next_job, find_next_number(jobs))
         # Jobs and orders that no visit names any more are dropped, so that laps without end need no
         # more memory.
         self.finished &= jobs

@@ -19,9 +19,11 @@ from rightofway.control.broker import Broker, check_cancellation
 from rightofway.control.endpoints import Letter, RobotEnd, make_timestamp
 from rightofway.control.identities import Identity
 from rightofway.control.messages import Condition, RobotError
+from rightofway.control.order_map import OrderLane
+from rightofway.control.simulated_battery import make_simulated_battery
 from rightofway.control.simulated_robot import SimulatedRobot
 from rightofway.errors import InputError, quote
-from rightofway.model import Plan
+from rightofway.model import Plan, Scenario
 
 if TYPE_CHECKING:
     import aiomqtt
@@ -85,6 +87,8 @@ class _NetworkRobot:
         The robot with its messages.
     identity
         As messages name it.
+    scenario
+        Of the plan.
     works
         How long work lasts at places [s of robot time].
     time_scale
@@ -97,6 +101,7 @@ class _NetworkRobot:
 
     end: RobotEnd
     identity: Identity
+    scenario: Scenario
     works: Mapping[str, float]
     time_scale: float
     draw: random.Random
@@ -129,20 +134,38 @@ class _NetworkRobot:
                 continue
             if step == "begin to drive":
                 await self.have_trouble()
+            lane = self.find_lane() if step == "arrive" else None
             await self.pause(self.draw_duration())
+            if lane is not None and self.end.battery is not None:
+                metre = float(self.scenario.units.metres or 1)
+                self.end.battery.drive(lane.length / metre)
             if robot.step():
                 self.changed.set()
             if step == "arrive" and self.happens("reset") and robot.forget():
                 self.changed.set()
+
+    def find_lane(self) -> OrderLane | None:
+        """Return the lane to the next node, as the order has it."""
+        robot = self.end.robot
+        return self.end.lanes.get((robot.place, robot.ahead[0].place))
+
+    async def use_battery(self) -> None:
+        """Let the battery fall, or rise in a charge, as time passes."""
+        robot, battery = self.end.robot, self.end.battery
+        second = float(self.scenario.units.seconds or 1)
+        while battery is not None:
+            await self.pause(STATES)
+            works = robot.next_step == "end work"
+            battery.pass_time(STATES / second, is_charging=robot.is_charging, works=works)
 
     def draw_duration(self) -> float:
         """Return how long the next step lasts [s of robot time]."""
         robot = self.end.robot
         match robot.next_step:
             case "arrive":
-                lane = self.end.lanes.get((robot.place, robot.ahead[0].place))
+                lane = self.find_lane()
                 lasts = 1.0 if lane is None else lane.length / lane.max_speed
-            case "end work":
+            case "end work" if robot.next_action not in robot.charging:
                 lasts = self.works.get(robot.place, max(self.works.values(), default=0.0))
             case _:
                 return 0.0
@@ -247,9 +270,10 @@ def _list_works(plan: Plan, number: int) -> dict[str, float]:
     """Return how long a robot works at each of its stops [s]."""
     scenario = plan.scenario
     second = scenario.units.seconds or 1
+    stops = [stop for job in scenario.jobs or () for stop in job.stops]
     return {
         scenario.roadmap.name(stop.at): float(stop.work * second)
-        for stop in scenario.robots[number].stops
+        for stop in stops or scenario.robots[number].stops
     }
 
 
@@ -288,20 +312,20 @@ async def run_robots(
     robots = [
         _NetworkRobot(
             end=RobotEnd(
-                SimulatedRobot(plan.scenario.roadmap.name(robot.home)),
+                SimulatedRobot(plan.scenario.roadmap.name(int(track.vertices[0]))),
                 number,
                 identity,
                 make_timestamp,
+                make_simulated_battery(plan.scenario, number),
             ),
+            scenario=plan.scenario,
             identity=identity,
             works=_list_works(plan, number),
             time_scale=time_scale,
             draw=random.Random(f"{seed} {number}"),  # noqa: S311 (a simulation)
             trouble=trouble or {},
         )
-        for number, (robot, identity) in enumerate(
-            zip(plan.scenario.robots, identities, strict=True)
-        )
+        for number, (track, identity) in enumerate(zip(plan.tracks, identities, strict=True))
     ]
     names = {identity.serial_number for identity in identities}
     arrivals = _Arrivals(missing=names, is_up=is_up, on_failure=on_failure)
@@ -309,4 +333,5 @@ async def run_robots(
     async with asyncio.TaskGroup() as tasks:
         for robot in robots:
             tasks.create_task(robot.carry_out_orders())
+            tasks.create_task(robot.use_battery())
             tasks.create_task(robot.connect(broker, arrivals))

@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from typing import Any
 
-from rightofway.model import Plan, make_route
+from rightofway.control.batteries import follow_charge
+from rightofway.control.work_items import name_charge, name_stop
+from rightofway.model import Battery, Plan, PlannedItem, Scenario, Tick, Track, make_route
 
-__all__ = ["RouteToDrive", "make_route_from", "make_routes_to_drive"]
+__all__ = [
+    "RouteToDrive",
+    "make_route_from",
+    "make_route_with_work",
+    "make_routes_to_drive",
+]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -20,7 +28,8 @@ class RouteToDrive:
     places
         The name of the vertex of each visit.
     jobs
-        For each visit the names of the actions there; each name is in one visit.
+        For each visit the items of work there, see `rightofway.control.work_items`; each name is in
+        one visit.
     first
         The number of the first visit that is kept.
     work
@@ -34,6 +43,8 @@ class RouteToDrive:
         may be left to drive.
     in_step
         Whether the end is that of a lap of the plan, so that its next lap may follow.
+    targets
+        Ends of charges, each with the state of charge at which the robot may go on, from 0 to 1.
     """
 
     places: tuple[str, ...]
@@ -43,6 +54,7 @@ class RouteToDrive:
     enter: tuple[int, ...] = ()
     lap_ends: tuple[int, ...] = ()
     in_step: bool = True
+    targets: tuple[tuple[str, float], ...] = ()
 
     @property
     def end(self) -> int:
@@ -106,6 +118,11 @@ class RouteToDrive:
             work=self.work[index:],
             enter=self.enter[index:],
             lap_ends=tuple(end for end in self.lap_ends if end >= visit),
+            targets=tuple(
+                (item, soc)
+                for item, soc in self.targets
+                if any(item in names for names in self.jobs[index:])
+            ),
         )
 
     def join(self, after: RouteToDrive, later: int) -> RouteToDrive:
@@ -127,6 +144,7 @@ class RouteToDrive:
             enter=(*self.enter[: index + 1], *(tick + later for tick in after.enter[1:])),
             lap_ends=(*(end for end in self.lap_ends if end < after.first), *after.lap_ends),
             in_step=after.in_step,
+            targets=(*self.targets, *after.targets),
         )
 
     @property
@@ -157,12 +175,13 @@ class RouteToDrive:
                 "work": tuple(map(tuple, document["work"])),
                 "enter": tuple(document["enter"]),
                 "lap_ends": tuple(document["lap_ends"]),
+                "targets": tuple((item, soc) for item, soc in document["targets"]),
             }
         )
 
 
 def make_routes_to_drive(plan: Plan) -> list[RouteToDrive]:
-    """Return the route of each robot, with a job for each stop of each lap.
+    """Return the route of each robot, with a job for each stop of each lap, or with its tour.
 
     Parameters
     ----------
@@ -170,6 +189,11 @@ def make_routes_to_drive(plan: Plan) -> list[RouteToDrive]:
         A plan that keeps the rules.
     """
     scenario = plan.scenario
+    if plan.tours is not None:
+        return [
+            make_route_with_work(scenario, robot, track, tour)
+            for robot, (track, tour) in enumerate(zip(plan.tracks, plan.tours, strict=True))
+        ]
     routes = []
     for robot, itinerary, track in zip(
         scenario.robots, scenario.problem.itineraries, plan.tracks, strict=True
@@ -192,6 +216,60 @@ def make_routes_to_drive(plan: Plan) -> list[RouteToDrive]:
             )
         )
     return routes
+
+
+def make_route_with_work(
+    scenario: Scenario, robot: int, track: Track, tour: Sequence[PlannedItem]
+) -> RouteToDrive:
+    """Return the route of a robot with the stops and charges of its tour.
+
+    A charge at the end of the route has no end: the robot charges until it has more to do.
+
+    Parameters
+    ----------
+    scenario
+        A scenario with jobs.
+    robot, track
+        The number of the robot, and where it is, when.
+    tour
+        Its items, in order.
+    """
+    jobs: list[list[str]] = [[] for _ in track.vertices]
+    work: list[list[int]] = [[] for _ in track.vertices]
+    targets, last = list[tuple[str, float]](), len(track) - 1
+    for number, (item, soc) in enumerate(_follow_tour(scenario, robot, track, tour)):
+        if item.job is not None and item.stop is not None:
+            assert scenario.jobs is not None, "a plan with tours has jobs"
+            jobs[item.visit].append(name_stop(scenario.jobs[item.job].name, item.stop))
+            work[item.visit].append(item.end - item.begin)
+            continue
+        jobs[item.visit].append(name_charge(number, "begin"))
+        work[item.visit].append(0)
+        if item.visit < last or item != tour[-1]:
+            jobs[item.visit].append(name_charge(number, "end"))
+            work[item.visit].append(item.end - item.begin)
+            targets.append((name_charge(number, "end"), float(soc)))
+    return RouteToDrive(
+        places=tuple(map(scenario.roadmap.name, track.vertices.tolist())),
+        jobs=tuple(map(tuple, jobs)),
+        work=tuple(map(tuple, work)),
+        enter=tuple(track.enter.tolist()),
+        in_step=False,
+        targets=tuple(targets),
+    )
+
+
+def _follow_tour(
+    scenario: Scenario, robot: int, track: Track, tour: Sequence[PlannedItem]
+) -> Iterator[tuple[PlannedItem, Fraction]]:
+    """Yield the items of a tour with the planned states of charge at their ends."""
+    own = scenario.robots[robot]
+    battery = Battery() if own.battery is None else dict(scenario.batteries)[own.battery]
+    soc = Fraction(1) if own.start is None else own.start.soc
+    ready = 0 if own.start is None else scenario.problem.clock.count_ticks(own.start.ready)
+    path = track.vertices.tolist()
+    charges = follow_charge(scenario, battery, path, tour, soc=soc, begin=Tick(ready))
+    yield from zip(tour, charges, strict=True)
 
 
 def make_route_from(route: RouteToDrive, place: str) -> RouteToDrive:

@@ -42,6 +42,10 @@ class SimulatedRobot:
         How many orders it has refused.
     instant_actions
         The ids of all instant actions that it was asked for.
+    charging
+        Actions that begin a charge (True) or end one, by their ids; its owner knows.
+    is_charging
+        Whether its battery is charged; driving on ends it, too.
     """
 
     def __init__(self, place: str) -> None:
@@ -49,6 +53,8 @@ class SimulatedRobot:
         self.ahead: list[OrderNode] = []
         self.done: dict[str, int] = {}
         self.rejected, self.instant_actions = 0, set[str]()
+        self.charging: dict[str, bool] = {}
+        self.is_charging = False
         self._order_id, self._update_id, self._sequence_id = "", 0, 0
         self._actions: dict[str, str] = {}
         self._waiting: list[str] = []  # at this node
@@ -71,13 +77,22 @@ class SimulatedRobot:
             return "begin work" if is_new else "end work"
         return "begin to drive" if self.ahead else None
 
-    def report_state(self, condition: Condition = AS_USUAL) -> StateReport:
+    @property
+    def next_action(self) -> str | None:
+        """The action that it does here next; None for none."""
+        return self._waiting[0] if self._waiting and not self.is_driving else None
+
+    def report_state(
+        self, condition: Condition = AS_USUAL, charge: float | None = None
+    ) -> StateReport:
         """Return the robot's message about itself.
 
         Parameters
         ----------
         condition
             Whether it is fit to drive on; its owner knows.
+        charge
+            The state of charge of its battery, from 0 to 1; None where it has none.
         """
         numbers = tuple(node.sequence_id for node in self.ahead)
         return StateReport(
@@ -90,6 +105,7 @@ class SimulatedRobot:
             actions=dict(self._actions),
             is_driving=self.is_driving,
             condition=condition,
+            charge=charge,
         )
 
     def take_order(self, order: Order) -> bool:
@@ -173,9 +189,10 @@ class SimulatedRobot:
                 action = self._waiting.pop(0)
                 self._actions[action] = "FINISHED"
                 self.done[action] = self.done.get(action, 0) + 1
+                self.is_charging = self.charging.get(action, self.is_charging)
                 self._finish_cancel()
             case "begin to drive":
-                self.is_driving = True
+                self.is_driving, self.is_charging = True, False
             case None:
                 return False
         return True

@@ -10,6 +10,7 @@ from rightofway.control.ledger import Ledger
 from rightofway.control.names import describe_place
 from rightofway.control.releases import find_closed, list_strayed_to
 from rightofway.control.robot_ledger import RobotLedger
+from rightofway.control.work_items import describe_item
 from rightofway.facts import Fact
 from rightofway.precedence import Part
 
@@ -89,7 +90,10 @@ class Story:
         if own.jobs_done > chapter.finished:
             chapter.finished = own.jobs_done
             jobs = own.jobs_done + len(own.route.all_jobs - own.finished)
-            done = Fact("work done", robot=name, place=place, done=chapter.finished, jobs=jobs)
+            kind, about = "work done", {}
+            if (item := _find_last_item(own)) is not None:
+                kind, about = "item done", {"item": item}
+            done = Fact(kind, robot=name, place=place, done=chapter.finished, jobs=jobs, **about)
             yield Happening(robot, "work", done)
         waited = chapter.waits_for is not None and own.released >= chapter.waits_for
         if waited or (own.released > own.arrived and not chapter.has_set_out):
@@ -146,3 +150,10 @@ class Story:
 
     def _place(self, robot: int, visit: int) -> str:
         return self._ledger.robots[robot].route.get_place(visit)
+
+
+def _find_last_item(own: RobotLedger) -> Fact | None:
+    """Return the last work of a tour that a robot has done where it stands; None for others."""
+    done = [item for item in own.route.get_jobs(own.arrived) if item in own.finished]
+    item = describe_item(done[-1]) if done else ""
+    return item if isinstance(item, Fact) else None

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from rightofway.control.battery_watch import BatteryWatch
 from rightofway.control.commands import Answer, Commands
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.messages import Message
@@ -55,15 +56,19 @@ class Supervisor:
         self._answers: list[tuple[int, Answer]] = []  # to commands, once all is on the disk
         self._told = dict[int, int]()  # of each robot, the last part that a closure kept it from
         self._standstill = Standstill(dispatcher, notices, read_ticks)
+        scenario, control = dispatcher.plan.scenario, dispatcher.control
+        self._batteries = BatteryWatch(scenario, control, notices) if scenario.batteries else None
         dispatcher.report = self._report_replanning
-        dispatcher.keep_closures(read_ticks)
+        dispatcher.keep_time(read_ticks)
 
     def _report_replanning(self, fact: Fact | None, is_over: bool) -> None:
         self._notices.report(fact, PLAN, is_over=is_over)
 
     def take_turn(self) -> list[Message]:
         """Return the messages to send because time has passed; call it every second."""
-        messages = [*self._dispatcher.follow_closures(), *self._dispatcher.pass_stuck()]
+        if self._batteries is not None:
+            self._batteries.look()
+        messages = [*self._dispatcher.follow_time(), *self._dispatcher.pass_stuck()]
         self.tell_closures()
         self._standstill.look()
         self._notices.settle()

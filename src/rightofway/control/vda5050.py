@@ -137,7 +137,9 @@ class OrderMessage(_Model):
     edges: tuple[_Edge, ...] = Field(default=(), strict=False)
 
     @classmethod
-    def of(cls, order: Order, order_map: OrderMap) -> OrderMessage:
+    def of(
+        cls, order: Order, order_map: OrderMap, items: Mapping[str, str] | None = None
+    ) -> OrderMessage:
         """Return the message of an order.
 
         Parameters
@@ -146,9 +148,11 @@ class OrderMessage(_Model):
             An order or update.
         order_map
             Where places and lanes lie for the robot, and its work.
+        items
+            The item of work of each action, see `rightofway.control.work_items`.
         """
         # An update is released when the work of its first node is finished.
-        done = set[str]()
+        done, known = set[str](), items or {}
         if order.update_id and not order_map.identity.repeats_work:
             done = set(order.nodes[0].actions)
         nodes = tuple(
@@ -158,7 +162,7 @@ class OrderMessage(_Model):
                 released=True,
                 nodePosition=_make_position(order_map.get_place(node.place)),
                 actions=tuple(
-                    _make_work(action, order_map.work)
+                    _make_work(action, order_map.identity.find_action(known.get(action, "")))
                     for action in node.actions
                     if action not in done
                 ),
@@ -321,7 +325,7 @@ class _Position(_Model):
 
 class _Battery(_Model):
     batteryCharge: float = Field(
-        default=100.0, validation_alias=AliasChoices("batteryCharge", "stateOfCharge")
+        validation_alias=AliasChoices("batteryCharge", "stateOfCharge"),
     )
     charging: bool = False
 
@@ -354,7 +358,9 @@ class StateMessage(_Model):
     agvPosition: Any = Field(
         default=None, validation_alias=AliasChoices("agvPosition", "mobileRobotPosition")
     )
-    batteryState: Any = _Battery()
+    batteryState: Any = Field(
+        default=None, validation_alias=AliasChoices("batteryState", "powerSupply")
+    )
 
     @classmethod
     def of(
@@ -363,6 +369,8 @@ class StateMessage(_Model):
         places: Iterable[str],
         instant: frozenset[str],
         position: Place | None = None,
+        *,
+        is_charging: bool = False,
     ) -> StateMessage:
         """Return the message of a state.
 
@@ -376,6 +384,8 @@ class StateMessage(_Model):
             Ids of instant actions, which 3.0 keeps apart.
         position
             Where the robot is, if that is to be said.
+        is_charging
+            Whether its battery is charged.
         """
         ahead = tuple(places)
         actions = {
@@ -413,6 +423,10 @@ class StateMessage(_Model):
                 for error in condition.errors
             ),
             safetyState=_Safety(eStop=condition.emergency_stop),
+            batteryState=_Battery(
+                batteryCharge=100.0 if state.charge is None else 100 * state.charge,
+                charging=is_charging,
+            ),
             agvPosition=position
             and _Position(x=position.point[0], y=position.point[1], mapId=position.map_id),
         )
@@ -444,6 +458,7 @@ class StateMessage(_Model):
                 wants_more=self.newBaseRequest,
             ),
             position=_read_position(self.agvPosition),
+            charge=_read_charge(self.batteryState),
         )
 
 
@@ -455,6 +470,16 @@ def _read_position(given: Any) -> tuple[float, float, str] | None:
         return None
     is_known = position.positionInitialized and isfinite(position.x) and isfinite(position.y)
     return (position.x, position.y, position.mapId) if is_known else None
+
+
+def _read_charge(given: Any) -> float | None:
+    """Return a state of charge, from 0 to 1; None where there is none or it cannot be read."""
+    try:
+        battery = given if isinstance(given, _Battery) else _Battery.model_validate(given)
+    except ValidationError:
+        return None
+    charge = battery.batteryCharge / 100
+    return charge if 0 <= charge <= 1 else None
 
 
 class ConnectionMessage(_Model):
