@@ -7,7 +7,8 @@ known here from the start on. The table compares makespan and mean service time 
 
 ``python -m benchmarks.tasks_of_others targets FILE ...`` reads inputs of CBS-TA of
 https://github.com/whoenig/libMultiRobotPlanning: agents with `potentialGoals`, one of which each
-gets. Each assignment of goals to agents is planned, and the table has the least flowtime of all.
+gets. Each assignment of goals to agents is planned and proven, and the table has the least flowtime
+of all.
 
 ``--output`` writes the scenarios as files that `rightofway plan` reads.
 """
@@ -18,7 +19,6 @@ import argparse
 import re
 import sys
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from fractions import Fraction
 from itertools import product
 from pathlib import Path
@@ -29,7 +29,8 @@ import yaml
 from benchmarks.common import table
 from rightofway import solve
 from rightofway.io import load_map, write_scenario
-from rightofway.model import Job, JobStop, Robot, Rules, Scenario
+from rightofway.metrics import derive_outcome
+from rightofway.model import Job, JobStop, OutcomeKind, Robot, Rules, Scenario, Stop
 from rightofway.site import Grid, Roadmap, VertexId, make_grid_roadmap
 
 RULES = Rules(turn=Fraction(0), ends="none")
@@ -82,32 +83,27 @@ def find_vertex(roadmap: Roadmap, row: int, column: int) -> VertexId:
 
 
 def list_assignments(document: Mapping[str, Any]) -> Iterator[Scenario]:
-    """Yield a scenario for each assignment of goals to agents; places are [x, y]."""
+    """Yield a scenario without jobs for each assignment of goals to agents; places are [x, y]."""
     width, height = document["map"]["dimensions"]
     blocked = {tuple(cell) for cell in document["map"]["obstacles"]}
     roadmap = make_grid_roadmap(
         ["".join(".@"[(x, y) in blocked] for x in range(width)) for y in range(height)]
     )
     agents = document["agents"]
-    robots = tuple(
-        Robot(name=agent["name"], home=find_vertex(roadmap, *agent["start"][::-1]))
+    homes = [find_vertex(roadmap, *agent["start"][::-1]) for agent in agents]
+    choices = [  # an agent without goals may end anywhere
+        [find_vertex(roadmap, *goal[::-1]) for goal in agent["potentialGoals"]]
+        or [VertexId(vertex) for vertex in range(roadmap.n_vertices)]
         for agent in agents
-    )
-    rules = replace(RULES, objective="flowtime")
-    choices: list[list[tuple[int, ...] | None]] = [
-        [tuple(goal) for goal in agent["potentialGoals"]] or [None] for agent in agents
     ]
     for goals in product(*choices):
-        taken = [goal for goal in goals if goal is not None]
-        if len(set(taken)) < len(taken):
+        if len(set(goals)) < len(goals):
             continue
-        jobs = tuple(
-            Job(name=f"G{number}", robot=robot.name,
-                stops=(JobStop(at=find_vertex(roadmap, *goal[::-1])),))
-            for number, (robot, goal) in enumerate(zip(robots, goals, strict=True))
-            if goal is not None
-        )  # fmt: skip
-        yield Scenario(roadmap=roadmap, robots=robots, rules=rules, jobs=jobs)
+        robots = tuple(
+            Robot(name=agent["name"], home=home, stops=(Stop(at=goal),))
+            for agent, home, goal in zip(agents, homes, goals, strict=True)
+        )
+        yield Scenario(roadmap=roadmap, robots=robots, rules=RULES)
 
 
 def plan_log(log: Log, seconds: float) -> tuple[int, float]:
@@ -122,10 +118,11 @@ def plan_log(log: Log, seconds: float) -> tuple[int, float]:
 
 
 def find_least_flowtime(document: Mapping[str, Any], seconds: float) -> int:
-    """Return the least flowtime over all assignments of goals [steps]."""
-    return min(
-        int(solve(scenario, time_limit=seconds).flowtime) for scenario in list_assignments(document)
-    )
+    """Return the least flowtime over all assignments of goals, each of them proven [steps]."""
+    plans = [solve(scenario, time_limit=seconds) for scenario in list_assignments(document)]
+    kinds = {derive_outcome(plan).kind for plan in plans}
+    assert kinds == {OutcomeKind.OPTIMAL}, "an optimum was not proven"
+    return min(int(plan.flowtime) for plan in plans)
 
 
 def main() -> None:

@@ -1,4 +1,4 @@
-"""Tasks of other programs as jobs: logs of pibt2, and goals that agents choose from."""
+"""Tasks of other programs: logs of pibt2 as jobs, and goals that agents choose from."""
 
 from __future__ import annotations
 
