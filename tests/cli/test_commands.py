@@ -154,7 +154,7 @@ def test_a_plan_goes_to_a_file_or_to_standard_output_and_only_there(cli: Cli, do
 
 @pytest.mark.parametrize(
     "example",
-    ["door", "crossroad", "floor", pytest.param("warehouse", marks=pytest.mark.slow)],
+    ["door", "crossroad", "floor", "jobs", pytest.param("warehouse", marks=pytest.mark.slow)],
 )
 def test_every_example_is_planned_checked_and_shown(cli: Cli, example: str) -> None:
     path = EXAMPLES / f"{example}.yaml"

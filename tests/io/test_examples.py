@@ -3,6 +3,7 @@
 from fractions import Fraction
 from pathlib import Path
 
+from rightofway import check, solve, waits
 from rightofway.io import load, load_with_notes
 from tests.builders.fleets import PAPER, paper_scenario
 from tests.builders.sentences import tell_notes
@@ -35,3 +36,13 @@ def test_the_warehouse_deals_out_three_speeds_and_work_up_to_twenty() -> None:
     assert (min(works), max(works)) == (Fraction(0), Fraction(20))
     # Three speeds and eleven work times: every pair occurs within 33 robots.
     assert len({(robot.speed, robot.stops[0].work) for robot in robots}) == 33
+
+
+def test_all_jobs_are_done_and_robots_charge_and_meet() -> None:
+    plan = solve(load(EXAMPLES / "jobs.yaml"))
+    assert (len(plan.scenario.robots), len(plan.scenario.jobs or ())) == (3, 9)
+    assert check(plan).ok
+    assert plan.unserved == ()
+    assert plan.tours is not None
+    assert any(item.job is None for tour in plan.tours for item in tour)
+    assert waits(plan)
