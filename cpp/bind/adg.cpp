@@ -27,7 +27,29 @@ delays : DelayModel
 rows : VisitRows or None
     Where robots have sizes: what the visits book.
 closures : VisitClosures or None
-    When the places of visits are closed.)";
+    When the places of visits are closed.
+works : VisitWorks or None
+    The works of visits, of a plan with jobs.)";
+
+constexpr auto works_doc = R"(The works of visits, of a plan with jobs.
+
+Parameters
+----------
+first_work : int32[N + 1]
+    Visit ``x`` has the works ``first_work[x] .. first_work[x + 1] - 1``, in order.
+ticks : int64[W]
+    The least duration of each, a part of the dwell of its visit. [ticks]
+earliest, planned : int64[W]
+    When each begins at the earliest, and by the plan. [ticks]
+first_before, before : int32[W + 1], int32[M]
+    Work ``k`` begins when the works ``before[first_before[k]:first_before[k + 1]]`` have ended.
+ends_with_work : int32[R]
+    1 for robots that complete with their last work, 0 for those that complete in their last visit.
+
+Raises
+------
+ValueError
+    From the graph that they are given to, if they do not fit it.)";
 
 constexpr auto order_doc = R"(The order of the visits of a plan.
 
@@ -116,7 +138,9 @@ completion, is_broken : int64[R], uint8[R]
 collisions : int64[4]
     As `runs` counts them.
 is_caught : uint8[R]
-    Whether each robot books something while it is closed.)";
+    Whether each robot books something while it is closed.
+begin, end : int64[W]
+    When each work begins and ends. [ticks])";
 
 constexpr std::size_t most_runs = std::size_t{1} << 31;
 
@@ -239,7 +263,16 @@ class BoundAdg {
         return std::tuple(to_numpy(std::move(times.enter)), to_numpy(std::move(times.start)),
                           to_numpy(std::move(times.completion)),
                           to_numpy(std::move(times.is_broken)), to_numpy(as_row(count)),
-                          to_numpy(std::move(times.is_caught)));
+                          to_numpy(std::move(times.is_caught)), to_numpy(std::move(times.begin)),
+                          to_numpy(std::move(times.end)));
+    }
+
+    auto planned_completions() const {
+        std::vector<Tick> ticks;
+        for (RobotId r = 0; r < plan_.n_robots(); ++r) {
+            ticks.push_back(plan_.planned_completion(r));
+        }
+        return to_numpy(std::move(ticks));
     }
 
     auto deadlocked() const { return to_numpy(timetable_.deadlocked()); }
@@ -282,16 +315,16 @@ struct BoundDelays {
 
 void init_adg(BoundAdg* self, const BookingRules& rules, const BoundRoutes& routes,
               const BoundOrder& order, const BoundDelays& model, const BoundVisitRows* rows,
-              const BoundVisitClosures* closures) {
+              const BoundVisitClosures* closures, const BoundVisitWorks* works) {
     require_length("since", order.since.size(), routes.vertex.size());
     const auto first = view(model.first_stoppage);
-    new (self)
-        BoundAdg({view(routes.first_visit), view(routes.vertex), view(order.planned),
-                  view(routes.dwell), view(routes.drive), view(order.first_right),
-                  view(order.rights), rules.headway, rules.books_ahead, view(order.since),
-                  BoundVisitRows::rows(rows), BoundVisitClosures::closures(closures, routes)},
-                 view(model.pace), model.delays(), {first.begin(), first.end()},
-                 stoppages_of(model.stoppage_tick, model.stoppage_ticks));
+    new (self) BoundAdg(
+        {view(routes.first_visit), view(routes.vertex), view(order.planned), view(routes.dwell),
+         view(routes.drive), view(order.first_right), view(order.rights), rules.headway,
+         rules.books_ahead, view(order.since), BoundVisitRows::rows(rows),
+         BoundVisitClosures::closures(closures, routes), BoundVisitWorks::works(works)},
+        view(model.pace), model.delays(), {first.begin(), first.end()},
+        stoppages_of(model.stoppage_tick, model.stoppage_ticks));
 }
 
 }  // namespace
@@ -305,15 +338,21 @@ void bind_adg(nb::module_& module) {
             nb::init<ArrayIn<double>, Ints, ArrayIn<double>, ArrayIn<double>, Ints, Ticks, Ticks>(),
             array("pace"), array("kind"), array("a"), array("b"), array("first_stoppage"),
             array("stoppage_tick"), array("stoppage_ticks"));
+    nb::class_<BoundVisitWorks>(module, "VisitWorks", works_doc)
+        .def(nb::init<Ints, Ticks, Ticks, Ticks, Ints, Ints, Ints>(), array("first_work"),
+             array("ticks"), array("earliest"), array("planned"), array("first_before"),
+             array("before"), array("ends_with_work"));
     nb::class_<BoundAdg>(module, "ActionDependencyGraph", adg_doc)
         .def("__init__", &init_adg, nb::arg("rules"), nb::arg("routes"), nb::arg("order"),
              nb::arg("delays"), nb::arg("rows").none() = nb::none(),
-             nb::arg("closures").none() = nb::none())
+             nb::arg("closures").none() = nb::none(), nb::arg("works").none() = nb::none())
         .def("runs", &BoundAdg::runs, nb::arg("seed"), nb::arg("first"), nb::arg("count"),
              nb::arg("time_limit").none(), runs_doc)
         .def("delay_sample", &BoundAdg::sample, nb::arg("seed"), nb::arg("run"), sample_doc)
         .def("execute", &BoundAdg::execute, array("dwell"), array("drive"), array("first_stoppage"),
              array("stoppage_tick"), array("stoppage_ticks"), nb::arg("clock"), execute_doc)
+        .def("planned_completions", &BoundAdg::planned_completions,
+             "Return when each robot completes by the plan, int64[R]. [ticks]")
         .def("deadlocked", &BoundAdg::deadlocked,
              "Return the robots that can never complete because they wait for each other, "
              "int32[K].");

@@ -12,6 +12,7 @@
 #include "core/excluded_rows.hpp"
 #include "core/reject.hpp"
 #include "core/types.hpp"
+#include "execution/visit_works.hpp"
 #include "precedence/incompatible_visits.hpp"
 #include "precedence/visit_closures.hpp"
 #include "problem/problem.hpp"
@@ -147,6 +148,24 @@ struct BoundVisitClosures {
         return given == nullptr ? VisitClosureArrays{}
                                 : VisitClosureArrays{view(given->first), view(given->start),
                                                      view(given->end), view(routes.drive)};
+    }
+};
+
+struct BoundVisitWorks {
+    Ints first_work;
+    Ticks ticks;
+    Ticks earliest;
+    Ticks planned;
+    Ints first_before;
+    Ints before;
+    Ints ends_with_work;
+
+    static VisitWorkArrays works(const BoundVisitWorks* given) {
+        return given == nullptr ? VisitWorkArrays{}
+                                : VisitWorkArrays{view(given->first_work),    view(given->ticks),
+                                                  view(given->earliest),      view(given->planned),
+                                                  view(given->first_before),  view(given->before),
+                                                  view(given->ends_with_work)};
     }
 };
 

@@ -41,6 +41,23 @@ ActionDependencyGraph::ActionDependencyGraph(const AdgArrays& arrays)
     incompatible_ = IncompatibleVisits(robot_, arrays.rows);
     closures_ = VisitClosures(arrays.closures, vertex_.size());
     check();
+    works_ = VisitWorks(arrays.works, dwell_, static_cast<std::size_t>(n_robots()));
+}
+
+WorkId ActionDependencyGraph::completing_work(RobotId robot) const {
+    const WorkId end = works_.end_of(last_of(robot));
+    const bool ends = works_.ends_with_work(robot) && end > works_.first_of(first_of(robot));
+    return ends ? end - 1 : none;
+}
+
+Tick ActionDependencyGraph::planned_completion(RobotId robot) const {
+    const VisitId last = last_of(robot);
+    if (const WorkId work = completing_work(robot); work != none) {
+        return works_.planned(work) + works_.ticks(work);
+    }
+    const WorkId work = works_.end_of(last) - 1;
+    return work < works_.first_of(last) ? planned(last) + dwell(last)
+                                        : works_.planned(work) + works_.ticks(work) + turn(last);
 }
 
 void ActionDependencyGraph::number_robots() {

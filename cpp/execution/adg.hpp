@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/types.hpp"
+#include "execution/visit_works.hpp"
 #include "precedence/incompatible_visits.hpp"
 #include "precedence/visit_closures.hpp"
 
@@ -30,6 +31,7 @@ struct AdgArrays {
     std::span<const Tick> since = {};  // n: earliest start of each visit; or empty
     BookedRows rows = {};
     VisitClosureArrays closures = {};
+    VisitWorkArrays works = {};
 };
 
 class ActionDependencyGraph {
@@ -67,12 +69,16 @@ class ActionDependencyGraph {
 
     const VisitClosures& closures() const { return closures_; }
 
+    const VisitWorks& works() const { return works_; }
+    // The ticks of a visit after its works: the robot turns.
+    Tick turn(VisitId visit) const { return dwell(visit) - works_.sum(visit); }
+
     // Earliest start [tick]: when the right of way was given during execution, else 0.
     Tick since(VisitId visit) const { return since_.empty() ? 0 : since_[index(visit)]; }
 
-    Tick planned_completion(RobotId robot) const {
-        return planned_[index(last_of(robot))] + dwell_[index(last_of(robot))];
-    }
+    Tick planned_completion(RobotId robot) const;
+    // The work with which a robot completes, `none` for its last visit.
+    WorkId completing_work(RobotId robot) const;
 
   private:
     void number_robots();
@@ -90,6 +96,7 @@ class ActionDependencyGraph {
     std::vector<RobotId> robot_;
     IncompatibleVisits incompatible_;
     VisitClosures closures_;
+    VisitWorks works_;
     Tick headway_;
     bool books_ahead_;
 };

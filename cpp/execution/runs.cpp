@@ -25,7 +25,7 @@ void LatenessSources::add(const ActualTimes& times) {
         if (times.completion[index(r)] >= never) {
             continue;
         }
-        VisitId x = plan_.last_of(r);
+        VisitId x = completing_stay(r, times);
         VisitId source = x;
         Tick left = times.completion[index(r)] - plan_.planned_completion(r);
         while (left > 0) {
@@ -36,6 +36,15 @@ void LatenessSources::add(const ActualTimes& times) {
             x = times.cause[index(x)];
         }
     }
+}
+
+// The visit whose stay the completion of a robot is due to.
+VisitId LatenessSources::completing_stay(RobotId robot, const ActualTimes& times) const {
+    const VisitId last = plan_.last_of(robot);
+    const WorkId work = plan_.works().end_of(last) - 1;
+    const bool is_due =
+        work >= plan_.works().first_of(last) || plan_.completing_work(robot) != none;
+    return is_due ? times.stay[index(work)] : last;
 }
 
 void LatenessSources::charge(RobotId robot, VisitId source, Tick ticks) {

@@ -32,6 +32,7 @@ class LatenessSources {
     const std::unordered_map<std::int64_t, Tick>& between() const { return between_; }
 
   private:
+    VisitId completing_stay(RobotId robot, const ActualTimes& times) const;
     void charge(RobotId robot, VisitId source, Tick ticks);
 
     const ActionDependencyGraph& plan_;

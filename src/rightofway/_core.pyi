@@ -1185,6 +1185,31 @@ class DelayModel:
 
     def __init__(self, pace: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], kind: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], a: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], b: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stoppage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stoppage_tick: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stoppage_ticks: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
 
+class VisitWorks:
+    """
+    The works of visits, of a plan with jobs.
+
+    Parameters
+    ----------
+    first_work : int32[N + 1]
+        Visit ``x`` has the works ``first_work[x] .. first_work[x + 1] - 1``, in order.
+    ticks : int64[W]
+        The least duration of each, a part of the dwell of its visit. [ticks]
+    earliest, planned : int64[W]
+        When each begins at the earliest, and by the plan. [ticks]
+    first_before, before : int32[W + 1], int32[M]
+        Work ``k`` begins when the works ``before[first_before[k]:first_before[k + 1]]`` have ended.
+    ends_with_work : int32[R]
+        1 for robots that complete with their last work, 0 for those that complete in their last visit.
+
+    Raises
+    ------
+    ValueError
+        From the graph that they are given to, if they do not fit it.
+    """
+
+    def __init__(self, first_work: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], ticks: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], earliest: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], planned: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_before: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], before: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], ends_with_work: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None: ...
+
 class ActionDependencyGraph:
     """
     A plan that is executed with delays.
@@ -1203,9 +1228,11 @@ class ActionDependencyGraph:
         Where robots have sizes: what the visits book.
     closures : VisitClosures or None
         When the places of visits are closed.
+    works : VisitWorks or None
+        The works of visits, of a plan with jobs.
     """
 
-    def __init__(self, rules: BookingRules, routes: Routes, order: Order, delays: DelayModel, rows: VisitRows | None = None, closures: VisitClosures | None = None) -> None: ...
+    def __init__(self, rules: BookingRules, routes: Routes, order: Order, delays: DelayModel, rows: VisitRows | None = None, closures: VisitClosures | None = None, works: VisitWorks | None = None) -> None: ...
 
     def runs(self, seed: int, first: int, count: int, time_limit: float | None) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None, None))], Annotated[NDArray[numpy.uint8], dict(shape=(None, None))], Annotated[NDArray[numpy.int64], dict(shape=(None, None))], Annotated[NDArray[numpy.int64], dict(shape=(None, None))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None, None))], Annotated[NDArray[numpy.uint8], dict(shape=(None, None))]]:
         """
@@ -1253,7 +1280,7 @@ class ActionDependencyGraph:
             Stoppages as the class takes them.
         """
 
-    def execute(self, dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stoppage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stoppage_tick: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stoppage_ticks: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], clock: bool) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.uint8], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.uint8], dict(shape=(None,))]]:
+    def execute(self, dwell: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], drive: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], first_stoppage: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], stoppage_tick: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stoppage_ticks: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], clock: bool) -> tuple[Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.uint8], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.uint8], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
         """
         Run the plan once by the clock or by right of way, with given delays.
 
@@ -1274,7 +1301,12 @@ class ActionDependencyGraph:
             As `runs` counts them.
         is_caught : uint8[R]
             Whether each robot books something while it is closed.
+        begin, end : int64[W]
+            When each work begins and ends. [ticks]
         """
+
+    def planned_completions(self) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))]:
+        """Return when each robot completes by the plan, int64[R]. [ticks]"""
 
     def deadlocked(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
         """

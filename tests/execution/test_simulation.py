@@ -15,6 +15,7 @@ from rightofway.facts import Fact
 from rightofway.model import Plan, PlannerRun, Rules, Track
 from rightofway.model.units import Clock
 from tests.builders.fleets import grid_fleet, random_fleet
+from tests.builders.planned_jobs import make_plan
 
 
 @pytest.fixture(scope="module")
@@ -40,6 +41,25 @@ def test_a_robot_keeps_no_headway_from_itself() -> None:
     assert plan.tracks[0].enter.tolist() == [0, 1, 2]
     outcome = rightofway.simulate(plan, "uniform:0..0", runs=1)
     assert outcome.trace(0).tracks == plan.tracks
+
+
+@pytest.mark.parametrize("change", ["switch", "replan"])
+def test_changes_during_execution_are_refused_for_plans_with_jobs(change: str) -> None:
+    with pytest.raises(InputError, match=f"{change}: is not for plans with jobs"):
+        rightofway.simulate(make_plan(), runs=1, **{change: True})
+    with pytest.raises(InputError, match=f"{change}: is not for plans with jobs"):
+        replay(make_plan(), **{change: True})
+
+
+def test_a_late_job_holds_back_the_job_after_it() -> None:
+    """R2 waits at vertex 8 for J1 of R1, which is 10 ticks longer at vertex 1.
+
+    J1 ends at 19 instead of 9, so J2 begins then. R2 works for 3 ticks, turns, and drives to
+    vertex 4 by way of 9: at home at 25 instead of 15.
+    """
+    late = rightofway.simulate(make_plan(), "stop:R1@4+10", runs=1)
+    assert late.completion.tolist() == [[25, 25]]
+    assert late.lateness.robots[1].waiting == {0: 10}
 
 
 def test_a_robot_that_stops_is_run_into_by_the_clock_and_waited_for_by_right_of_way(

@@ -21,6 +21,7 @@ struct Late {
     Tick headway = 0;
     bool books_ahead = false;
     Ticks since = {};
+    VisitWorkArrays works = {};
 
     ActionDependencyGraph plan() const {
         std::vector<std::int32_t> first_right{0};
@@ -29,8 +30,19 @@ struct Late {
             rights.insert(rights.end(), visit != none, visit);
             first_right.push_back(static_cast<std::int32_t>(rights.size()));
         }
-        return ActionDependencyGraph({first_visit, vertex, planned, dwell, drive, first_right,
-                                      rights, headway, books_ahead, since});
+        return ActionDependencyGraph({first_visit,
+                                      vertex,
+                                      planned,
+                                      dwell,
+                                      drive,
+                                      first_right,
+                                      rights,
+                                      headway,
+                                      books_ahead,
+                                      since,
+                                      {},
+                                      {},
+                                      works});
     }
     DelaySample sample() const {
         return {dwell, drive, std::vector<std::int32_t>(first_visit.size(), 0), {}};
@@ -68,6 +80,115 @@ TEST_CASE("a visit begins no sooner than its right of way was given") {
     Late round = ring();
     round.since = {0, 0, 0, 4, 0, 0};
     CHECK(in_order(round, round.sample()).enter == Ticks{0, 4, 0, 4, 0, 4});
+}
+
+// The works of `following`: robot 0 works for 2 ticks at 1, robot 1 for 1 tick at 4, its last
+// vertex, from tick 9 on; `before` says what they wait for.
+struct Works {
+    std::vector<std::int32_t> first_work{0, 0, 1, 1, 1, 1, 2};
+    Ticks ticks{2, 1};
+    Ticks earliest{0, 9};
+    Ticks planned{1, 9};
+    std::vector<std::int32_t> first_before{0, 0, 1};
+    std::vector<WorkId> before{0};
+    std::vector<std::int32_t> ends{0, 0};
+
+    VisitWorkArrays arrays() const {
+        return {first_work, ticks, earliest, planned, first_before, before, ends};
+    }
+};
+
+Late working(const Works& works) {
+    Late late = following();
+    late.dwell = {0, 2, 0, 0, 0, 3};  // robot 1 turns for 2 ticks after its work
+    late.planned = {0, 1, 4, 0, 4, 5};
+    late.works = works.arrays();
+    return late;
+}
+
+TEST_CASE("works begin no sooner than their time, and after works of others have ended") {
+    Works works;
+    const Late late = working(works);
+    DelaySample sample = late.sample();
+    ActualTimes times = in_order(late, sample);
+    CHECK(times.begin == Ticks{1, 9});
+    CHECK(times.end == Ticks{3, 10});
+    CHECK(times.completion == Ticks{4, 12});
+    sample.dwell[1] = 12;  // the first work ends at 13, and robot 1 may go on at 14
+    times = in_order(late, sample);
+    CHECK(times.begin == Ticks{1, 15});
+    sample = late.sample();
+    sample.drive[2] = 1;
+    works.before = {0};
+    works.first_before = {0, 0, 1};
+    works.earliest = {20, 0};  // robot 0 waits at 1 for its time
+    times = in_order(working(works), sample);
+    CHECK(times.begin == Ticks{20, 24});
+    CHECK(times.enter == Ticks{0, 1, 23, 0, 23, 24});
+}
+
+TEST_CASE("a visit that takes longer lengthens its works and its turn alike") {
+    const Works works;
+    const Late late = working(works);
+    DelaySample sample = late.sample();
+    sample.dwell[5] = 6;
+    const ActualTimes times = in_order(late, sample);
+    CHECK(times.end[1] - times.begin[1] == 2);
+    CHECK(times.completion[1] == 15);
+}
+
+TEST_CASE("robots whose works wait for each other deadlock, and no others") {
+    Works works;
+    works.first_before = {0, 1, 2};
+    works.before = {1, 0};
+    const ActionDependencyGraph plan = working(works).plan();
+    const ExecutionTimetable timetable(plan);
+    // The second robot waits for the first to leave vertex 1, which works there for ever.
+    CHECK(std::vector<RobotId>(timetable.deadlocked().begin(), timetable.deadlocked().end()) ==
+          std::vector<RobotId>{0, 1});
+    works.before = {1};
+    works.first_before = {0, 1, 1};  // the work at the end alone is before the first one
+    const ActionDependencyGraph other = working(works).plan();
+    CHECK(ExecutionTimetable(other).deadlocked().size() == 2);
+}
+
+TEST_CASE("a robot may complete with its last work, and others are late because of it") {
+    Works works;
+    works.ends = {0, 1};
+    const Late late = working(works);
+    const ActionDependencyGraph plan = late.plan();
+    CHECK(plan.planned_completion(0) == 4);
+    CHECK(plan.planned_completion(1) == 10);
+    DelaySample sample = late.sample();
+    sample.dwell[1] = 12;
+    ActualTimes times;
+    ExecutionTimetable(plan).by_right_of_way(sample, times);
+    CHECK(times.completion == Ticks{14, 16});
+    LatenessSources sources(plan);
+    sources.add(times);
+    CHECK(sources.own() == Ticks{0, 10, 0, 0, 0, 0});
+    CHECK(sources.of_others() == Ticks{0, 6, 0, 0, 0, 0});
+}
+
+TEST_CASE("works that do not fit their visits are refused") {
+    Works works;
+    works.ticks = {3, 1};
+    CHECK_THROWS_WITH(working(works).plan(), "ticks[0]: 3 is more than is left of its visit");
+    works = {};
+    works.before = {2};
+    CHECK_THROWS_AS(working(works).plan(), std::invalid_argument);
+}
+
+TEST_CASE("by the clock works begin when planned or later") {
+    const Works works;
+    const Late late = working(works);
+    const ActionDependencyGraph plan = late.plan();
+    DelaySample sample = late.sample();
+    sample.dwell[1] = 12;
+    ActualTimes times;
+    by_clock(plan, sample, times);
+    CHECK(times.begin == Ticks{1, 9});
+    CHECK(times.end == Ticks{13, 10});
 }
 
 TEST_CASE("who is late makes others wait, and by the clock it is run into") {

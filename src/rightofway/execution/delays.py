@@ -203,4 +203,4 @@ def delay_plan(
 def make_delayed_graph(plan: Plan, delays: Sequence[Delay]) -> ActionDependencyGraph:
     """Return a plan as it is executed with delays that `read_delays` returned."""
     model = delay_model_of(delays, plan.scenario)
-    return ActionDependencyGraph(plan.scenario, plan.tracks, model)
+    return ActionDependencyGraph(plan.scenario, plan.tracks, model, tours=plan.tours)

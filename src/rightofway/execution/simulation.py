@@ -82,11 +82,15 @@ def simulate(
     Raises
     ------
     InputError
-        If the plan has faults, the delays cannot be read, or a number is out of range.
+        If the plan has faults, the delays cannot be read, a number is out of range, or a plan with
+        jobs would have to change.
 
     Notes
     -----
     By right of way, a robot enters a vertex after all visits that precede in the plan, at any time.
+    In a plan with jobs, a robot begins work when it is there, `earliest` has come, and the jobs in
+    `after` have ended; a charge lasts as long as in the plan. `latest` and batteries may be missed.
+
     Closures are kept by the clock: a robot starts no drive whose bookings would overlap a closure
     if all goes on as planned; robots that are caught in one all the same are counted.
 
@@ -100,8 +104,9 @@ def simulate(
     runs = make_whole(1, MOST_RUNS).read_at("runs", runs)
     seed = SEED.read_at("seed", seed)
     deadline = Deadline.after(time_limit)
-    causes, adg = delay_plan(plan, delays)
     policy = ExecutionPolicy(switch=switch, replan=replan)
+    _refuse_changes(plan, policy)
+    causes, adg = delay_plan(plan, delays)
     parts: list[_Runs] = []
     traces: dict[int, ExecutionTrace] = {}
     try:
@@ -162,11 +167,19 @@ def replay(
     Raises
     ------
     InputError
-        If the delays cannot be read.
+        If the delays cannot be read, or a plan with jobs would have to change.
     """
-    _, adg = delay_plan(plan, delays)
     policy = ExecutionPolicy(switch=switch, replan=replan)
+    _refuse_changes(plan, policy)
+    _, adg = delay_plan(plan, delays)
     return ExecutionMonitor(adg, policy, seed, run, Deadline()).trace()
+
+
+def _refuse_changes(plan: Plan, policy: ExecutionPolicy) -> None:
+    """Refuse changes during execution for a plan with jobs: forecasts do not know its times."""
+    for name in ("switch", "replan"):
+        if plan.tours is not None and getattr(policy, name):
+            raise InputError.at(name, "is not for plans with jobs (leave it out)")
 
 
 def _run_batches(

@@ -143,8 +143,7 @@ class Lateness:
     @classmethod
     def of(cls, adg: ActionDependencyGraph, batch: RunBatch) -> Lateness:
         """Return the lateness of runs against the planned times of a graph."""
-        ends = adg.first_visit[1:] - 1
-        planned = adg.planned[ends] + adg.dwell[ends]
+        planned = adg.get_planned_completions()
         completion, runs = batch.completion, len(batch.completion)
         done = completion < NEVER
         late = completion - planned

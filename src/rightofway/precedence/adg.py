@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway import _core
-from rightofway.model import NEVER, Route, Scenario, Tick, Track, make_route
+from rightofway.model import NEVER, PlannedTour, Route, Scenario, Tick, Track, make_route
 from rightofway.native import (
     BookedRows,
     ClosedPlaces,
@@ -30,6 +30,7 @@ from rightofway.native import (
     bind_rules,
 )
 from rightofway.precedence.graph import Pairs, build_graph
+from rightofway.precedence.works import make_routes_of_tours
 
 KINDS = ("exponential", "uniform", "normal", "chance", "breaks")
 """Kinds of random delay; the kernel takes the index."""
@@ -120,6 +121,9 @@ class Execution(NamedTuple):
         swaps; and when the first of all these begins [ticks]; int64[4].
     is_caught
         Whether each robot books something while it is closed; uint8[R].
+    begin, end
+        Of a plan with jobs, when each work begins and ends [ticks]; int64[W]. The works of a robot
+        are that it is ready, then the items of its tour.
     """
 
     enter: NDArray[np.int64]
@@ -128,6 +132,8 @@ class Execution(NamedTuple):
     is_broken: NDArray[np.uint8]
     collisions: NDArray[np.int64]
     is_caught: NDArray[np.uint8]
+    begin: NDArray[np.int64]
+    end: NDArray[np.int64]
 
 
 class RunBatch(NamedTuple):
@@ -177,6 +183,8 @@ class ActionDependencyGraph:
     since
         When each visit was given its right of way; it begins no sooner [ticks]; int64[N]. Without,
         tick 0.
+    tours
+        Of a plan with jobs: what robots do in which visits. They give the routes.
 
     Attributes
     ----------
@@ -197,9 +205,12 @@ class ActionDependencyGraph:
         routes: Sequence[Route] | None = None,
         order: Pairs | None = None,
         since: NDArray[np.int64] | None = None,
+        tours: Sequence[PlannedTour] | None = None,
     ) -> None:
-        itineraries = scenario.problem.itineraries
-        self.scenario, self.delay_model = scenario, delay_model
+        itineraries, works = scenario.problem.itineraries, None
+        self.scenario, self.delay_model, self._tours = scenario, delay_model, tours
+        if tours is not None:
+            routes, works = make_routes_of_tours(scenario, tracks, tours)
         self.routes = tuple(
             routes
             or (
@@ -223,6 +234,7 @@ class ActionDependencyGraph:
             _make_kernel(delay_model),
             bind_rows(BookedRows.of(scenario.problem, [route.vertices for route in self.routes])),
             bind_closures(ClosedPlaces.of(scenario.problem, self.routes)),
+            works,
         )
 
     def order_at(self, when: NDArray[np.int64]) -> Pairs:
@@ -254,7 +266,12 @@ class ActionDependencyGraph:
             routes=self.routes,
             order=order,
             since=self.since if since is None else since,
+            tours=self._tours,
         )
+
+    def get_planned_completions(self) -> NDArray[np.int64]:
+        """Return when each robot completes by the plan [ticks]; int64[R]."""
+        return self._kernel.planned_completions()
 
     def list_deadlocked(self) -> list[int]:
         """Return the robots that can never complete because they wait for each other."""

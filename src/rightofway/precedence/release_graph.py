@@ -10,6 +10,12 @@ late each of them is.
 Bookings are those of ``occupancy: both``, whatever the plan's own: a robot drives into a vertex
 only after it has been left. Two things of a plan are times and have no place here: headways and
 closures.
+
+Of a plan with jobs, robots drive by this graph, too, and *works* wait in their visits: until
+`earliest` has come, and until the last works of the jobs in `after` have ended (`Problem.after`). A
+robot that waited before the vertex of its work instead could be in the way of a robot that it waits
+for. Works add no cycle: each depends on an arrival, and arrivals depend on works that ended before
+the drive began.
 """
 
 from __future__ import annotations
