@@ -26,6 +26,7 @@ from rightofway.viz.page.document import as_compact_json
 from rightofway.viz.page.payload import make_payload
 from rightofway.viz.page.schema import Payload
 from rightofway.viz.placement import lay_out_roadmap
+from tests.builders.planned_jobs import make_plan
 from tests.builders.plans import counter, counter_late, counter_steady, crowd, door, loop, yard
 
 __all__ = [
@@ -203,6 +204,7 @@ MADE: dict[str, Callable[[], object]] = {
     "corner_late": _corner_late,
     "closed": _closed,
     "rerouted": _rerouted,
+    "jobs": lambda: make_payload(make_plan()),
     "positions": _positions,
     "times": _times,
 }

@@ -14,6 +14,7 @@ from rightofway.metrics import inspect
 from rightofway.viz import write_inspection
 from tests.builders.browsers import Viewer, needs_browser
 from tests.builders.languages import english_on
+from tests.builders.planned_jobs import make_plan
 from tests.builders.plans import (
     counter,
     counter_late,
@@ -62,9 +63,10 @@ def states_of(viewer: Player) -> Iterator[str]:
         lambda opener: opener(yard(), title="yard", locale="de-DE"),
         lambda opener: opener(counter(), steady=[counter_steady()], title="bay", locale="de-DE"),
         lambda opener: opener(counter(), actual=counter_late(), title="bay", locale="de-DE"),
+        lambda opener: opener(make_plan(), title="shift", locale="de-DE"),
         lambda opener: opener(door(), title="A", others=[(door_shifted(2), "B")], locale="de-DE"),
     ],
-    ids=["decisions", "many", "sizes", "laps", "floor", "compared"],
+    ids=["decisions", "many", "sizes", "laps", "floor", "jobs", "compared"],
 )
 def test_no_state_of_the_page_says_an_english_word_to_a_german(
     show: Opener, opened: Callable[[Opener], Player]

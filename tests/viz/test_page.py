@@ -137,7 +137,7 @@ def test_the_page_names_no_address() -> None:
 def test_every_script_is_on_a_page_and_short() -> None:
     used = {
         module
-        for entry in ("main", "inspect_main", "watch_main", "widget")
+        for entry in ("main", "jobs_main", "inspect_main", "watch_main", "widget")
         for module in order_scripts(entry)
     }
     assets = Path(make_page.__code__.co_filename).parent / "assets"

@@ -110,8 +110,10 @@ class Watched:
 
     @cached_property
     def _payload(self) -> Payload:
-        """The plan as all pages get it."""
-        return make_payload(self._plan, title=self._title)
+        """The plan as all pages get it, without its jobs."""
+        payload = make_payload(self._plan, title=self._title)
+        payload.pop("work", None)
+        return payload
 
     async def stream_frames(self, known: str) -> AsyncGenerator[str]:
         """Yield events as server-sent events.

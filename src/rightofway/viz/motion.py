@@ -10,8 +10,10 @@ from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from itertools import pairwise
 
-from rightofway.model import NEVER, Plan, Stage, Tick
+from rightofway.model import NEVER, Plan, PlannedItem, PlannedTour, Stage, Tick, Track
+from rightofway.site import VertexId
 
 
 class Phase(Enum):
@@ -63,14 +65,17 @@ class Trip:
         departure = NEVER if last else max(leave - self.drive[visit + 1], now)
         served = (stage for stage, at in zip(self.stages, self.served, strict=True) if at == visit)
         duties = [
-            (ticks, activity)
+            (ticks, activity, stage.earliest)
             for stage in served
             for ticks, activity in ((stage.work, Phase.WORK), (stage.turn, Phase.TURN))
             if not (last and activity is Phase.TURN)
         ]
         if self.turns:
-            duties.append((self.turns[visit], Phase.TURN))
-        for ticks, activity in duties:
+            duties.append((self.turns[visit], Phase.TURN, Tick(0)))
+        for ticks, activity, earliest in duties:
+            if now < earliest < departure:
+                yield now, earliest, Phase.WAIT
+                now = earliest
             end = min(now + ticks, departure)
             if end > now:
                 yield now, end, activity
@@ -92,18 +97,46 @@ def make_trips(plan: Plan) -> tuple[Trip, ...]:
     trips = []
     stays_of_all = plan.stays
     itineraries = plan.scenario.problem.itineraries
-    for track, stays, itinerary in zip(plan.tracks, stays_of_all, itineraries, strict=True):
+    for robot, (track, stays, itinerary) in enumerate(
+        zip(plan.tracks, stays_of_all, itineraries, strict=True)
+    ):
         missed = len(itinerary.stages) - len(stays.serves)
+        stages, served = itinerary.stages, (*stays.serves, *[-1] * missed)
+        if plan.tours is not None:
+            stages, served = _follow_tour(plan, robot, track, plan.tours[robot])
         trip = Trip(
             vertices=tuple(map(plan.scenario.roadmap.get_drawn, track.vertices.tolist())),
             enter=tuple(track.enter.tolist()),
             drive=(0, *stays.drive[:-1].tolist()),
-            stages=itinerary.stages,
-            served=(*stays.serves, *[-1] * missed),
+            stages=stages,
+            served=served,
             turns=() if itinerary.turning is None else tuple(map(Tick, stays.turns.tolist())),
         )
         trips.append(trip)
     return tuple(trips)
+
+
+def _follow_tour(
+    plan: Plan, robot: int, track: Track, tour: PlannedTour
+) -> tuple[tuple[Stage, ...], tuple[int, ...]]:
+    """Return the items of a tour as stages that begin when they do, and a last one: the rest.
+
+    A visit turns once, after its last item.
+    """
+    work = plan.scenario.problem.work
+    assert work is not None, "tours are of jobs"
+    last = len(track) - 1
+    rest = PlannedItem(visit=last, begin=Tick(0), end=Tick(0))
+    stages = tuple(
+        Stage(
+            vertex=VertexId(int(track.vertices[min(item.visit, last)])),
+            work=Tick(item.end - item.begin),
+            turn=Tick(0) if after.visit == item.visit else work.robots[robot].turn,
+            earliest=item.begin,
+        )
+        for item, after in pairwise((*tour, rest, rest))
+    )
+    return stages, tuple(item.visit if item.visit <= last else -1 for item in (*tour, rest))
 
 
 def end_of(trips: Sequence[Trip]) -> int:

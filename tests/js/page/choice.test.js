@@ -62,3 +62,23 @@ test("positions, events and use of vertices follow the robots shown", () => {
   clock.stepEvent(1, null); // R2 comes to N1 when R1 is home, at 6; it is held for 5 in each of 8 laps
   assert.deepEqual([motion.x[0], clock.tick, use.held[1]], [0, 6, 40]);
 });
+
+test("a job is chosen with the robot that does it, one that nobody does without a robot", () => {
+  const choice = new Choice(planOf("jobs"));
+  choice.chooseJob(0);
+  assert.deepEqual([choice.job?.name, choice.robotIndex], ["J1", 0]);
+  choice.chooseJob(3);
+  assert.deepEqual([choice.job?.name, choice.robotIndex], ["J4", -1]);
+  choice.chooseRobot(1);
+  assert.equal(choice.job, null);
+});
+
+test("a robot waits until the work of its job begins", () => {
+  const [{ phases }] = planOf("jobs").planned;
+  // R1 comes to N1 at 1 and works there from 3 to 5.
+  const spans = Array.from(phases.visit.keys(), (i) => [phases.begin[i], phases.activity[i]]);
+  assert.deepEqual(spans.filter((_, i) => phases.visit[i] === 1).slice(0, 2), [
+    [1, 1],
+    [3, 2],
+  ]);
+});

@@ -87,7 +87,7 @@ def make_page(
         background=background,
         others=others,
     )
-    return make_document(about, payload, "main")
+    return make_document(about, payload, "jobs_main" if "work" in payload else "main")
 
 
 def make_document(
@@ -100,7 +100,7 @@ def make_document(
     """
     own = "connect-src 'self'; "
     style, scripts = (
-        make_style_sheet(),
+        make_style_sheet(with_jobs="work" in payload),
         [make_classic_script(name) for name in order_scripts(entry)],
     )
     parts = {
@@ -204,13 +204,14 @@ def as_compact_json(payload: Mapping[str, object]) -> str:
 
 
 @cache
-def make_style_sheet() -> str:
-    """Return the style of the page, light and dark."""
+def make_style_sheet(*, with_jobs: bool = False) -> str:
+    """Return the style of the page, light and dark, with that of jobs where there are any."""
     themes = (
         f":root{{{LIGHT.as_css()}}}",
         f"@media (prefers-color-scheme:dark){{:root:not(.on-paper){{{DARK.as_css()}}}}}",
     )
-    return "\n".join([*themes, read_asset("style.css")])
+    sheets = ("style.css", "jobs.css") if with_jobs else ("style.css",)
+    return "\n".join([*themes, *map(read_asset, sheets)])
 
 
 def _compute_hash(text: str) -> str:

@@ -78,6 +78,7 @@ from rightofway.viz.page.schema import (
     SteadyData,
     TurnRow,
 )
+from rightofway.viz.page.work_data import make_work_data
 from rightofway.viz.palette import choose_colours
 from rightofway.viz.placement import make_edge_length, order_in_line
 from rightofway.viz.verdict import LISTED_FAULTS, give_verdict, make_comparison_data
@@ -173,7 +174,17 @@ def make_payload(
         payload["faults"] = _make_blockages(scenario, no_plan, book)
     if others:
         _compare(plan, title, others, payload)
+    _add_work(plan, payload, book)
     return payload
+
+
+def _add_work(plan: Plan, payload: Payload, book: PhraseBook) -> None:
+    """Add jobs and tours of a plan with jobs, and its own charging places."""
+    work = plan.scenario.problem.work
+    if work is not None:
+        own = {int(place) for state in work.robots for place in state.charging}
+        payload["map"]["charging"] = sorted({*payload["map"].get("charging", []), *own})
+        payload["work"] = make_work_data(plan, book)
 
 
 def _compare(plan: Plan, title: str, others: Sequence[tuple[Plan, str]], payload: Payload) -> None:
@@ -192,6 +203,7 @@ def _compare(plan: Plan, title: str, others: Sequence[tuple[Plan, str]], payload
         if other.scenario.roadmap == plan.scenario.roadmap:
             data["line"] = payload["line"]
             del data["map"]
+        data.pop("work", None)  # jobs are shown of the first plan
         payload["others"].append(cast(OtherPlan, data))
     payload["comparison"] = cast(ComparisonData, make_comparison_data(comparison))
 
@@ -287,6 +299,8 @@ def _list_robots(
         }
         if robot.radius:
             robot_data["radius"] = float(robot.radius)
+        if plan.tours is not None:
+            robot_data["begins"] = [int(stage.earliest) for stage in trip.stages]
         if any(trip.turns):
             robot_data["turns"] = _list_sparse(trip.turns)
         if min(trip.served) < 0:

@@ -21,6 +21,15 @@ LossRow = TypeAliasType(
 )
 """Kind, robot, for robot, vertex, until, towards, freed, tick, end, ticks, text; see `Loss`."""
 
+JobStopRow = TypeAliasType("JobStopRow", tuple[int, int, int, int])
+"""Vertex, change of load, begin and end of the work; both are -1 where a plan lacks it."""
+
+JobCostRow = TypeAliasType("JobCostRow", tuple[int, int | None])
+"""Robot, ticks that the job adds to the objective; null where it does not fit."""
+
+TourRow = TypeAliasType("TourRow", tuple[int, int, int, int, int, int])
+"""Job, stop (both are -1 for a charge), vertex, begin, end, load after it."""
+
 ObstacleRow = TypeAliasType("ObstacleRow", tuple[str, float, float, float, float])
 """Name, left, top, width, height."""
 
@@ -146,7 +155,10 @@ MapData = TypeAliasType("MapData", GridData | NetworkData)
 
 
 class RobotData(TypedDict):
-    """A robot and its track; ``vertices`` and ``enter`` are first differences."""
+    """A robot and its track; ``vertices`` and ``enter`` are first differences.
+
+    ``begins`` has for each stage when its work begins at the earliest.
+    """
 
     name: str
     colour: str
@@ -159,6 +171,7 @@ class RobotData(TypedDict):
     enter: list[int]
     drive: int | list[int]
     stages: list[StageRow]
+    begins: NotRequired[list[int]]
     turns: NotRequired[list[TurnRow]]
     stands: NotRequired[Literal[True]]
     index: NotRequired[int]
@@ -386,6 +399,42 @@ class ComparisonData(TypedDict):
     robots: list[ComparedRobot]
 
 
+class JobData(TypedDict):
+    """A job: its stops, who does it, or why nobody does.
+
+    ``times`` has begin, end, service time, and how late it is; the reason is by the index of its
+    text. ``costs`` has the robots that may do it, those of least cost first.
+    """
+
+    name: str
+    stops: list[JobStopRow]
+    robot: NotRequired[int]
+    times: NotRequired[tuple[int, int, int, int]]
+    reason: NotRequired[int]
+    due: NotRequired[int]
+    costs: NotRequired[list[JobCostRow]]
+
+
+class TourData(TypedDict):
+    """What a robot does for jobs; ``load`` is that at its begin.
+
+    ``charges`` has ticks and states of charge, which change evenly between them.
+    """
+
+    items: list[TourRow]
+    load: int
+    capacity: int
+    reserve: NotRequired[float]
+    charges: NotRequired[list[tuple[int, float]]]
+
+
+class WorkData(TypedDict):
+    """The jobs of a plan, and a tour for each robot."""
+
+    jobs: list[JobData]
+    tours: list[TourData]
+
+
 class PlanData(TypedDict):
     """A plan without its map; ``line`` has vertices with their distances along a line.
 
@@ -415,6 +464,7 @@ class PlanData(TypedDict):
     floor: NotRequired[FloorData]
     noPlan: NotRequired[Literal[True]]
     places: NotRequired[list[tuple[int, int]]]
+    work: NotRequired[WorkData]
 
 
 class OtherPlan(PlanData):

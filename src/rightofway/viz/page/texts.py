@@ -7,20 +7,29 @@ from typing import Any
 
 from rightofway.languages import LANGUAGES, VALUE, read_texts
 
+PARTS = {"jobs": "work", "driven": "driven"}
+"""Labels that only some pages need: the key of the labels, and that of the data they are for."""
 
-def find_texts(payload: object, *, is_whole: bool = False) -> dict[str, Any]:
+
+def find_texts(payload: Mapping[str, object], *, is_whole: bool = False) -> dict[str, Any]:
     """Return the texts of a page in each language: labels, and templates of the kinds in its data.
 
-    A whole set has the templates of all kinds, for a page that gets facts later.
+    Labels of `PARTS` are for pages with these parts only. A whole set has the templates of all
+    kinds, for a page that gets facts later.
     """
     return {
         language: {
             "name": texts["name"],
-            "page": texts["page"],
+            "page": _choose_labels(texts["page"], payload),
             "facts": texts["facts"] if is_whole else _choose_facts(texts, payload),
         }
         for language, texts in zip(LANGUAGES, map(read_texts, LANGUAGES), strict=True)
     }
+
+
+def _choose_labels(labels: Mapping[str, Any], payload: Mapping[str, object]) -> dict[str, Any]:
+    left_out = {part for part, key in PARTS.items() if key not in payload}
+    return {key: label for key, label in labels.items() if key not in left_out}
 
 
 def _choose_facts(texts: Mapping[str, Any], payload: object) -> dict[str, Any]:

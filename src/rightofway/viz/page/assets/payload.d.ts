@@ -215,6 +215,21 @@ export interface InspectionPayload {
   levels: LevelData[];
 }
 
+export type JobCostRow = [number, number | null];
+
+/** A job: its stops, who does it, or why nobody does. ``times`` has begin, end, service time, and how late it is; the reason is by the index of its text. ``costs`` has the robots that may do it, those of least cost first. */
+export interface JobData {
+  name: string;
+  stops: JobStopRow[];
+  robot?: number;
+  times?: [number, number, number, number];
+  reason?: number;
+  due?: number;
+  costs?: JobCostRow[];
+}
+
+export type JobStopRow = [number, number, number, number];
+
 /** A site that was inspected; its name is empty where there is only one. */
 export interface LevelData {
   title?: string;
@@ -290,6 +305,7 @@ export interface OtherPlan {
   floor?: FloorData;
   noPlan?: true;
   places?: [number, number][];
+  work?: WorkData;
   map?: MapData;
 }
 
@@ -318,6 +334,7 @@ export interface Payload {
   floor?: FloorData;
   noPlan?: true;
   places?: [number, number][];
+  work?: WorkData;
   map: MapData;
   driven?: FeedData;
   others?: OtherPlan[];
@@ -341,7 +358,7 @@ export interface RerouteData {
   because: PhraseData;
 }
 
-/** A robot and its track; ``vertices`` and ``enter`` are first differences. */
+/** A robot and its track; ``vertices`` and ``enter`` are first differences. ``begins`` has for each stage when its work begins at the earliest. */
 export interface RobotData {
   name: string;
   colour: string;
@@ -354,6 +371,7 @@ export interface RobotData {
   enter: number[];
   drive: number | number[];
   stages: StageRow[];
+  begins?: number[];
   turns?: TurnRow[];
   stands?: true;
   index?: number;
@@ -375,6 +393,17 @@ export interface SteadyData {
   bottleneck?: [number, number];
 }
 
+/** What a robot does for jobs; ``load`` is that at its begin. ``charges`` has ticks and states of charge, which change evenly between them. */
+export interface TourData {
+  items: TourRow[];
+  load: number;
+  capacity: number;
+  reserve?: number;
+  charges?: [number, number][];
+}
+
+export type TourRow = [number, number, number, number, number, number];
+
 export type TurnRow = [number, number];
 
 /** The names of the units; null where the scenario names none. */
@@ -384,3 +413,9 @@ export interface UnitsData {
 }
 
 export type VisitRow = [number, number, "arrived" | "released" | "done", number];
+
+/** The jobs of a plan, and a tour for each robot. */
+export interface WorkData {
+  jobs: JobData[];
+  tours: TourData[];
+}

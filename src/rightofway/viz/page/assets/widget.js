@@ -1,4 +1,5 @@
 import { createPlayer } from "./player/player.js";
+import { WORKING } from "./jobs/working.js";
 
 /** @import { PlayerHandle } from "./player/player.js" */
 
@@ -15,7 +16,7 @@ function render({ model, el }) {
   /** @type {PlayerHandle | null} */
   let player = null;
   const frame = requestAnimationFrame(() => {
-    player = createPlayer(page, JSON.parse(model.get("payload"))); // once it has a size
+    player = createPlayer(page, JSON.parse(model.get("payload")), null, WORKING); // once it has a size
   });
   return () => {
     cancelAnimationFrame(frame);

@@ -7,6 +7,7 @@ import { several, upperFirst } from "../language/words.js";
 /** @import { Choice } from "../player/choice.js" */
 /** @import { Compared, ComparedFigures } from "./compared.js" */
 /** @import { Comparison } from "./comparison.js" */
+/** @import { JobCards } from "../jobs/job_cards.js" */
 /** @import { Plan } from "../plan/plan.js" */
 /** @import { Robot } from "../plan/robot.js" */
 /** @import { Words } from "../language/words.js" */
@@ -22,8 +23,10 @@ export class Summary {
    * @param {Choice} choice
    * @param {Words} words
    * @param {Comparison | null} comparison
+   * @param {JobCards | null} jobs of a plan with jobs
    */
-  constructor(root, plan, choice, words, comparison) {
+  constructor(root, plan, choice, words, comparison, jobs) {
+    this.jobs = jobs;
     this.root = root;
     this.plan = plan;
     this.choice = choice;
@@ -136,6 +139,7 @@ export class Summary {
     const latest = mostOf(robots, ({ completion }) => completion);
     const loser = mostOf(robots, ({ delay }) => delay);
     return [
+      ...(this.jobs?.figures ?? []),
       [
         texts.allAt({ isHome: endsAtHome }),
         this.words.time(metrics.makespan),

@@ -51,10 +51,12 @@ export interface PageTexts {
     forth: string;
     side: string;
     robots: string;
+    jobs: string;
     decisions: string;
     faults: string;
     compared: string;
     findRobot: string;
+    findJob: string;
     sort: string;
     sortAtLength: string;
     findPlace: string;
@@ -211,6 +213,34 @@ export interface PageTexts {
     onTime: string;
     late: Text<"time">;
     early: Text<"time">;
+  };
+  jobs: {
+    done: string;
+    doneAtLength: string;
+    serviceTimeAtLength: string;
+    doneBy: Text<"name" | "robot">;
+    notServed: Text<"name">;
+    inService: Text<"time">;
+    none: string;
+    noneFits: string;
+    robot: string;
+    serviceTime: string;
+    due: string;
+    late: string;
+    stops: string;
+    loads: Text<"count">;
+    unloads: Text<"count">;
+    onBoard: Text<"count">;
+    whyThisRobot: string;
+    costs: string;
+    costsAtLength: string;
+    fitsNowhere: string;
+    tour: string;
+    noTour: string;
+    item: Text<"name" | "what">;
+    charges: Text<"time" | "where">;
+    charge: string;
+    chargeAtLength: Text<"first" | "last" | "least" | "reserve">;
   };
   driven: {
     isLive: string;

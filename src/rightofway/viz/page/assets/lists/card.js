@@ -10,6 +10,7 @@ import { joined, upperFirst } from "../language/words.js";
 /** @import { Clock } from "../player/clock.js" */
 /** @import { Comparison } from "../figures/comparison.js" */
 /** @import { DecisionData, FaultData, ForcedLossData } from "../payload.d.ts" */
+/** @import { JobCards } from "../jobs/job_cards.js" */
 /** @import { Live } from "../live/live.js" */
 /** @import { Plan } from "../plan/plan.js" */
 /** @import { Robot, Stage } from "../plan/robot.js" */
@@ -20,7 +21,7 @@ const MOST_LINES = 200; // of stages or losses in a card
 
 /** @typedef {[string, string | Node | null]} Term A term, and what it is. */
 
-/** All about the robot, decision, fault or forced loss that is chosen. */
+/** All about the robot, job, decision, fault or forced loss that is chosen. */
 export class Card {
   /**
    * @param {Root} root
@@ -31,9 +32,11 @@ export class Card {
    * @param {Comparison | null} comparison
    * @param {Space} space
    * @param {Live | null} [live] of a fleet that is driven
+   * @param {JobCards | null} [jobs] of a plan with jobs
    */
-  constructor(root, plan, clock, choice, words, comparison, space, live = null) {
+  constructor(root, plan, clock, choice, words, comparison, space, live = null, jobs = null) {
     this.live = live;
+    this.jobs = jobs;
     this.root = root;
     this.plan = plan;
     this.clock = clock;
@@ -66,20 +69,21 @@ export class Card {
   }
 
   #show() {
-    const { robot, fault, forcedLoss, decisionIndex } = this.choice;
-    const decision = this.plan.decisions[decisionIndex];
-    this.box.hidden = !robot;
-    if (!robot) return;
-    const content = fault
-      ? this.#fault(fault)
-      : forcedLoss
-        ? this.#forcedLoss(forcedLoss)
-        : decision
-          ? this.#decision(decision)
-          : this.#robot(robot);
-    this.box.replaceChildren(...content);
+    this.box.hidden = !this.choice.robot && !this.choice.job;
+    if (this.box.hidden) return;
+    this.box.replaceChildren(...this.#content());
     this.box.scrollTop = 0;
     this.#clearMap();
+  }
+
+  #content() {
+    const { robot, job, fault, forcedLoss, decisionIndex } = this.choice;
+    const decision = this.plan.decisions[decisionIndex];
+    if (fault) return this.#fault(fault);
+    if (forcedLoss) return this.#forcedLoss(forcedLoss);
+    if (decision) return this.#decision(decision);
+    if (job && this.jobs) return [this.#header(...this.jobs.title(job)), ...this.jobs.job(job)];
+    return robot ? this.#robot(robot) : [];
   }
 
   /** Where the card lies over the lower half of the screen, bring the map above it. */
@@ -121,12 +125,17 @@ export class Card {
         [texts.home, words.where(robot.home)],
         [texts.anotherWay, said(rerouted?.because ?? "")],
       ]),
-      element("h3", {}, texts.trip),
-      this.#lines(robot.stages, (stage) => this.#stage(robot, stage)),
+      ...(this.jobs?.tour(robot) ?? this.#trip(robot)),
       ...this.#losses(robot),
       ...this.#forcedLosses(robot),
       ...this.#encounters(robot),
     ];
+  }
+
+  /** @param {Robot} robot */
+  #trip(robot) {
+    const lines = this.#lines(robot.stages, (stage) => this.#stage(robot, stage));
+    return [element("h3", {}, texts.trip), lines];
   }
 
   /**

@@ -229,7 +229,7 @@ function letter(context, text, x, y, theme, side) {
  * @param {number} y
  * @param {number} side
  */
-function bolt(context, x, y, side) {
+export function bolt(context, x, y, side) {
   context.beginPath();
   for (const [right, down] of [
     [0.1, -0.4],

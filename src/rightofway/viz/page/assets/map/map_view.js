@@ -17,6 +17,7 @@ import { Use } from "../plan/use.js";
 import { Viewport } from "../drawing/viewport.js";
 import { Words } from "../language/words.js";
 
+/** @import { JobMarks } from "../jobs/job_marks.js" */
 /** @import { MapReleased } from "./map_released.js" */
 /** @import { Root } from "../common/root.js" */
 /** @import { Site } from "../plan/site.js" */
@@ -37,6 +38,7 @@ import { Words } from "../language/words.js";
  * @property {Bottleneck | null} [bottleneck]
  * @property {Root | null} [tools] where the buttons that act on it are
  * @property {((sizes: MapSizes) => MapReleased) | null} [released] what is released to a fleet that is driven
+ * @property {JobMarks | null} [jobs] of a plan with jobs
  */
 
 /** The moment of a map on which nothing moves. */
@@ -68,6 +70,7 @@ export class MapView {
       bottleneck = null,
       tools = null,
       released = null,
+      jobs = null,
     } = {},
   ) {
     this.canvas = canvas;
@@ -102,6 +105,7 @@ export class MapView {
     this.robots = new MapRobots(plan, motion, ghosts, this.sizes, theme, choice);
     this.route = new MapRoute(plan, motion, this.sizes, theme, choice);
     this.released = released?.(this.sizes) ?? null;
+    this.jobs = jobs;
     this.names = new MapNames(plan, motion, this.viewport, this.sizes, clock, theme, choice, use);
     this.tip = new MapTip(canvas, plan, motion, clock, choice, words, use, this.space);
     canvas.parentElement?.style.setProperty(
@@ -138,6 +142,7 @@ export class MapView {
     this.bottleneck?.paintRobots(context, this.motion, scale);
     this.robots.paint(context, scale);
     this.bookings.paintOver(context, scale);
+    this.jobs?.paintMap(context, scale);
     context.setTransform(size.ratio, 0, 0, size.ratio, 0, 0);
     this.names.paint(context, size.width, size.height);
     this.bookings.write(context, this.words);
@@ -191,7 +196,10 @@ export class MapView {
       return;
     }
     const reach = Math.max(0.45, (this.sizes.robot + 8) / this.viewport.scale);
-    this.choice.chooseRobot(nearest(this.motion.x, this.motion.y, x, y, reach));
+    const robot = nearest(this.motion.x, this.motion.y, x, y, reach);
+    const job = robot < 0 ? (this.jobs?.jobAt(this.roadmap.near(x, y)) ?? -1) : -1;
+    if (job >= 0) this.choice.chooseJob(job);
+    else this.choice.chooseRobot(robot);
   }
 
   #bringIntoSight() {

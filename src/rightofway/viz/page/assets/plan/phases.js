@@ -42,6 +42,8 @@ export function phasesOf(robot) {
     };
     for (; stage < robot.stages.length && robot.stages[stage].visit <= visit; stage++) {
       if (robot.stages[stage].visit < visit) continue;
+      const idle = (robot.begins[stage] ?? 0) - now;
+      if (idle > 0) add(idle, WAIT);
       add(robot.stages[stage].work, WORK);
       if (visit < last || robot.ending !== DONE) add(robot.stages[stage].turn, TURN);
     }

@@ -35,6 +35,7 @@ export class Plan extends Site {
     this.planner = raw.planner;
     this.decisions = raw.decisions;
     this.forcedLosses = raw.forcedLosses ?? []; // of an optimal plan
+    if (raw.work) ({ jobs: this.jobs, tours: this.tours } = raw.work);
     this.reroutes = raw.reroutes;
     this.metrics = raw.metrics;
   }

@@ -26,6 +26,7 @@ export class Robot {
         : Float64Array.from(raw.drive);
     /** @type {Stage[]} */
     this.stages = raw.stages.map(([vertex, work, turn, visit]) => ({ vertex, work, turn, visit }));
+    this.begins = raw.begins ?? []; // of the work of each stage, in a plan with jobs
     this.turns = new Map(raw.turns); // on the spot between two edges, by visit [ticks]
     this.completion = raw.completion;
     this.alone = raw.alone;

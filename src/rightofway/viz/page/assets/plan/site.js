@@ -3,7 +3,7 @@ import { Quantities } from "../language/quantities.js";
 import { Roadmap } from "./roadmap.js";
 import { Robot } from "./robot.js";
 
-/** @import { ClosureData, DecisionData, FaultData, ForcedLossData, LevelData, Payload } from "../payload.d.ts" */
+/** @import { ClosureData, DecisionData, FaultData, ForcedLossData, JobData, LevelData, Payload, TourData } from "../payload.d.ts" */
 /** @import { FloorRobot } from "./floor.js" */
 /** @import { Driven } from "../live/driven.js" */
 /** @import { Steady } from "./steady.js" */
@@ -37,6 +37,10 @@ export class Site {
     this.decisions = [];
     /** @type {ForcedLossData[]} */
     this.forcedLosses = [];
+    /** @type {JobData[]} */
+    this.jobs = [];
+    /** @type {TourData[]} */
+    this.tours = []; // of the robots, where there are jobs
     /** @type {FloorRobot[] | null} */
     this.happened = null;
     /** @type {Driven | null} */

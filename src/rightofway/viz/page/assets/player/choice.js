@@ -20,6 +20,7 @@ export class Choice extends Observable {
     this.decisionIndex = -1;
     this.faultIndex = -1;
     this.forcedIndex = -1; // of a loss that every plan has
+    this.jobIndex = -1;
     this.heat = false;
     /** @type {Mode} */
     this.mode = plan.happened ? "both" : "plan";
@@ -63,6 +64,11 @@ export class Choice extends Observable {
     return this.plan.forcedLosses[this.forcedIndex] ?? null;
   }
 
+  /** The job, or null. */
+  get job() {
+    return this.plan.jobs[this.jobIndex] ?? null;
+  }
+
   /** The fault, or null. */
   get fault() {
     return this.plan.faults[this.faultIndex] ?? null;
@@ -75,7 +81,7 @@ export class Choice extends Observable {
 
   /** @param {number} index */
   chooseRobot(index) {
-    this.#set(index, -1);
+    this.#set({ robot: index });
   }
 
   /**
@@ -84,7 +90,7 @@ export class Choice extends Observable {
    * @param {number} index
    */
   chooseDecision(index) {
-    this.#set(this.plan.decisions[index]?.waits ?? -1, index);
+    this.#set({ robot: this.plan.decisions[index]?.waits, decision: index });
   }
 
   /**
@@ -93,7 +99,7 @@ export class Choice extends Observable {
    * @param {number} index
    */
   chooseFault(index) {
-    this.#set(this.plan.faults[index]?.robots[0] ?? -1, -1, index);
+    this.#set({ robot: this.plan.faults[index]?.robots[0], fault: index });
   }
 
   /**
@@ -102,13 +108,22 @@ export class Choice extends Observable {
    * @param {number} index
    */
   chooseForcedLoss(index) {
-    this.#set(this.plan.forcedLosses[index]?.robots[0] ?? -1, -1, -1, index);
+    this.#set({ robot: this.plan.forcedLosses[index]?.robots[0], forced: index });
+  }
+
+  /**
+   * Look at a job, and so at the robot that does it.
+   *
+   * @param {number} index
+   */
+  chooseJob(index) {
+    this.#set({ robot: this.plan.jobs[index]?.robot, job: index });
   }
 
   /** Also ends the choice of a corridor that has begun. */
   chooseNothing() {
     if (this.picked) this.toggleCorridor();
-    this.#set(-1, -1);
+    this.#set({});
   }
 
   toggleHeat() {
@@ -219,24 +234,21 @@ export class Choice extends Observable {
     return this.robotIndex < 0 || this.robotIndex === index;
   }
 
-  /**
-   * @param {number} robot
-   * @param {number} decision
-   * @param {number} [fault]
-   * @param {number} [forced]
-   */
-  #set(robot, decision, fault = -1, forced = -1) {
+  /** @param {{ robot?: number, decision?: number, fault?: number, forced?: number, job?: number }} indices */
+  #set({ robot = -1, decision = -1, fault = -1, forced = -1, job = -1 }) {
     const isSame = [
       robot === this.robotIndex,
       decision === this.decisionIndex,
       fault === this.faultIndex,
       forced === this.forcedIndex,
+      job === this.jobIndex,
     ];
     if (isSame.every(Boolean)) return;
     if (robot !== this.robotIndex) this.pair = -1;
     this.lit = [];
     this.faultIndex = fault;
     this.forcedIndex = forced;
+    this.jobIndex = job;
     this.robotIndex = robot;
     this.decisionIndex = decision;
     this.tell("choice");

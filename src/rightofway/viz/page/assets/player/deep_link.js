@@ -33,6 +33,7 @@ export class DeepLink {
   /** Show what the address says; returns whether it says anything. */
   read() {
     const asked = new URLSearchParams(this.root.isEmbedded ? "" : location.hash.slice(1));
+    const job = this.plan.jobs.findIndex(({ name }) => name === asked.get("job"));
     const robot = this.plan.robots.findIndex(({ name }) => name === asked.get("robot"));
     const decision = Number.parseInt(asked.get("decision") ?? "", 10) - 1;
     const fault = Number.parseInt(asked.get("fault") ?? "", 10) - 1;
@@ -40,6 +41,7 @@ export class DeepLink {
     if (this.plan.faults[fault]) this.choice.chooseFault(fault);
     else if (this.plan.forcedLosses[forced]) this.choice.chooseForcedLoss(forced);
     else if (this.plan.decisions[decision]) this.choice.chooseDecision(decision);
+    else if (job >= 0) this.choice.chooseJob(job);
     else if (robot >= 0) this.choice.chooseRobot(robot);
     const mode = MODES.find((each) => each === asked.get("show"));
     if (this.plan.happened && mode) this.choice.show(mode);
@@ -69,6 +71,7 @@ export class DeepLink {
     if (this.choice.fault) state.set("fault", String(this.choice.faultIndex + 1));
     else if (this.choice.forcedLoss) state.set("forced", String(this.choice.forcedIndex + 1));
     else if (this.choice.decision) state.set("decision", String(this.choice.decisionIndex + 1));
+    else if (this.choice.job) state.set("job", this.choice.job.name);
     else if (this.choice.robot) state.set("robot", this.choice.robot.name);
     if (this.plan.happened) state.set("show", this.choice.mode);
     const { corridor } = this.choice;

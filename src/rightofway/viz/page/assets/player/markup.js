@@ -144,7 +144,7 @@ const CARD = `<section id="card" class="card" aria-live="polite" hidden></sectio
  *
  * @param {{ item: string, label: string, hint: string, find: string, key?: string, more?: string }} options
  */
-const foundList = ({ item, label, hint, find, key, more = "" }) => `
+export const foundList = ({ item, label, hint, find, key, more = "" }) => `
     <div class="find">
       <input type="search" id="find-${item}" data-hint="${hint}"${key ? ` data-key="${key}"` : ""} data-label="${find}" autocomplete="off" spellcheck="false">
       ${more}
@@ -152,8 +152,12 @@ const foundList = ({ item, label, hint, find, key, more = "" }) => `
     <div id="${item}-list" class="list" role="listbox" tabindex="0" data-label="${label}"></div>
 `;
 
-/** All of a player. */
-export const MARKUP = `
+/**
+ * All of a player.
+ *
+ * @param {{ tab: string, panel: string }} [jobs] of the list of jobs
+ */
+export const makeMarkup = ({ tab, panel } = { tab: "", panel: "" }) => `
 ${head(
   `<button type="button" id="about-open" class="quiet" data-text="details" data-title="made"></button>
     <button type="button" id="copy-link" class="quiet" aria-live="polite" data-text="link" data-title="linkAtLength"></button>
@@ -211,7 +215,7 @@ ${below(STATES, ["zoom-in", "zoom-out", "fit", "bottleneck", "corridor", "space"
   </div>
   ${CARD}
   <div class="tabs" role="tablist">
-    <button type="button" role="tab" id="tab-robots" aria-controls="robots" aria-selected="true"><span data-text="robots"></span> <b></b></button>
+    <button type="button" role="tab" id="tab-robots" aria-controls="robots" aria-selected="true"><span data-text="robots"></span> <b></b></button>${tab}
     <button type="button" role="tab" id="tab-decisions" aria-controls="decisions" aria-selected="false" tabindex="-1"><span data-text="decisions"></span> <b></b></button>
     <button type="button" role="tab" id="tab-faults" class="tab-faults" aria-controls="faults" aria-selected="false" tabindex="-1"><span data-text="faults"></span> <b></b></button>
     <button type="button" role="tab" id="tab-compared" aria-controls="compared" aria-selected="false" tabindex="-1"><span data-text="compared"></span> <b></b></button>
@@ -225,7 +229,7 @@ ${below(STATES, ["zoom-in", "zoom-out", "fit", "bottleneck", "corridor", "space"
       find: "findRobot",
       more: `<button type="button" id="sort" class="quiet" aria-pressed="false" data-text="sort" data-title="sortAtLength"></button>`,
     })}
-  </div>
+  </div>${panel}
   <div class="panel" id="decisions" role="tabpanel" aria-labelledby="tab-decisions" hidden>
     ${foundList({ item: "decision", label: "decisions", hint: "findPlace", find: "findDecision" })}
   </div>

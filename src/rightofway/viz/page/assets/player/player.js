@@ -20,7 +20,7 @@ import { Loop } from "./loop.js";
 import { MapView } from "../map/map_view.js";
 import { ModeSwitch } from "./mode_switch.js";
 import { Motion } from "../plan/motion.js";
-import { MARKUP } from "./markup.js";
+import { makeMarkup } from "./markup.js";
 import { Paper } from "./paper.js";
 import { Plan } from "../plan/plan.js";
 import { RobotList } from "../lists/robot_list.js";
@@ -45,11 +45,13 @@ import { Words } from "../language/words.js";
  * @param {HTMLElement} element `document.body` where the player is the page
  * @param {Payload & WithTexts} payload what `make_payload` returns, and texts
  * @param {typeof import("../live/watching.js").WATCHING | null} [watching] for a fleet that is driven
+ * @param {typeof import("../jobs/working.js").WORKING | null} [working] for a plan with jobs
  * @returns {PlayerHandle}
  */
-export function createPlayer(element, payload, watching = null) {
+export function createPlayer(element, payload, watching = null, working = null) {
   const root = new Root(element);
-  root.fill(MARKUP);
+  const jobs = payload.work ? working : null;
+  root.fill(makeMarkup(jobs ?? undefined));
   learn(payload.texts);
   setLanguage(askedLanguage(root.isPart), root.top);
   writeMarkup(element);
@@ -67,6 +69,7 @@ export function createPlayer(element, payload, watching = null) {
   const use = new Use(choice);
   const bottleneck = new Bottleneck(root, plan, clock, choice, theme);
 
+  const jobMarks = jobs && new jobs.JobMarks(plan, theme, choice);
   const mapView = new MapView(root.part("map", HTMLCanvasElement), plan, theme, {
     motion,
     ghosts,
@@ -80,8 +83,10 @@ export function createPlayer(element, payload, watching = null) {
       watching && driven
         ? (sizes) => new watching.MapReleased(plan, driven, motion, sizes, choice)
         : null,
+    jobs: jobMarks,
   });
   const diagram = new Diagram(root, plan, clock, choice, theme, words, use, bottleneck);
+  diagram.jobs = jobMarks;
   const transport = new Transport(root, plan, clock, words);
   const loop = new Loop(root, plan, clock, choice);
   const modeSwitch = new ModeSwitch(root, plan, choice);
@@ -89,21 +94,26 @@ export function createPlayer(element, payload, watching = null) {
   const comparison =
     plan.comparison && new Comparison(root, plan, clock, choice, theme, mapView, diagram);
   const live = watching && driven && new watching.Live(root, plan, driven, clock, choice, words);
-  const card = new Card(root, plan, clock, choice, words, comparison, mapView.space, live); // before the lists, whose height depends on it
+  const jobCards = jobs && new jobs.JobCards(plan, clock, choice, words);
+  const { space } = mapView;
+  const card = new Card(root, plan, clock, choice, words, comparison, space, live, jobCards); // before the lists, whose height depends on it
   const robotList = new RobotList(root, plan, motion, clock, choice, words, live);
+  const jobList = jobs && jobs.makeJobList(root, plan, clock, choice, words);
   const decisionList = makeDecisionList(root, plan, clock, choice, words);
   const faultList = makeFaultList(root, plan, clock, choice, words);
   const tabs = new Tabs(
     root,
-    [
-      plan.robots.length,
-      hasNoReasons(plan) ? "–" : decisionList.items.length,
-      plan.faultCount || null,
-      comparison && comparison.plans.length,
-      plan.driven && plan.driven.story.length,
-    ],
+    {
+      robots: plan.robots.length,
+      jobs: plan.jobs.length,
+      decisions: hasNoReasons(plan) ? "–" : decisionList.items.length,
+      faults: plan.faultCount || null,
+      compared: comparison && comparison.plans.length,
+      log: plan.driven && plan.driven.story.length,
+    },
     () => {
       robotList.refresh();
+      jobList?.refresh();
       decisionList.refresh();
       faultList.refresh();
       comparison?.refresh();
@@ -111,7 +121,7 @@ export function createPlayer(element, payload, watching = null) {
     },
   );
   const deepLink = new DeepLink(root, plan, clock, choice);
-  new Summary(root, plan, choice, words, comparison);
+  new Summary(root, plan, choice, words, comparison, jobCards);
   new Share(
     root,
     plan,
@@ -201,8 +211,8 @@ export function createPlayer(element, payload, watching = null) {
 
   const linked = deepLink.read();
   mapView.viewport.fit();
-  if (plan.faultCount) tabs.show(2);
-  else if (comparison) tabs.show(3);
+  if (plan.faultCount) tabs.show("faults");
+  else if (comparison) tabs.show("compared");
   if (plan.noPlan && !linked) choice.chooseFault(0);
   frames.ask();
   if (

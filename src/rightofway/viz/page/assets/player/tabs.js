@@ -5,7 +5,7 @@ import { all } from "../common/dom.js";
 export class Tabs {
   /**
    * @param {Root} root
-   * @param {(number | string | null)[]} counts
+   * @param {Record<string, number | string | null | undefined>} counts of each list, null where it is left out
    * @param {() => void} shown
    */
   constructor(root, counts, shown) {
@@ -13,17 +13,23 @@ export class Tabs {
     this.tabs = root.all("[role=tab]", HTMLElement);
     this.panels = root.all("[role=tabpanel]", HTMLElement);
     this.shown = shown;
+    this.names = this.tabs.map(({ id }) => id.replace(/^tab-|-\d+$/g, ""));
     this.tabs.forEach((tab, index) => {
-      for (const count of all("b", HTMLElement, tab))
-        count.textContent = String(counts[index] ?? "");
-      tab.hidden = counts[index] === null;
-      tab.addEventListener("click", () => this.show(index));
+      const count = counts[this.names[index]] ?? null;
+      for (const place of all("b", HTMLElement, tab)) place.textContent = String(count ?? "");
+      tab.hidden = count === null;
+      tab.addEventListener("click", () => this.#show(index));
       tab.addEventListener("keydown", (event) => this.#key(event, index));
     });
   }
 
+  /** @param {string} name */
+  show(name) {
+    this.#show(this.names.indexOf(name));
+  }
+
   /** @param {number} chosen */
-  show(chosen) {
+  #show(chosen) {
     this.tabs.forEach((tab, index) => {
       tab.setAttribute("aria-selected", String(index === chosen));
       tab.tabIndex = index === chosen ? 0 : -1;
@@ -44,7 +50,7 @@ export class Tabs {
     const shown = this.tabs.filter((tab) => !tab.hidden);
     const by = event.key === "ArrowRight" ? 1 : shown.length - 1;
     const other = shown[(shown.indexOf(this.tabs[index]) + by) % shown.length];
-    this.show(this.tabs.indexOf(other));
+    this.#show(this.tabs.indexOf(other));
     other.focus();
   }
 }

@@ -10,6 +10,7 @@ import { SteadyBand } from "./steady_band.js";
 /** @import { Root } from "../common/root.js" */
 /** @import { Bottleneck } from "./bottleneck.js" */
 /** @import { Choice } from "../player/choice.js" */
+/** @import { JobMarks } from "../jobs/job_marks.js" */
 /** @import { Moments } from "../player/clock.js" */
 /** @import { Plan } from "../plan/plan.js" */
 /** @import { Theme } from "../drawing/theme.js" */
@@ -42,6 +43,8 @@ export class Diagram {
     this.theme = theme;
     this.words = words;
     this.axis = axis ?? { plan, words };
+    /** @type {JobMarks | null} */
+    this.jobs = null; // of a plan with jobs
     this.hasLabels = true;
     this.area = new Area(theme.root.top, 0, 0, plan.end); // until the first frame
     this.canvas = canvas ?? root.part("diagram", HTMLCanvasElement);
@@ -120,7 +123,10 @@ export class Diagram {
     context.beginPath();
     context.rect(0, 0, area.right + 1, height); // laps go on beyond the end
     context.clip();
-    this.view.paint(context, area);
+    const { view } = this;
+    view.paint(context, area);
+    if (!(view instanceof Census))
+      this.jobs?.paintDiagram(context, area, (robot, vertex) => view.lanes(robot, vertex));
     this.#decisions(context, area);
     context.restore();
   }

@@ -47,7 +47,7 @@ export class RobotRows {
     this.rowHeight = Math.min(area.height / this.choice.robots.length, HIGHEST_ROW);
     const names = this.choice.robots.map((robot) => robot.name);
     paintRowNames(context, area, this.theme, names, this.rowHeight, (row) => this.#middle(row));
-    this.bottleneck.paintDiagram(context, area, ({ robot }) => this.#lane(robot));
+    this.bottleneck.paintDiagram(context, area, ({ robot }) => this.lanes(robot)[0]);
     for (const robot of this.choice.robots) this.#row(context, robot);
     for (const robot of this.choice.beside ?? []) this.#ghost(context, robot);
   }
@@ -57,8 +57,8 @@ export class RobotRows {
    *
    * @param {Robot} robot
    */
-  #lane(robot) {
-    return { top: this.#middle(robot.index) - this.rowHeight / 2, height: this.rowHeight };
+  lanes(robot) {
+    return [{ top: this.#middle(robot.index) - this.rowHeight / 2, height: this.rowHeight }];
   }
 
   get #hasGhosts() {

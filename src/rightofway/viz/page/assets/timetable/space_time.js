@@ -112,7 +112,11 @@ export class SpaceTime {
     this.#rowLines(context);
     const vertices = new Set(this.axis.rows.map(({ vertex }) => vertex));
     for (const vertex of vertices) this.#bookings(context, vertex);
-    this.bottleneck.paintDiagram(context, area, ({ vertex }) => this.#lane(vertex));
+    this.bottleneck.paintDiagram(
+      context,
+      area,
+      ({ robot, vertex }) => this.lanes(robot, vertex)[0] ?? null,
+    );
     const drawn = this.#drawn();
     const { beside } = this.choice;
     if (beside) for (const { index } of drawn) this.#line(context, beside[index], true);
@@ -146,15 +150,16 @@ export class SpaceTime {
   }
 
   /**
-   * The row of a vertex, or null.
+   * The rows of a vertex, the same for all robots.
    *
+   * @param {Robot} _robot
    * @param {number} vertex
    */
-  #lane(vertex) {
-    const [row] = this.axis.spots(vertex);
-    if (!row) return null;
-    const half = Math.max(row.half * 0.62, 2.5);
-    return { top: row.y - half, height: 2 * half };
+  lanes(_robot, vertex) {
+    return this.axis.spots(vertex).map((row) => {
+      const half = Math.max(row.half * 0.62, 2.5);
+      return { top: row.y - half, height: 2 * half };
+    });
   }
 
   /**
