@@ -26,7 +26,15 @@ __all__ = ["WALL", "commands", "make_pages"]
 
 WALL = DOCS / "gallery" / "index.md"
 PICTURES = DOCS / "images" / "gallery"
-TICKS = {"warehouse": 120, "plant": 12000, "ros": 600, "laps": 40, "discs": 16, "zone": 1200}
+TICKS = {
+    "warehouse": 120,
+    "jobs": 40,
+    "plant": 12000,
+    "ros": 600,
+    "laps": 40,
+    "discs": 16,
+    "zone": 1200,
+}
 """Instants that pictures show, where it is not tick 4."""
 
 SMALL = (800, 500)

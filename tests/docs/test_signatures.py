@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 import rightofway
+from rightofway.io import make_schema
 from tests.builders.pages import DOCS
 
 _SPEC = spec_from_file_location("as_written", DOCS / "_ext" / "as_written.py")
@@ -63,3 +64,21 @@ def test_a_signature_has_the_stars_of_further_arguments() -> None:
     text, _ = as_written.signature_of(None, "function", "solve", rightofway.solve)
     assert "planner: str = 'auto'" in text
     assert "**named: Any" in text
+
+
+@pytest.mark.parametrize(
+    ("part", "method", "other"),
+    [
+        ("RobotDocument", rightofway.FleetBuilder.add_robot, {"return": "ends"}),
+        ("JobDocument", rightofway.FleetBuilder.add_job, {}),
+        ("BatteryDocument", rightofway.FleetBuilder.add_battery, {}),
+    ],
+    ids=["robots", "jobs", "batteries"],
+)
+def test_a_fleet_builder_takes_every_key_of_a_file(
+    part: str, method: Any, other: dict[str, str]
+) -> None:
+    node = make_schema("scenario")["$defs"][part]
+    keys = node.get("anyOf", [node])[-1]["properties"]
+    taken = set(inspect.signature(method).parameters)
+    assert {other.get(key, key) for key in keys} <= taken

@@ -11,6 +11,7 @@ from rightofway.model.scenario import assign_tours
 from rightofway.model.work import TourItem
 from rightofway.report.jobs import make_jobs_data
 from rightofway.report.plan import summarize_plan
+from rightofway.report.plan_data import make_summary_data
 from rightofway.report.quantities import Quantities
 
 
@@ -56,6 +57,15 @@ def test_a_report_lists_jobs_and_says_why_others_are_not_served(plan: Plan) -> N
     assert ["jobs", "1", "of", "2", "done"] in [line.split() for line in lines]
     assert ["J1", "R1", "2", "5", "1"] in [line.split() for line in lines]
     assert "J2 is not served: no robot may do it and can carry it" in lines
+
+
+def test_a_report_compares_no_plan_of_jobs_with_a_bound_of_trips(plan: Plan) -> None:
+    """A robot that is ready later has a bound above 0, which knows no tour."""
+    metrics = measure(plan)
+    assert metrics.gap is None
+    assert "the lower bound" not in str(summarize_plan(plan, Quantities.of(plan.scenario)))
+    data = make_summary_data(plan)
+    assert data["metrics"]["gap"] is None
 
 
 def test_programs_read_jobs_and_reasons_as_kinds(plan: Plan) -> None:

@@ -81,13 +81,12 @@ class Comparison:
             "lower_bound": metrics.lower_bound,
             "alone": metrics.flowtime_alone,
         }
-        gap = metrics.gap if metrics.lower_bound else None
         return {
             "planner": run.name,
             "seed": run.seed,
             "seconds": None if run.seconds is None else round(run.seconds, 6),
             **{key: scale * ticks for key, ticks in costs.items()},
-            "gap": gap,
+            "gap": metrics.gap,
             "robots": len(plan.scenario.robots),
         }
 

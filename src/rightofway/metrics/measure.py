@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -57,11 +56,16 @@ class Metrics:
     unserved: int | None = None
 
     @property
-    def gap(self) -> float:
-        """By which part the flowtime exceeds the lower bound: 0.1 is a tenth more."""
+    def gap(self) -> float | None:
+        """By which part the flowtime exceeds the lower bound: 0.1 is a tenth more.
+
+        None with jobs, whose tours no bound knows, and above a lower bound of 0.
+        """
+        if self.service_time is not None:
+            return None
         if self.flowtime == self.lower_bound:
             return 0.0
-        return self.flowtime / self.lower_bound - 1 if self.lower_bound else math.inf
+        return self.flowtime / self.lower_bound - 1 if self.lower_bound else None
 
     @property
     def detours(self) -> Tick:

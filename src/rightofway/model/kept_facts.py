@@ -167,7 +167,6 @@ class Status(KeptFact):
         "improved": {"neighbourhoods": WHOLE, "status": _STATUS},
         "not improved": {"neighbourhoods": WHOLE, "status": _STATUS},
         "as fast as alone": {"status": _STATUS},
-        "no longer headways": {},
         "found": {"claim": _STATUS, "nodes": WHOLE},
         "proven": {"claim": _STATUS, "nodes": WHOLE, "status": _STATUS},
         "searched": {

@@ -16,7 +16,7 @@ Moscato & Norman, *A memetic approach for the traveling salesman problem*, 1992.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 
 from rightofway.errors import GaveUp
@@ -153,14 +153,10 @@ def _run_improvement(
     An interrupt ends it too where the task keeps the best plan.
     """
     task.better(lambda: first.tracks)
-    spaced = _add_headway(task, first.tracks)
-    if spaced is None:
-        second = Status("no longer headways")
-        return replace(first, status=Status("then", first=first.status, second=second))
-    search.start(spaced)
+    search.start(first.tracks)
     is_open = task.scenario.problem.closures is None
     retiming = RETIMING if is_open else RETIMING_AMONG_CLOSURES
-    deadline = task.deadline.bring_forward(retiming * sum(map(len, spaced)))
+    deadline = task.deadline.bring_forward(retiming * sum(map(len, first.tracks)))
     objective = task.objective
     weights, fastest = task.scenario.problem.weights, search.compute_alone().tolist()
     alone, least_cost = objective.compute_values(weights, fastest)
@@ -196,9 +192,7 @@ def _run_improvement(
         if not task.keep_best:
             raise
         is_interrupted = True
-    tracks = _take_found(
-        task, search, tuple(spaced), is_better=(search.value, search.cost) < before
-    )
+    tracks = _take_found(task, search, first.tracks, is_better=(search.value, search.cost) < before)
     rated = task.measure_worth
     status = Status("as fast as alone", status=first.status)
     if rated(tracks)[1] != least_cost or task.scenario.problem.minimizes_service:
@@ -207,8 +201,6 @@ def _run_improvement(
             "improved" if is_better else "not improved", neighbourhoods=done, status=first.status
         )
         status = Status("interrupted", status=status) if is_interrupted else status
-    if spaced is not first.tracks and rated(tracks) > rated(first.tracks):
-        tracks = first.tracks  # the headway of planning costs more than the search gained
     saved = rated(first.tracks)[0] - rated(tracks)[0]
     gain = Improvement(saved=Tick(saved), tries=done, interrupted=is_interrupted)
     return Draft(tracks=tracks, status=status, improvement=gain, proof=first.proof)
@@ -258,17 +250,3 @@ def _compute_retimed(task: Task, search: FleetSearch) -> tuple[Track, ...]:
         return search.list_tracks()
     graph = build_graph_of_plan(task.scenario.problem, search.list_tracks())
     return tuple(graph.build_tracks())
-
-
-def _add_headway(task: Task, tracks: tuple[Track, ...]) -> Sequence[Track] | None:
-    """Return the tracks with the headway of planning, where that is more than the scenario's.
-
-    None where a closure begins too soon for it.
-    """
-    problem = task.scenario.problem
-    if problem is task.scenario.problem:
-        return tracks
-    try:
-        return build_graph_of_plan(problem, tracks).build_tracks()
-    except ValueError:
-        return None

@@ -117,10 +117,10 @@ def describe_planning(plan: Plan, quantities: Quantities) -> str:
 
 def _write_flowtime(words: Words, metrics: Metrics) -> str:
     flowtime, bound = words.say_time(metrics.flowtime), metrics.lower_bound
+    if metrics.gap is None:
+        return flowtime
     if metrics.flowtime == bound:
         return f"{flowtime}, the least possible"
-    if not bound:
-        return flowtime
     return "{flowtime}, {gap} above the lower bound of {bound}".format(
         flowtime=flowtime,
         gap=f"{metrics.gap:.1%}",

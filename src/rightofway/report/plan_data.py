@@ -24,6 +24,7 @@ def describe_measures(scenario: Scenario) -> dict[str, Any]:
 def make_summary_data(plan: Plan) -> dict[str, Any]:
     """Return the data of the report on a plan: the planner as in a plan file, times in ticks."""
     metrics, run = measure(plan), plan.run
+    gap = metrics.gap
     names, place = [robot.name for robot in plan.scenario.robots], plan.scenario.roadmap.name
     return {
         "planner": {
@@ -38,7 +39,7 @@ def make_summary_data(plan: Plan) -> dict[str, Any]:
             **make_forced_losses(list_forced_losses(plan), plan.scenario),
         },
         **describe_measures(plan.scenario),
-        "metrics": {**metrics.as_dict(), "gap": round(metrics.gap, 6)},
+        "metrics": {**metrics.as_dict(), "gap": None if gap is None else round(gap, 6)},
         "robots": [
             {"name": names[lost.robot], **lost.as_dict(names.__getitem__, place)}
             for lost in compute_lost_time(plan)

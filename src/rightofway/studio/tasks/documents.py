@@ -182,7 +182,7 @@ def compute_figures(plan: Plan) -> dict[str, Any]:
         "alone": metrics.flowtime_alone,
     }
     text = {key: to_parts(duration(ticks)) for key, ticks in costs.items()}
-    text["gap"] = to_parts(mark_figure(f"{metrics.gap:.1%}")) if metrics.lower_bound else ""
+    text["gap"] = "" if metrics.gap is None else to_parts(mark_figure(f"{metrics.gap:.1%}"))
     tick, units = plan.scenario.problem.clock.tick, plan.scenario.units
     data = {
         **costs,

@@ -137,8 +137,9 @@ def _list_figures(plan: Plan) -> Iterator[tuple[str, str]]:
         metrics = measure(plan)
     except NoPlanExists:
         return
-    bound = quantities.format_duration(metrics.lower_bound)
-    yield "lower bound of the flowtime", f"{bound}; this plan is {metrics.gap:.1%} above it"
+    if metrics.gap is not None:
+        bound = quantities.format_duration(metrics.lower_bound)
+        yield "lower bound of the flowtime", f"{bound}; this plan is {metrics.gap:.1%} above it"
     yield "waiting in all", quantities.format_duration(metrics.waiting)
 
 
