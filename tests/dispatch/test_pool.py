@@ -143,7 +143,7 @@ def test_jobs_become_known_as_others_of_their_robot_are_finished() -> None:
     assert not list(reveal.take(Tick(4)))
     reveal.finish(first[1])
     (job,) = reveal.take(Tick(30))
-    assert (job.name, job.earliest) == ("b1", 15)
+    assert (job.name, job.earliest) == ("b1", Fraction(15))
     assert not reveal.is_over
 
 

@@ -7,8 +7,17 @@ the same rounds.
 from __future__ import annotations
 
 from rightofway.dispatch.pool import Pool, PooledJob, PoolEvent
+from rightofway.dispatch.record import ShiftRecord
 from rightofway.dispatch.reveal import Reveal
-from rightofway.dispatch.view import FleetView, PlannedStep, RobotView, Round
+from rightofway.dispatch.round import RoundPlanner
+from rightofway.dispatch.shift import ShiftRules, run_shift
+from rightofway.dispatch.view import (
+    FleetView,
+    PlannedStep,
+    RobotView,
+    Round,
+    make_whole_tracks,
+)
 
 __all__ = [
     "FleetView",
@@ -19,4 +28,9 @@ __all__ = [
     "Reveal",
     "RobotView",
     "Round",
+    "RoundPlanner",
+    "ShiftRecord",
+    "ShiftRules",
+    "make_whole_tracks",
+    "run_shift",
 ]

@@ -26,7 +26,7 @@ class Reveal:
     known
         When jobs become known, by name [time unit]; at most and by default their `earliest`.
     first
-        With a number, a job is known from when it is among so many first unfinished jobs, and
+        With n, a job is known from when it is among the first n unfinished jobs, and
         `earliest` of its first stop is then when it became known, or later. Jobs with `robot` are
         counted for each robot, the others together.
     """
@@ -86,6 +86,9 @@ class Reveal:
 
 
 def _make_later(job: Job, known: Fraction) -> Job:
-    """Return a job that begins when it becomes known, or later."""
-    first = replace(job.stops[0], earliest=max(job.stops[0].earliest, known))
+    """Return a job that begins when it becomes known, or later, as far as `latest` allows it."""
+    first = job.stops[0]
+    if first.latest is not None:
+        known = min(known, first.latest - first.work)
+    first = replace(first, earliest=max(first.earliest, known))
     return replace(job, stops=(first, *job.stops[1:]))

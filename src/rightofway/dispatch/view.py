@@ -7,14 +7,17 @@ the round plans what comes behind it.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+
+import numpy as np
 
 from rightofway.facts import Fact
 from rightofway.model import Tick, Track, UnservedReason
 from rightofway.site import VertexId
 
-__all__ = ["FleetView", "PlannedStep", "RobotView", "Round"]
+__all__ = ["FleetView", "PlannedStep", "RobotView", "Round", "make_whole_tracks"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,6 +34,8 @@ class PlannedStep:
         From the takeover [ticks].
     job, stop
         Name of the job, and index of the stop among all its stops; None and None for a charge.
+    least
+        How long a charge lasts at least [ticks]; it goes on while the robot would wait.
     """
 
     visit: int
@@ -39,6 +44,7 @@ class PlannedStep:
     end: Tick
     job: str | None = None
     stop: int | None = None
+    least: Tick = field(default=Tick(0))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,9 +53,12 @@ class RobotView:
 
     Attributes
     ----------
-    kept
-        The kept part, from the vertex on at which the robot has arrived; at least that vertex.
-        Times count from the takeover; those to come are forecast [ticks].
+    kept_track
+        The kept part, from the vertex on at which the robot has arrived when the round begins; at
+        least that vertex. Times count from the takeover; those to come are forecast [ticks].
+    last, n_steps
+        The number of the last visit of the kept part in the route of the robot, and how many works
+        and charges in it are kept.
     free
         When the robot is expected to have arrived at the end of the kept part, and to have done
         its work there, from the takeover [ticks], not negative.
@@ -67,7 +76,9 @@ class RobotView:
         vertex, and the work along it. None and nothing without an old plan.
     """
 
-    kept: Track
+    kept_track: Track
+    last: int = 0
+    n_steps: int = 0
     free: Tick = field(default=Tick(0))
     heading: Fraction | None = None
     soc: Fraction = Fraction(1)
@@ -79,7 +90,7 @@ class RobotView:
     @property
     def at(self) -> VertexId:
         """The vertex at the end of the kept part."""
-        return VertexId(int(self.kept.vertices[-1]))
+        return VertexId(int(self.kept_track.vertices[-1]))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -136,3 +147,25 @@ class Round:
     stands: bool = False
     facts: tuple[Fact, ...] = ()
     seconds: float = 0.0
+
+
+def make_whole_tracks(view: FleetView, tracks: Sequence[Track]) -> list[Track]:
+    """Return kept parts with new tracks behind them, at times in the order of the whole.
+
+    Parameters
+    ----------
+    view
+        The fleet.
+    tracks
+        For each robot its track from the end of its kept part on.
+    """
+    latest = max(int(own.kept_track.enter[-1]) for own in view.robots if own.is_able)
+    return [
+        Track(
+            vertices=np.concatenate((own.kept_track.vertices, track.vertices[1:])),
+            enter=np.concatenate(
+                (np.minimum(own.kept_track.enter, latest) - latest - 1, track.enter[1:])
+            ),
+        )
+        for own, track in zip(view.robots, tracks, strict=True)
+    ]

@@ -232,7 +232,7 @@ def _bind_robots(scenario: Scenario, problem: Problem) -> Iterator[BoundRobot]:
         yield BoundRobot(
             start=state.at,
             ready=problem.clock.count_ticks(state.ready),
-            heading=_find_heading(state.heading, roadmap),
+            heading=find_heading_on_map(state.heading, roadmap),
             home=robot.home if returns else None,
             turn=problem.clock.count_ticks(turn),
             capacity=get_capacity(robot),
@@ -242,13 +242,26 @@ def _bind_robots(scenario: Scenario, problem: Problem) -> Iterator[BoundRobot]:
         )
 
 
-def _find_heading(heading: Fraction | None, roadmap: Roadmap) -> Fraction | None:
+def find_heading_on_map(heading: Fraction | None, roadmap: Roadmap) -> Fraction | None:
     """Return a heading on the site in the plane of the map, whose y axis points down [degrees]."""
     if heading is None:
         return None
-    yaw = Fraction(round(degrees(roadmap.frame.yaw) * MICRO), MICRO)
-    turned = heading - yaw
+    turned = heading - _find_yaw(roadmap)
     return (-turned if roadmap.frame.y_up else turned) % 360
+
+
+def find_heading_on_site(heading: Fraction | None, roadmap: Roadmap) -> Fraction | None:
+    """Return a heading in the plane of the map on the site, as states of robots have it [degrees].
+
+    It is the inverse of the binding of `RobotState.heading`.
+    """
+    if heading is None:
+        return None
+    return (_find_yaw(roadmap) + (-heading if roadmap.frame.y_up else heading)) % 360
+
+
+def _find_yaw(roadmap: Roadmap) -> Fraction:
+    return Fraction(round(degrees(roadmap.frame.yaw) * MICRO), MICRO)
 
 
 def _find_shares(

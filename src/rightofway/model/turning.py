@@ -144,6 +144,23 @@ def measure_angles(roadmap: Roadmap) -> Angles:
     return Angles(offset=offset, kind=kinds, angles=tuple(angles.tolist()))
 
 
+def turn_towards(heading: Fraction, towards: Fraction, angle: Fraction) -> Fraction:
+    """Return a heading after a turn by an angle towards another one, the shorter way [degrees]."""
+    turn = (towards - heading + 180) % 360 - 180
+    return towards if angle >= abs(turn) else heading + (angle if turn > 0 else -angle)
+
+
+def list_headings(roadmap: Roadmap) -> list[Fraction | None]:
+    """Return the heading of each edge in the plane of the map [degrees]; None where it has none."""
+    headings, has_heading = _measure_headings(roadmap)
+    steps = np.rint(headings / float(ANGLE_STEP)).astype(np.int64).tolist()
+    known = {step: step * ANGLE_STEP for step in set(steps)}
+    return [
+        known[step] if is_known else None
+        for step, is_known in zip(steps, has_heading.tolist(), strict=True)
+    ]
+
+
 def _measure_headings(roadmap: Roadmap) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """Return the heading of each edge [degrees], and whether it has one."""
     tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))

@@ -1,0 +1,248 @@
+"""A shift in simulation: jobs become known, rounds plan them, and simulated robots do them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from rightofway.dispatch.delays import DelayDraws
+from rightofway.dispatch.floor import Floor, FloorEvent
+from rightofway.dispatch.pool import Pool, PoolEvent
+from rightofway.dispatch.record import JobRecord, RoundRecord, ShiftRecord
+from rightofway.dispatch.reveal import Reveal
+from rightofway.dispatch.round import RoundPlanner
+from rightofway.dispatch.takeover import cap_floor, lift_caps, look_at_floor, splice_round
+from rightofway.dispatch.view import Round
+from rightofway.facts import Fact
+from rightofway.model import NEVER, Scenario, Tick, UnservedReason
+from rightofway.precedence import DelayModel
+
+__all__ = ["ShiftRules", "run_shift"]
+
+FOR_GOOD: frozenset[UnservedReason] = frozenset({"latest", "after"})
+"""Reasons for which a job leaves the pool: no robot can ever do it."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ShiftRules:
+    """How a shift is simulated.
+
+    Attributes
+    ----------
+    until
+        When it ends at the latest [ticks]; it ends when all jobs are done and nothing moves.
+    step
+        How far it is from one look at the floor to the next [ticks], positive.
+    lead
+        How long a round takes on the floor, from its begin to its takeover [ticks]. With 0, robots
+        stand still while a round is planned.
+    time_limit
+        How long a round may take [s]; None for no limit but that of steps.
+    seed
+        For all that is drawn.
+    planner
+        The planner where planning around old tracks fails.
+    """
+
+    until: Tick | None = None
+    step: Tick = field(default=Tick(1))
+    lead: Tick = field(default=Tick(0))
+    time_limit: float | None = 1.0
+    seed: int = 0
+    planner: str = "auto"
+
+
+def run_shift(
+    scenario: Scenario,
+    reveal: Reveal,
+    rules: ShiftRules,
+    *,
+    delays: DelayModel | None = None,
+    report: Callable[[Fact], None] = lambda _: None,
+) -> ShiftRecord:
+    """Return the record of a shift.
+
+    Parameters
+    ----------
+    scenario
+        A scenario with jobs.
+    reveal
+        When its jobs become known.
+    rules
+        How the shift is simulated.
+    delays
+        How much longer actions take; None for no delays.
+    report
+        Takes a fact on the progress after each round.
+    """
+    shift = _Shift(scenario, reveal, rules, delays)
+    while not shift.is_over:
+        shift.go_on()
+        report(shift.describe_progress())
+    return shift.make_record()
+
+
+class _Shift:
+    """A shift that goes on from look to look."""
+
+    def __init__(
+        self,
+        scenario: Scenario,
+        reveal: Reveal,
+        rules: ShiftRules,
+        delays: DelayModel | None,
+    ) -> None:
+        self._scenario, self._reveal, self._rules = scenario, reveal, rules
+        model = delays or DelayModel.none(len(scenario.robots))
+        draws = DelayDraws(model, rules.seed, rules.until or NEVER)
+        self._floor, self._pool = Floor(scenario, draws), Pool()
+        self._planner = RoundPlanner(scenario, rules.planner)
+        self._now = Tick(0)
+        self._jobs: dict[str, JobRecord] = {}
+        self._rounds: list[RoundRecord] = []
+        self._events: list[PoolEvent] = []
+        self._facts: list[tuple[Tick, Fact]] = []
+        self._assigned = frozenset[str]()  # jobs in tours of the last round
+        self._is_due = True  # whether something has happened that a round should look at
+        self._lost = set[int]()  # robots that do not go on
+        self._has_told = False  # whether the standstill that there is has been told
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the time is over, or all jobs are done and nothing moves."""
+        if self._rules.until is not None and self._now >= self._rules.until:
+            return True
+        is_done = self._reveal.is_over and not self._pool.jobs
+        return is_done and all(own.is_idle for own in self._floor.robots)
+
+    def go_on(self) -> None:
+        """Look at the floor, plan a round if one is due, and let robots drive until the next."""
+        self._note_events()
+        if self._is_due:
+            self._plan_round()
+        self._find_standstill()
+        until = self._now + self._rules.step
+        self._move_on(min(until, self._rules.until or until))
+
+    def describe_progress(self) -> Fact:
+        """Return how far the shift has come."""
+        ended = sum(own.ended is not None for own in self._jobs.values())
+        return Fact(
+            "shift goes on", self._scenario, time=self._now, done=ended, known=len(self._pool.jobs)
+        )
+
+    def make_record(self) -> ShiftRecord:
+        """Return what has happened."""
+        return ShiftRecord(
+            scenario=self._scenario,
+            until=self._now,
+            robots=tuple(self._floor.records),
+            jobs=self._jobs,
+            rounds=tuple(self._rounds),
+            events=tuple(self._events),
+            facts=tuple(self._facts),
+        )
+
+    # --- what happens ----------------------------------------------------------------------------
+
+    def _move_on(self, until: int) -> None:
+        self._floor.advance(until)
+        self._now = Tick(until)
+
+    def _note_events(self) -> None:
+        """Note what has happened on the floor until now, and which jobs have become known."""
+        past = [event for event in self._floor.events if event.tick <= self._now]
+        self._floor.events = [event for event in self._floor.events if event.tick > self._now]
+        for event in sorted(past):
+            self._note_work(event)
+        lost = {k for k, own in enumerate(self._floor.robots) if (own.lost or NEVER) <= self._now}
+        self._is_due |= lost != self._lost
+        self._lost = lost
+        for job in list(self._reveal.take(self._now)):
+            self._jobs[job.name] = JobRecord(job=job, known=self._now)
+            self._apply(PoolEvent(kind="job known", at=self._now, name=job.name, job=job))
+            self._is_due = True
+
+    def _note_work(self, event: FloorEvent) -> None:
+        own, tick = self._jobs[event.job], Tick(event.tick)
+        if own.begun is None:
+            own.robot, own.begun, own.reason = event.robot, tick, None
+        self._apply(
+            PoolEvent(
+                kind="stop done" if event.is_end else "stop begun",
+                at=tick,
+                name=event.job,
+                robot=event.robot,
+                stop=event.stop,
+            )
+        )
+        if event.is_end and self._pool.is_over(event.job):
+            own.ended = tick
+            self._reveal.finish(own.job)
+            self._is_due |= not self._assigned >= self._pool.jobs.keys()
+
+    def _apply(self, event: PoolEvent) -> None:
+        if self._pool.apply(event):
+            self._events.append(event)
+
+    # --- rounds ----------------------------------------------------------------------------------
+
+    def _plan_round(self) -> None:
+        """Plan a round, and let its plan take over after the lead."""
+        rules, begin = self._rules, self._now
+        takeover = Tick(begin + rules.lead)
+        view = look_at_floor(self._floor, begin, takeover, self._pool.jobs)
+        self._is_due = False
+        jobs = dict(self._pool.jobs)
+        planned = self._planner.plan(
+            view,
+            jobs,
+            over=self._pool.left,
+            time_limit=rules.time_limit,
+            seed=rules.seed + len(self._rounds),
+        )
+        if rules.lead:
+            cap_floor(self._floor, view)
+            self._move_on(takeover)
+        if planned.stands:
+            lift_caps(self._floor)
+            self._is_due = True
+        else:
+            splice_round(self._floor, view, planned, jobs)
+            self._note_unserved(planned)
+        self._rounds.append(
+            RoundRecord(
+                begin=begin,
+                takeover=takeover,
+                seconds=planned.seconds,
+                jobs=len(jobs),
+                stands=planned.stands,
+                facts=planned.facts,
+            )
+        )
+
+    def _note_unserved(self, planned: Round) -> None:
+        """Note which jobs are in tours now, and why others are not."""
+        self._assigned = frozenset(
+            step.job for steps in planned.steps for step in steps if step.job is not None
+        )
+        for name, reason in planned.unserved:
+            self._jobs[name].reason = reason
+            if reason in FOR_GOOD:
+                event = PoolEvent(kind="job unserved", at=self._now, name=name, reason=reason)
+                self._apply(event)
+                self._reveal.finish(self._jobs[name].job)
+
+    def _find_standstill(self) -> None:
+        """Note once that jobs are known and nothing moves, with the reasons of the last round."""
+        is_still = all(own.is_idle or own.lost is not None for own in self._floor.robots)
+        if not is_still or not self._pool.jobs:
+            self._has_told = False
+            return
+        if self._has_told:
+            return
+        self._has_told = True
+        reasons = sorted({self._jobs[name].reason or "not found" for name in self._pool.jobs})
+        last = self._rounds[-1].facts if self._rounds else ()
+        fact = Fact("nothing moves", jobs=len(self._pool.jobs), reasons=tuple(reasons), why=last)
+        self._facts.append((self._now, fact))

@@ -1,0 +1,261 @@
+"""How the plan of a round takes over on a floor: the view that it is made from, and its splice.
+
+Kept parts go first in the new order, so what robots have begun waits for nobody; the rest has the
+order of a plan. Times only say who goes first.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict, deque
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from itertools import islice
+
+import numpy as np
+
+from rightofway.dispatch.floor import Floor, StepToDo, VisitToCome, count_soc
+from rightofway.dispatch.pool import PooledJob
+from rightofway.dispatch.view import (
+    FleetView,
+    PlannedStep,
+    RobotView,
+    Round,
+    make_whole_tracks,
+)
+from rightofway.model import NEVER, Scenario, Tick, Track
+from rightofway.model.bind_work import find_heading_on_site
+from rightofway.model.turning import compute_first_turns, turn_towards
+from rightofway.precedence import Part, ReleaseGraph
+from rightofway.site import VertexId
+
+__all__ = ["cap_floor", "lift_caps", "look_at_floor", "splice_round"]
+
+
+def look_at_floor(
+    floor: Floor, now: int, takeover: int, jobs: Mapping[str, PooledJob]
+) -> FleetView:
+    """Return the fleet as it is expected to be at the takeover.
+
+    Parameters
+    ----------
+    floor
+        The floor at ``now``.
+    now, takeover
+        When the round begins, and when its plan takes over [ticks].
+    jobs
+        The jobs of the pool.
+    """
+    ahead = floor.fork(now)
+    ahead.advance(takeover)
+    begun = [
+        {own.job.name: own.begun for own in jobs.values() if own.robot == robot}
+        for robot in range(len(floor.robots))
+    ]
+    for event in ahead.events:
+        if not event.is_end:
+            begun[event.robot][event.job] = event.stop + 1
+    for own in begun:
+        for name in [name for name, count in own.items() if count == len(jobs[name].job.stops)]:
+            del own[name]
+    robots = [
+        _look_at_robot(floor, ahead, robot, (now, takeover), begun[robot])
+        for robot in range(len(floor.robots))
+    ]
+    if not floor.is_on_time:
+        robots = list(_expect_times(floor, robots, now, takeover))
+    ends = ((name, max(0, end - takeover)) for name, end in ahead.ends.items() if name in jobs)
+    return FleetView(
+        now=Tick(now),
+        takeover=Tick(takeover),
+        robots=tuple(robots),
+        ends=tuple((name, Tick(end)) for name, end in ends),
+    )
+
+
+def _look_at_robot(
+    floor: Floor, ahead: Floor, robot: int, times: tuple[int, int], begun: Mapping[str, int]
+) -> RobotView:
+    own, (now, takeover) = ahead.robots[robot], times
+    state, battery = floor.states[robot], floor.states[robot].battery
+    own.forget_before(now)
+    free = own.free + (state.turn if own.has_worked else 0)
+    if own.charging is not None or own.lost is not None:  # a charge can be ended at any time
+        free = takeover
+    free, soc = max(free, takeover), Fraction(1)
+    if battery is not None:
+        is_charging, ticks = own.charging is not None, max(0, free - own.counted)
+        left = count_soc(battery, own.soc, ticks, is_charging=is_charging)
+        soc = Fraction(max(left, 0), battery.full)
+    rest = list(islice(floor.robots[robot].visits, own.first - floor.robots[robot].first, None))
+    return RobotView(
+        kept_track=Track.of(
+            [at for at, _ in own.recent],
+            [min(tick - takeover, NEVER) for _, tick in own.recent],
+        ),
+        last=own.first,
+        n_steps=own.n_begun,
+        free=Tick(free - takeover),
+        heading=find_heading_on_site(_find_heading(ahead, robot, takeover), ahead.roadmap),
+        soc=soc,
+        begun=tuple(begun.items()),
+        is_able=own.lost is None,
+        track=Track.of(
+            [visit.vertex for visit in rest],
+            [0, *(visit.planned - takeover for visit in rest[1:])],
+        ),
+        steps=tuple(_list_rest(rest, own.n_begun)),
+    )
+
+
+def _expect_times(
+    floor: Floor, robots: Sequence[RobotView], now: int, takeover: int
+) -> Iterator[RobotView]:
+    """Yield views whose old tracks have the times that are expected now."""
+    expected = floor.fork(now, None)
+    expected.advance(NEVER - 1)
+    for own, seen in zip(expected.robots, robots, strict=True):
+        assert seen.track is not None, "robots on a floor have a route"
+        numbers = range(seen.last + 1, seen.last + len(seen.track))
+        times = [own.enters.get(number, NEVER) - takeover for number in numbers]
+        is_known = all(tick < NEVER - takeover for tick in times)
+        track = Track.of(seen.track.vertices.tolist(), [0, *times]) if is_known else None
+        yield replace(seen, track=track)
+
+
+def _find_heading(floor: Floor, robot: int, takeover: int) -> Fraction | None:
+    """Return the heading of a robot that may be about to turn to its next edge."""
+    own = floor.robots[robot]
+    turning = floor.scenario.problem.itineraries[robot].turning
+    is_bound = own.n_begun == len(own.visits[0].steps) and len(own.visits) > 1
+    if turning is None or own.heading is None or not is_bound or own.visits[1].turn == 0:
+        return own.heading
+    began = max(own.free, own.since) + (floor.states[robot].turn if own.has_worked else 0)
+    elapsed = min(takeover - began, own.visits[1].turn)
+    towards = floor.find_heading(own.visits[1].edge)
+    if elapsed <= 0 or towards is None:
+        return own.heading
+    return turn_towards(own.heading, towards, elapsed * turning.rate)
+
+
+def _list_rest(rest: Sequence[VisitToCome], n_begun: int) -> Iterator[PlannedStep]:
+    """Yield the steps of a route that have not begun; of their times only the order counts."""
+    for number, visit in enumerate(rest):
+        for step in visit.steps[n_begun if number == 0 else 0 :]:
+            yield PlannedStep(
+                visit=number,
+                vertex=VertexId(visit.vertex),
+                begin=Tick(0),
+                end=Tick(0),
+                job=step.job or None,
+                stop=step.stop if step.job else None,
+                least=Tick(0 if step.job else step.ticks),
+            )
+
+
+def cap_floor(floor: Floor, view: FleetView) -> None:
+    """Keep robots from beginning more than their kept parts until a plan takes over.
+
+    Parameters
+    ----------
+    floor
+        The floor.
+    view
+        The fleet as the round sees it.
+    """
+    for own, seen in zip(floor.robots, view.robots, strict=True):
+        own.cap = seen.last, seen.n_steps
+
+
+def lift_caps(floor: Floor) -> None:
+    """Let the old plan go on.
+
+    Parameters
+    ----------
+    floor
+        The floor.
+    """
+    for own in floor.robots:
+        own.cap = None
+
+
+def splice_round(
+    floor: Floor, view: FleetView, planned: Round, jobs: Mapping[str, PooledJob]
+) -> None:
+    """Let the plan of a round take over.
+
+    Parameters
+    ----------
+    floor
+        The floor at the takeover.
+    view
+        What the round was planned from.
+    planned
+        The round.
+    jobs
+        The jobs of the pool.
+    """
+    firsts = [own.last - len(own.kept_track) + 1 for own in view.robots]
+    graph = ReleaseGraph.of(floor.scenario, make_whole_tracks(view, planned.tracks), firsts)
+    for robot, (own, seen) in enumerate(zip(floor.robots, view.robots, strict=True)):
+        visits = list(islice(own.visits, seen.last - own.first + 1))
+        if len(visits) == 1:
+            own.heading = floor.convert_heading(seen.heading)
+        own.since, own.cap = view.takeover, None
+        if own.charging is not None:
+            own.free = min(own.free, view.takeover)
+        steps_of_visits = _place_steps(floor.scenario, planned.steps[robot], jobs)
+        coming = [
+            replace(visit, planned=view.takeover + visit.planned, steps=tuple(steps_of_visits[k]))
+            for k, visit in enumerate(_list_visits(floor, robot, seen, planned.tracks[robot]))
+        ]
+        steps = (*visits[-1].steps[: seen.n_steps], *coming[0].steps)
+        visits = [*visits[:-1], replace(visits[-1], steps=steps), *coming[1:]]
+        own.visits = deque(
+            replace(visit, waits=graph.waits(Part(robot, number)))
+            for number, visit in enumerate(visits, own.first)
+        )
+        own.forget_before(view.takeover)
+
+
+def _list_visits(floor: Floor, robot: int, seen: RobotView, track: Track) -> Iterator[VisitToCome]:
+    """Yield the visits of a new track, the first of which is the end of the kept part."""
+    roadmap, itinerary = floor.roadmap, floor.scenario.problem.itineraries[robot]
+    edges = roadmap.find_edges(track.vertices[:-1], track.vertices[1:])
+    drives = np.array(itinerary.edge_ticks, np.int64)[roadmap.class_of_edge[edges]].tolist()
+    turns = [0] * len(edges)
+    if itinerary.turning is not None and len(edges):
+        turns[1:] = itinerary.turning.compute_turns(edges).tolist()
+        heading = floor.convert_heading(seen.heading)
+        first = compute_first_turns(roadmap, itinerary.turning, seen.at, heading)
+        turns[0] = first[int(edges[0]) - int(roadmap.indptr[seen.at])] if first else 0
+    times, vertices = track.enter.tolist(), track.vertices.tolist()
+    yield VisitToCome(vertex=vertices[0])
+    rows = zip(vertices[1:], times[1:], edges.tolist(), turns, drives, strict=True)
+    for vertex, planned, edge, turn, drive in rows:
+        yield VisitToCome(vertex=vertex, planned=planned, edge=edge, turn=turn, drive=drive)
+
+
+def _place_steps(
+    scenario: Scenario, steps: Sequence[PlannedStep], jobs: Mapping[str, PooledJob]
+) -> Mapping[int, Sequence[StepToDo]]:
+    """Return what is to do in each visit of a new track."""
+    by_visit = defaultdict[int, list[StepToDo]](list)
+    for step in steps:
+        by_visit[step.visit].append(_make_step(scenario, step, jobs))
+    return by_visit
+
+
+def _make_step(scenario: Scenario, step: PlannedStep, jobs: Mapping[str, PooledJob]) -> StepToDo:
+    if step.job is None or step.stop is None:
+        return StepToDo(job="", stop=0, ticks=step.least)
+    job, count = jobs[step.job].job, scenario.problem.clock.count_ticks
+    stop = job.stops[step.stop]
+    return StepToDo(
+        job=job.name,
+        stop=step.stop,
+        ticks=count(stop.work),
+        earliest=count(stop.earliest),
+        after=job.after if step.stop == 0 else (),
+        ends_job=step.stop == len(job.stops) - 1,
+    )

@@ -1,0 +1,98 @@
+"""Shifts in simulation: takeovers, rotations, charges, robots that break down, standstills."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+from rightofway.io.scenario.reader import parse_scenario
+from rightofway.model import Scenario, Tick
+from tests.builders.shifts import hold_shift
+
+
+def make_scenario(grid: list[str], robots: dict[str, Any], **others: Any) -> Scenario:
+    """Return a scenario on a grid: the homes of robots, or their documents, by name."""
+    fleet = [
+        {"name": name, **(own if isinstance(own, dict) else {"home": own})}
+        for name, own in robots.items()
+    ]
+    rules = {"turn": 0, **others.pop("rules", {})}
+    return parse_scenario(
+        {
+            "format": "rightofway-scenario/1",
+            "map": {"grid": grid},
+            "robots": fleet,
+            "rules": rules,
+            **others,
+        }
+    )
+
+
+def transport(name: str, pickup: str, dropoff: str, **others: Any) -> dict[str, Any]:
+    """Return the document of a job."""
+    return {"name": name, "pickup": pickup, "dropoff": dropoff, **others}
+
+
+def test_a_robot_turns_to_a_job_that_becomes_known_on_its_way_home() -> None:
+    jobs = [{"name": "J1", "at": "N4"}, {"name": "J2", "at": "N3", "earliest": 6}]
+    record = hold_shift(make_scenario(["....."], {"R1": "N0"}, jobs=jobs))
+    # R1 is at N4 at tick 4 and at N2 at tick 6, turns round there, and is at N3 at tick 7.
+    assert record.jobs["J1"].ended == 4
+    assert record.jobs["J2"].ended == 7
+    assert record.robots[0].vertices.tolist() == [0, 1, 2, 3, 4, 3, 2, 3, 2, 1, 0]
+
+
+def test_a_plan_takes_over_after_its_lead_and_robots_keep_what_they_have_begun() -> None:
+    jobs = [{"name": "J1", "at": "N4"}, {"name": "J2", "at": "N3", "earliest": 6}]
+    record = hold_shift(make_scenario(["....."], {"R1": "N0"}, jobs=jobs), lead=2)
+    # The first round takes over at tick 2, so R1 is at N4 at tick 6. The round that J2 begins at
+    # tick 6 takes over at tick 8; until then R1 goes on home, to N2.
+    assert record.jobs["J1"].ended == 6
+    assert record.robots[0].vertices.tolist() == [0, 1, 2, 3, 4, 3, 2, 3, 2, 1, 0]
+    assert record.jobs["J2"].ended == 9
+
+
+def test_four_robots_rotate_in_one_instant() -> None:
+    homes = {"R1": "N0", "R2": "N1", "R3": "N3", "R4": "N2"}
+    jobs = [
+        {"name": f"J{k}", "at": at, "robot": f"R{k}"}
+        for k, at in enumerate(("N1", "N3", "N2", "N0"), start=1)
+    ]
+    rules = {"occupancy": "one", "return": "none"}
+    record = hold_shift(make_scenario(["..", ".."], homes, jobs=jobs, rules=rules))
+    assert [own.ended for own in record.jobs.values()] == [1, 1, 1, 1]
+
+
+BATTERY = {"tank": {"drive": "1/10", "charge": "1/5", "reserve": "1/10"}}
+
+
+def test_a_robot_charges_at_home_while_it_has_nothing_to_do() -> None:
+    jobs = [{"name": "J1", "at": "N4"}, {"name": "J2", "at": "N4", "earliest": 20}]
+    robots = {"R1": {"home": "N0", "battery": "tank"}}
+    record = hold_shift(
+        make_scenario(["....."], robots, jobs=jobs, batteries=BATTERY, charging=["N0"])
+    )
+    # 8 drives take 8/10; home at tick 8 with 2/10, which 4 ticks of a charge make full.
+    assert record.jobs["J2"].ended == 24
+    assert (8, Fraction(1, 5)) in record.robots[0].soc
+    assert (20, Fraction(1)) in record.robots[0].soc
+
+
+def test_a_robot_that_breaks_down_is_a_closure_and_others_do_the_rest() -> None:
+    grid = ["....", "...."]
+    jobs = [transport("J1", "N3", "N0"), transport("J2", "N7", "N4")]
+    record = hold_shift(
+        make_scenario(grid, {"R1": "N0", "R2": "N4"}, jobs=jobs), delays="stop:R1@1", until=Tick(60)
+    )
+    assert record.robots[0].lost == 1  # between N1 and N2
+    assert {name for name, own in record.jobs.items() if own.ended is not None} == {"J1", "J2"}
+    assert all(own.robot == 1 for own in record.jobs.values())
+
+
+def test_a_shift_in_which_nothing_moves_says_why() -> None:
+    jobs = [{"name": "J1", "at": "N1"}, transport("J2", "N1", "N0", load=2)]
+    record = hold_shift(make_scenario([".."], {"R1": "N0"}, jobs=jobs), until=Tick(20))
+    assert record.jobs["J2"].reason == "robot"
+    ((tick, fact),) = record.facts
+    assert (tick, fact.kind, fact.values["jobs"]) == (2, "nothing moves", 1)
+    assert fact.values["reasons"] == ("robot",)
