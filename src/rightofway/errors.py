@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 from fractions import Fraction
 from itertools import takewhile
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 from rightofway.facts import Fact
 
@@ -290,7 +290,7 @@ class InputError(RightOfWayError, ValueError):
         super().__init__(self.faults)
 
     @classmethod
-    def at(cls, where: Where, message: str, source: str = "") -> InputError:
+    def at(cls, where: Where, message: str, source: str = "") -> Self:
         """Make an error of a single fault."""
         return cls([InputFault(where, message)], source)
 

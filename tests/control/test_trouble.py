@@ -12,8 +12,10 @@ from __future__ import annotations
 import ast
 import asyncio
 import json
+import sqlite3
 from collections import deque
 from collections.abc import AsyncIterator, Collection
+from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -31,6 +33,7 @@ from rightofway.control import (
     SimulatedRobot,
     StateReport,
 )
+from rightofway.control.commands import Commands
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.driver import Driver
 from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd
@@ -39,6 +42,7 @@ from rightofway.control.names import list_jobs
 from rightofway.control.notices import EVERY_KIND, Notices, make_notice
 from rightofway.control.operator import Operator
 from rightofway.control.order_map import make_order_maps
+from rightofway.control.supervisor import Supervisor
 from rightofway.errors import GaveUp, InputError
 from rightofway.io import parse_scenario
 from rightofway.model import Plan
@@ -420,6 +424,36 @@ def test_a_journal_that_cannot_be_written() -> None:
     assert len(published) == len(letters)
     about = [sentence for sentence in said if "journal" in sentence]
     assert about == [begins, "the journal can be written again"]
+
+
+def test_commands_that_cannot_be_read_stop_no_robot(tmp_path: Path) -> None:
+    """The control reports it once, and carries out commands once it can read them again."""
+    plan, said = door(), list[str]()
+    commands, people = Commands(tmp_path / "run.journal"), Commands(tmp_path / "run.journal")
+    dispatcher = Dispatcher(FleetControl(MemoryJournal()), plan)
+    notices = Notices(
+        [robot.name for robot in plan.scenario.robots], lambda fact: said.append(str(fact))
+    )
+    supervisor = Supervisor(dispatcher, notices, lambda: 0, commands)
+    people.ask({"kind": "unknown"})
+    supervisor.obey()
+    said.clear()
+    with closing(sqlite3.connect(tmp_path / "run.journal-commands")) as database:
+        database.execute("ALTER TABLE commands RENAME TO lost")
+        supervisor.answer()
+        assert supervisor.obey() == []
+        assert supervisor.obey() == []
+        with pytest.raises(InputError, match="cannot be used for commands: no such table"):
+            people.ask({"kind": "hold"})
+        database.execute("ALTER TABLE lost RENAME TO commands")
+    supervisor.obey()
+    supervisor.answer()
+    told = [line for line in said if "commands" in line]
+    assert len(told) == 2
+    assert told[0].startswith("no command can be read: ")
+    assert told[0].endswith("; robots go on")
+    assert told[1] == "commands can be read again"
+    assert people.wait_for(1, 0) is not None
 
 
 def test_a_flood_of_states_fills_no_memory() -> None:

@@ -11,7 +11,8 @@ import json
 import re
 import sqlite3
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -22,6 +23,7 @@ __all__ = [
     "NAMED",
     "Answer",
     "Commands",
+    "CommandsFailed",
     "read_command",
     "read_time",
     "refuse_nameless",
@@ -54,8 +56,12 @@ PAUSE = 0.05
 """Seconds between two looks for an answer."""
 
 
+class CommandsFailed(InputError):
+    """The file of commands cannot be read or written."""
+
+
 class Commands:
-    """The commands to the control of a journal.
+    """The commands to the control of a journal. Each method raises `CommandsFailed`.
 
     Parameters
     ----------
@@ -64,22 +70,28 @@ class Commands:
 
     Raises
     ------
-    InputError
+    CommandsFailed
         If the file cannot be read and written.
     """
 
     def __init__(self, journal: Path) -> None:
-        path = journal.with_name(f"{journal.name}-commands")
-        try:
-            self._database = sqlite3.connect(path, timeout=5, isolation_level=None)
+        self._path = journal.with_name(f"{journal.name}-commands")
+        with self._guard():
+            self._database = sqlite3.connect(self._path, timeout=5, isolation_level=None)
             self._database.execute("PRAGMA journal_mode = WAL")
             self._database.execute(
                 "CREATE TABLE IF NOT EXISTS commands"
                 " (number INTEGER PRIMARY KEY AUTOINCREMENT, command TEXT, answer TEXT)"
             )
+
+    @contextmanager
+    def _guard(self) -> Iterator[None]:
+        """Name the file in errors of the database."""
+        try:
+            yield
         except sqlite3.Error as error:
             message = f"cannot be used for commands: {error} (name the journal of rightofway drive)"
-            raise InputError.at(str(path), message) from error
+            raise CommandsFailed.at(str(self._path), message) from error
 
     def ask(self, command: Mapping[str, Any]) -> int:
         """Write a command; return its number.
@@ -90,7 +102,8 @@ class Commands:
             Its ``kind``, and the values of this kind.
         """
         query = "INSERT INTO commands (command) VALUES (?)"
-        return int(self._database.execute(query, (json.dumps(command),)).lastrowid or 0)
+        with self._guard():
+            return int(self._database.execute(query, (json.dumps(command),)).lastrowid or 0)
 
     def list_unanswered(self) -> list[tuple[int, Any]]:
         """Return number and text of each command that has no answer, in their order.
@@ -98,7 +111,8 @@ class Commands:
         Any program may have written the text: see `read_command`.
         """
         query = "SELECT number, command FROM commands WHERE answer IS NULL ORDER BY number"
-        return list(self._database.execute(query))
+        with self._guard():
+            return list(self._database.execute(query))
 
     def answer(self, number: int, answer: Answer) -> None:
         """Answer a command.
@@ -111,8 +125,9 @@ class Commands:
             Its result.
         """
         query = "UPDATE commands SET answer = ? WHERE number = ?"
-        self._database.execute(query, (json.dumps(answer), number))
-        self._database.execute("DELETE FROM commands WHERE number <= ?", (number - KEPT,))
+        with self._guard():
+            self._database.execute(query, (json.dumps(answer), number))
+            self._database.execute("DELETE FROM commands WHERE number <= ?", (number - KEPT,))
 
     def wait_for(self, number: int, seconds: float) -> Answer | None:
         """Return the answer to a command, None if there is none after some time [s].
@@ -127,7 +142,8 @@ class Commands:
         until = time.monotonic() + seconds
         query = "SELECT answer FROM commands WHERE number = ?"
         while True:
-            row = self._database.execute(query, (number,)).fetchone()
+            with self._guard():
+                row = self._database.execute(query, (number,)).fetchone()
             if row and row[0] is not None:
                 answer: Answer = json.loads(row[0])
                 return answer

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from rightofway.control.battery_watch import BatteryWatch
-from rightofway.control.commands import Answer, Commands
+from rightofway.control.commands import Answer, Commands, CommandsFailed
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.messages import Message
 from rightofway.control.notices import Notices
@@ -20,7 +20,7 @@ from rightofway.precedence import Part
 
 __all__ = ["Supervisor"]
 
-PLAN = "plan"
+PLAN, COMMANDS = "plan", "commands"
 """The kind of trouble that no plan of the rest is found."""
 
 
@@ -54,6 +54,7 @@ class Supervisor:
         self._dispatcher, self._notices, self._commands = dispatcher, notices, commands
         self.operator = Operator(dispatcher)
         self._answers: list[tuple[int, Answer]] = []  # to commands, once all is on the disk
+        self._has_lost_commands = False  # their file could not be used
         self._told = dict[int, int]()  # of each robot, the last part that a closure kept it from
         self._standstill = Standstill(dispatcher, notices, read_ticks)
         scenario, control = dispatcher.plan.scenario, dispatcher.control
@@ -106,7 +107,14 @@ class Supervisor:
         """Carry out the commands of people; return the messages to send."""
         if self._commands is None:
             return []
-        messages, answers = self.operator.obey(self._commands)
+        try:
+            messages, answers = self.operator.obey(self._commands)
+        except CommandsFailed as error:
+            self._report_lost_commands(error)
+            return []
+        if self._has_lost_commands:
+            self._notices.report(Fact("commands read"), COMMANDS, is_over=True)
+        self._has_lost_commands = False
         self._answers += answers
         for _, answer in answers:
             if answer["fact"]:
@@ -115,10 +123,20 @@ class Supervisor:
 
     def answer(self) -> None:
         """Answer the commands that were carried out; call it when all of that is on the disk."""
-        for number, answer in self._answers:
+        answers, self._answers = self._answers, []
+        for number, answer in answers:
             assert self._commands is not None
-            self._commands.answer(number, answer)
-        self._answers = []
+            try:
+                self._commands.answer(number, answer)
+            except CommandsFailed as error:  # `obey` answers again what it finds unanswered
+                self._report_lost_commands(error)
+                return
+
+    def _report_lost_commands(self, error: CommandsFailed) -> None:
+        """Report once that nobody can command; robots go on."""
+        if not self._has_lost_commands:
+            self._notices.report(Fact("commands lost", error=str(error)), COMMANDS)
+        self._has_lost_commands = True
 
     @property
     def has_answers(self) -> bool:

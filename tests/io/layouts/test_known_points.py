@@ -1,6 +1,7 @@
 """Known points land where the source says; all numbers are worked out by hand."""
 
 import json
+import re
 from fractions import Fraction
 from math import pi
 from pathlib import Path
@@ -175,6 +176,18 @@ def test_opentcs_millimetres_become_metres_and_a_speed_of_zero_is_no_lane() -> N
     assert (dock.is_parking, dock.is_charging) == (True, True)
     assert [station.name for station in level.stations] == ["Socket", "Saw 1"]
     assert level.zones[0].edges == (("Dock", "Cross"), ("Cross", "Dock"))
+
+
+def test_report_positions_of_opentcs_are_driven_through_only(tmp_path: Path) -> None:
+    text = (HERE / "plant.xml").read_text("utf-8")
+    (before,) = re.findall(r'<point [^>]*name="Cross"[^>]*>', text)
+    after = re.sub(r'type="\w+"', 'type="REPORT_POSITION"', before)
+    assert after != before
+    (tmp_path / "plant.xml").write_text(text.replace(before, after), "utf-8")
+    found = read_layout(tmp_path / "plant.xml")
+    assert isinstance(found, Layout)
+    vertices = found.get_level().vertices
+    assert [vertex.name for vertex in vertices if vertex.is_passed] == ["Cross"]
 
 
 def test_old_plant_models_have_other_names_for_positions() -> None:

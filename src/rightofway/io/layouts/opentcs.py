@@ -115,6 +115,7 @@ def _add_point(level: LevelDraft, point: Element, draft: LayoutDraft) -> None:
             name=point.need("name").read_text(),
             at=(x * MILLIMETRE, y * MILLIMETRE),
             is_parking=point.value.get("type") == "PARK_POSITION",
+            is_passed=point.value.get("type") == "REPORT_POSITION",  # no halt is allowed there
         ),
         point,
     )
