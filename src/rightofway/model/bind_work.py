@@ -7,7 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import accumulate
 from math import degrees, lcm
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from rightofway.errors import InputError, InputFault, Steps, quote
 from rightofway.model.problem import (
@@ -19,7 +19,7 @@ from rightofway.model.problem import (
     compute_turning_time,
     scale_weights,
 )
-from rightofway.model.robot import Robot
+from rightofway.model.robot import Robot, Rules
 from rightofway.model.turning import compute_first_turns
 from rightofway.model.units import Clock, Tick
 from rightofway.model.work import (
@@ -41,14 +41,39 @@ from rightofway.model.work import (
 )
 from rightofway.site import Roadmap, VertexId
 
-if TYPE_CHECKING:
-    from rightofway.model.scenario import Scenario
-
 MICRO = 10**6
 """The yaw of a map is taken to so many parts of a degree."""
 
 
-def bind_work(problem: Problem, scenario: Scenario) -> Problem:
+class Shift(Protocol):
+    """The fields of a scenario that jobs need; the module of `Scenario` imports this one."""
+
+    @property
+    def roadmap(self) -> Roadmap:
+        """The map, in its vertices and edges."""
+
+    @property
+    def robots(self) -> tuple[Robot, ...]:
+        """The fleet."""
+
+    @property
+    def rules(self) -> Rules:
+        """Its rules."""
+
+    @property
+    def jobs(self) -> tuple[Job, ...] | None:
+        """The jobs; None without the key."""
+
+    @property
+    def batteries(self) -> tuple[tuple[str, Battery], ...]:
+        """Each battery with its name."""
+
+    @property
+    def charging(self) -> tuple[VertexId, ...]:
+        """Charging places apart from those of the map."""
+
+
+def bind_work(problem: Problem, scenario: Shift) -> Problem:
     """Return the problem of a valid scenario with jobs: no robot has a tour yet.
 
     Raises
@@ -138,7 +163,7 @@ def _list_arcs(jobs: Sequence[BoundJob], tours: Sequence[Tour]) -> Iterator[Arc]
                 yield Arc(before=last[before], after=first[job])
 
 
-def _bind_jobs(scenario: Scenario, clock: Clock) -> Iterator[BoundJob]:
+def _bind_jobs(scenario: Shift, clock: Clock) -> Iterator[BoundJob]:
     jobs = scenario.jobs or ()
     index = {job.name: number for number, job in enumerate(jobs)}
     begun = {
@@ -178,7 +203,7 @@ def _round_down(time: Fraction | None, clock: Clock) -> Tick | None:
     return None if time is None else Tick(time // clock.tick)
 
 
-def _list_able(scenario: Scenario, job: Job, begun_by: int | None) -> Iterator[int]:
+def _list_able(scenario: Shift, job: Job, begun_by: int | None) -> Iterator[int]:
     """Yield the robots that may do a job and can."""
     load = max(accumulate(stop.load for stop in job.stops))
     for index, robot in enumerate(scenario.robots):
@@ -203,7 +228,7 @@ def get_state(robot: Robot) -> RobotState:
     return robot.start or RobotState(at=robot.home)
 
 
-def list_charging_places(scenario: Scenario, robot: Robot) -> tuple[VertexId, ...]:
+def list_charging_places(scenario: Shift, robot: Robot) -> tuple[VertexId, ...]:
     """Return the vertices at which a robot may charge, sorted."""
     if robot.charging is not None:
         return tuple(sorted(set(robot.charging)))
@@ -213,7 +238,7 @@ def list_charging_places(scenario: Scenario, robot: Robot) -> tuple[VertexId, ..
     return tuple(sorted(at for at in places if at not in passed))
 
 
-def _bind_robots(scenario: Scenario, problem: Problem) -> Iterator[BoundRobot]:
+def _bind_robots(scenario: Shift, problem: Problem) -> Iterator[BoundRobot]:
     jobs = scenario.jobs or ()
     loads = {job.name: list(accumulate(stop.load for stop in job.stops)) for job in jobs}
     batteries, roadmap, tick = dict(scenario.batteries), scenario.roadmap, problem.clock.tick

@@ -6,24 +6,20 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from graphlib import CycleError, TopologicalSorter
 from itertools import takewhile
-from typing import TYPE_CHECKING
 
 from rightofway.errors import InputFault, Where, find_nearest, quote
-from rightofway.model.bind_work import get_state
+from rightofway.model.bind_work import Shift, get_state
 from rightofway.model.problem import HEAVIEST, scale_weights
 from rightofway.model.robot import Robot
 from rightofway.model.work import Job, JobStop, RobotState
 from rightofway.site import Point, Roadmap, measure_squared_distance
 from rightofway.units import write_decimal
 
-if TYPE_CHECKING:
-    from rightofway.model.scenario import Scenario
-
 MAX_STOPS = 1_000_000
 """Stops of all jobs at most."""
 
 
-def find_work_faults(scenario: Scenario) -> Iterator[InputFault]:
+def find_work_faults(scenario: Shift) -> Iterator[InputFault]:
     """Yield all faults of the keys of jobs, or of their use without jobs.
 
     Robots, rules and the roadmap are of the right kinds; vertices may be out of range.
@@ -46,7 +42,7 @@ def find_work_faults(scenario: Scenario) -> Iterator[InputFault]:
     yield from _find_state_faults(scenario)
 
 
-def _find_lone_keys(scenario: Scenario) -> Iterator[InputFault]:
+def _find_lone_keys(scenario: Shift) -> Iterator[InputFault]:
     """Yield the keys that only a scenario with jobs may have."""
     lone: dict[Where, object] = {
         "batteries": scenario.batteries or None,
@@ -63,7 +59,7 @@ def _find_lone_keys(scenario: Scenario) -> Iterator[InputFault]:
             yield InputFault(place, "is for a scenario with jobs (give jobs, or take it out)")
 
 
-def _find_trips(scenario: Scenario) -> Iterator[InputFault]:
+def _find_trips(scenario: Shift) -> Iterator[InputFault]:
     """Yield trips of robots: with jobs, all stops are those of jobs."""
     remedy = "take it out; a fixed trip is a job with robot: {name}"
     for index, robot in enumerate(scenario.robots):
@@ -78,7 +74,7 @@ def _find_trips(scenario: Scenario) -> Iterator[InputFault]:
         yield InputFault(("rules", "laps"), message)
 
 
-def _find_job_faults(job: Job, scenario: Scenario) -> Iterator[InputFault]:
+def _find_job_faults(job: Job, scenario: Shift) -> Iterator[InputFault]:
     if not job.name:
         yield InputFault("name", "is empty (give the job a name)")
     if job.robot is not None:
@@ -173,7 +169,7 @@ def _find_weight_faults(jobs: Sequence[Job]) -> Iterator[InputFault]:
         yield InputFault(("jobs", index, "weight"), message)
 
 
-def _find_battery_faults(scenario: Scenario) -> Iterator[InputFault]:
+def _find_battery_faults(scenario: Shift) -> Iterator[InputFault]:
     names = [name for name, _ in scenario.batteries]
     for name in sorted({name for name in names if names.count(name) > 1}):
         yield InputFault(("batteries", name), "is the name of two batteries (give each its own)")
@@ -182,7 +178,7 @@ def _find_battery_faults(scenario: Scenario) -> Iterator[InputFault]:
             yield from _find_unknown(("robots", index, "battery"), robot.battery, names, "battery")
 
 
-def _find_state_faults(scenario: Scenario) -> Iterator[InputFault]:
+def _find_state_faults(scenario: Shift) -> Iterator[InputFault]:
     robots, roadmap = scenario.robots, scenario.roadmap
     jobs = {job.name: job for job in scenario.jobs or ()}
     for index, robot in enumerate(robots):
@@ -241,7 +237,7 @@ def _find_equal_starts(robots: Sequence[Robot], roadmap: Roadmap) -> Iterator[In
             yield InputFault(place, f"{message} ({remedy})", ("robots", earlier))
 
 
-def _find_near_starts(scenario: Scenario) -> Iterator[InputFault]:
+def _find_near_starts(scenario: Shift) -> Iterator[InputFault]:
     """Yield robots with a size that begin too near to an earlier one."""
     robots, roadmap = scenario.robots, scenario.roadmap
     starts = [get_state(robot).at for robot in robots]
