@@ -5,10 +5,12 @@ from __future__ import annotations
 from fractions import Fraction
 
 import rightofway
+from rightofway.io import parse_scenario
 from rightofway.metrics import compute_lost_time, list_events, make_event_columns
-from rightofway.model import Plan, PlannerRun, Rules, Stop, Track
+from rightofway.model import Plan, PlannerRun, Rules, Stop, Tick, Track
 from rightofway.model.robot import Robot
-from rightofway.model.scenario import Scenario
+from rightofway.model.scenario import Scenario, assign_tours
+from rightofway.model.work import TourItem
 from rightofway.site import VertexId
 from tests.builders.fleets import PAPER, paper_scenario
 
@@ -87,3 +89,40 @@ def test_a_visit_says_that_a_robot_turns_on_the_spot() -> None:
     ]
     (lost,) = compute_lost_time(plan)
     assert (lost.alone, lost.detours, lost.making_room, lost.waiting) == (13, 0, 0, 1)
+
+
+def test_work_and_charges_of_jobs_are_named_by_job() -> None:
+    """R1 begins at N1, carries J1 to N3, and has to charge at home before it counts at N2."""
+    scenario = parse_scenario(
+        {
+            "format": "rightofway-scenario/1",
+            "map": {"grid": ["...."]},
+            "robots": [{"name": "R1", "home": "N0", "battery": "small", "start": {"at": "N1"}}],
+            "batteries": {"small": {"drive": "1/8", "charge": "1/4"}},
+            "charging": ["N0"],
+            "jobs": [
+                {"name": "J1", "pickup": "N1", "dropoff": "N3", "pickup_work": 2},
+                {"name": "J2", "at": "N2", "work": 1, "after": ["J1"], "earliest": 9},
+            ],
+            "rules": {"turn": 0},
+        }
+    )
+    tour = [
+        TourItem(job=0, stop=0, vertex=VertexId(1), duration=Tick(2)),
+        TourItem(job=0, stop=1, vertex=VertexId(3), duration=Tick(0)),
+        TourItem(job=None, stop=None, vertex=VertexId(0), duration=Tick(2)),
+        TourItem(job=1, stop=0, vertex=VertexId(2), duration=Tick(1)),
+    ]
+    # Work from 0 to 2 at N1, a charge from 7 to 9 at N0, work from 11 to 12 at N2.
+    track = Track.of([1, 2, 3, 2, 1, 0, 1, 2, 1, 0], [0, 3, 4, 5, 6, 7, 10, 11, 13, 14])
+    plan = Plan(
+        scenario=assign_tours(scenario, [tuple(tour)]),
+        tracks=(track,),
+        run=PlannerRun(name="by hand"),
+    )
+    assert rightofway.check(plan).ok
+    through = "drive through"
+    assert [event.purpose for event in list_events(plan)] == [
+        "start, work at stop 1 of J1", through, "stop 2 of J1", through, through, "charge",
+        through, "work at stop 1 of J2", through, "home",
+    ]  # fmt: skip

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 from rightofway.errors import NoPlanExists
 from rightofway.metrics.lost_time import compute_lost_time, join_waits
-from rightofway.model import Loss, Plan, Scenario, Stays, Tick
+from rightofway.model import Loss, Plan, PlannedItem, Scenario, Stays, Tick
 from rightofway.site import VertexId
 
 
@@ -30,7 +30,8 @@ class Event(NamedTuple):
         Where it is.
     purpose
         The activity of the robot there: ``home``, ``work at stop 1, turn``, ``stop 2 of lap 3``,
-        ``turn``, ``drive through``, ``make room``, or ``wait`` where it only waits.
+        ``turn``, ``drive through``, ``make room``, or ``wait`` where it only waits. With jobs,
+        ``work at stop 1 of J2``, ``charge``, and ``start`` where it begins elsewhere than at home.
     enter
         When the visit begins [ticks].
     leave
@@ -80,7 +81,10 @@ def list_events(plan: Plan) -> tuple[Event, ...]:
 
 def _list_events_of(plan: Plan, robot: int, stay: Stays, losses: Sequence[Loss]) -> Iterator[Event]:
     track = plan.tracks[robot]
-    purposes = _list_purposes(plan.scenario, robot, stay, len(track))
+    if plan.tours is None:
+        purposes = _list_purposes(plan.scenario, robot, stay, len(track))
+    else:
+        purposes = _list_purposes_of_tour(plan, robot, plan.tours[robot])
     enters = track.enter.tolist()
     waited = [loss for loss in losses if loss.kind != "makes room"]
     room = [loss for loss in losses if loss.kind == "makes room"]
@@ -129,6 +133,29 @@ def _list_purposes(scenario: Scenario, robot: int, stay: Stays, n_visits: int) -
             parts[visit].append(words)
         if stage.turn and visit < n_visits - 1:
             turning.add(visit)
+    return {
+        visit: ", ".join([*words, *(["turn"] if visit in turning else [])])
+        for visit, words in parts.items()
+    }
+
+
+def _list_purposes_of_tour(plan: Plan, robot: int, tour: Sequence[PlannedItem]) -> dict[int, str]:
+    """Return the activities of a robot with a tour in its visits, except drives through."""
+    work, jobs = plan.scenario.problem.work, plan.scenario.jobs
+    assert work is not None, "tours are of jobs"
+    assert jobs is not None, "tours are of jobs"
+    vertices, bound = plan.tracks[robot].vertices.tolist(), work.robots[robot]
+    last, home = len(vertices) - 1, plan.scenario.robots[robot].home
+    parts: dict[int, list[str]] = {0: ["home" if vertices[0] == home else "start"]}
+    for item in tour:
+        words = "charge"
+        if item.job is not None and item.stop is not None:
+            words = f"stop {item.stop + 1} of {jobs[item.job].name}"
+            words = f"work at {words}" if item.end > item.begin else words
+        parts.setdefault(item.visit, []).append(words)
+    if bound.home is not None and last not in parts:
+        parts[last] = ["home"]
+    turning = {item.visit for item in tour if bound.turn and item.visit < last}
     return {
         visit: ", ".join([*words, *(["turn"] if visit in turning else [])])
         for visit, words in parts.items()
