@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from rightofway.cli.completion import complete_files
 from rightofway.cli.options import Whole
 from rightofway.cli.terminal import say_of
 
@@ -27,14 +28,23 @@ count_option = click.option(
 )
 
 
-def read_scenario(path: str, count: int | None = None) -> Scenario:
+jobs_option = click.option(
+    "--jobs",
+    metavar="FILE",
+    type=click.Path(),
+    shell_complete=complete_files(".csv", ".yaml", ".yml", ".json", ".xml"),
+    help="Take the jobs of this file: CSV, YAML or JSON, orders of openTCS or Open-RMF.",
+)
+
+
+def read_scenario(path: str, count: int | None = None, jobs: str | None = None) -> Scenario:
     """Read a scenario, or the first robots of a .scen file, and write its reader's notes.
 
     ``-`` is standard input.
     """
     from rightofway.io import load_with_notes
 
-    return _note_loaded(load_with_notes(path, count=count), path)
+    return _note_loaded(load_with_notes(path, count=count, jobs=jobs), path)
 
 
 def _keep_file(context: click.Context, parameter: click.Parameter, given: str | None) -> None:

@@ -17,7 +17,13 @@ from rightofway.cli.completion import (
     complete_planner_options,
     complete_planners,
 )
-from rightofway.cli.inputs import add_foreign_options, count_option, read_plan, read_scenario
+from rightofway.cli.inputs import (
+    add_foreign_options,
+    count_option,
+    jobs_option,
+    read_plan,
+    read_scenario,
+)
 from rightofway.cli.options import (
     ListingCommand,
     as_json_option,
@@ -143,10 +149,11 @@ def _add_planning_options(planner: str) -> Callable[[Callable[..., Any]], Callab
 @click.command(cls=ListingCommand, listing=_list_all, epilog=PLAN_EXAMPLES)
 @click.argument("scenario", type=click.Path(), shell_complete=complete_files(*SCENARIOS))
 @count_option
+@jobs_option
 @click.option("--start", type=click.Path(), metavar="PLAN", shell_complete=complete_files(*PLANS),
               help="Start from the PLAN of this SCENARIO before it was changed.")  # fmt: skip
 @_add_planning_options(DEFAULT_PLANNER)
-def plan(*, scenario: str, count: int | None, **given: Any) -> int:
+def plan(*, scenario: str, count: int | None, jobs: str | None, **given: Any) -> int:
     """Plan a SCENARIO (YAML, JSON, .xlsx or .scen) and check the plan.
 
     Prints the costs of the plan, and which robots wait for which others. A SCENARIO of - is
@@ -154,7 +161,7 @@ def plan(*, scenario: str, count: int | None, **given: Any) -> int:
     """
     from rightofway.solve import solve
 
-    return _run(scenario, partial(read_scenario, count=count), solve, **given)
+    return _run(scenario, partial(read_scenario, count=count, jobs=jobs), solve, **given)
 
 
 @click.command(cls=ListingCommand, listing=_list_improvers, epilog=IMPROVE_EXAMPLES)

@@ -61,6 +61,18 @@ def locate(faults: Iterable[InputFault], text: str) -> Iterator[InputFault]:
             yield fault.place_at(_locate(fault.location, root))
 
 
+def locate_inner(faults: Iterable[InputFault], text: str) -> Iterator[InputFault]:
+    """Yield faults with lines and names where they are in another file, which has this text."""
+    for fault in faults:
+        inner = fault.location.inner
+        if inner is None:
+            yield fault
+            continue
+        (located,) = locate([fault.place_at(replace(inner, file=""))], text)
+        place = replace(located.location, file=inner.file)
+        yield fault.place_at(replace(fault.location, inner=place))
+
+
 def _read_root(text: str) -> yaml.Node | None:
     import yaml
 

@@ -18,7 +18,7 @@ WORKBOOKS = (".xlsx", ".xlsm", ".xls", ".ods")
 
 
 @checks_arguments
-def load(path: Path | str, count: int | None = None) -> Scenario:
+def load(path: Path | str, count: int | None = None, jobs: Path | str | None = None) -> Scenario:
     """Return the scenario of a file.
 
     Parameters
@@ -30,26 +30,34 @@ def load(path: Path | str, count: int | None = None) -> Scenario:
     count
         Number of robots: the first rows of a `.scen` file; None for all. Other files say
         themselves how many robots they have.
+    jobs
+        A file of jobs for a scenario as YAML or JSON, instead of its own jobs: CSV, a list of jobs
+        as YAML or JSON, transport orders of openTCS or task requests of Open-RMF.
 
     Raises
     ------
     InputError
         With every independent fault, its place, value and remedy.
     """
-    return load_with_notes(path, count).scenario
+    return load_with_notes(path, count, jobs).scenario
 
 
-def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
+def load_with_notes(
+    path: Path | str, count: int | None = None, jobs: Path | str | None = None
+) -> Loaded:
     """Return the scenario of a file with the notes of its reader; otherwise as `load`.
 
     Parameters
     ----------
     path
         A scenario as YAML or JSON, a workbook or a `.scen` file.
-    count
+    count, jobs
         As for `load`.
     """
     path = as_path(path)
+    if jobs is not None and path.suffix.lower() in {".scen", *WORKBOOKS}:
+        message = "is for a scenario as YAML or JSON (write the jobs into a sheet, or take it out)"
+        raise InputError.at("jobs", message, str(path))
     if path.suffix.lower() == ".scen":
         return read_classic(path, count)
     if path.suffix.lower() in WORKBOOKS:
@@ -67,7 +75,16 @@ def load_with_notes(path: Path | str, count: int | None = None) -> Loaded:
         _refuse_foreign(text)
         refuse_layout(path, text)
     with pause_garbage_collection(), open_document(path, text) as document:
-        return _read_scenario(document, text, path)
+        return _read_scenario(_replace_jobs(document, jobs), text, path)
+
+
+def _replace_jobs(document: Any, jobs: Path | str | None) -> Any:
+    """Return a document with the jobs of a file, and the times that it gives for orders."""
+    if jobs is None or not isinstance(document, dict):
+        return document
+    given = document.get("jobs")
+    times = given if isinstance(given, dict) and "table" in given else {}
+    return {**document, "jobs": {**times, "table": str(as_path(jobs, "jobs").absolute())}}
 
 
 def _read_scenario(document: Any, text: str, path: Path) -> Loaded:

@@ -24,8 +24,10 @@ from rightofway.errors import (
     name_file,
     quote,
 )
+from rightofway.facts import Fact
 from rightofway.io.content import read_text
 from rightofway.io.faults import Faults
+from rightofway.io.locations import locate_inner
 from rightofway.io.yaml_text import parse_yaml
 from rightofway.kinds.table import TRUTH
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
@@ -90,11 +92,17 @@ class CellDocument:
         For paths into the document, like ``("robots", 2, "speed")``, the place of the cell.
     faults
         Faults of cells, which are no part of the document.
+    text
+        Of JSON or YAML, the text in which lines of faults are looked up.
+    notes
+        What was left out.
     """
 
     part: Any
     cells: dict[Steps, Where] = field(default_factory=dict)
     faults: tuple[InputFault, ...] = ()
+    text: str = ""
+    notes: tuple[Fact, ...] = ()
 
     @contextmanager
     def locate(self) -> Iterator[None]:
@@ -103,7 +111,8 @@ class CellDocument:
             yield
         except InputError as error:
             places = {fault.location for fault in self.faults}
-            moved = (fault.relocate(self.cells) for fault in error.faults)
+            moved = [fault.relocate(self.cells) for fault in error.faults]
+            moved = [*locate_inner(moved, self.text)] if self.text else moved
             more = (fault for fault in moved if fault.location not in places)
             raise InputError([*self.faults, *more]) from None
         if self.faults:

@@ -38,7 +38,7 @@ from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 from rightofway.site import Roadmap
 from rightofway.site.scale import find_odd_sizes
-from rightofway.units import Units
+from rightofway.units import SECONDS, Units
 
 if TYPE_CHECKING:
     from rightofway.io.tables import CellDocument
@@ -120,7 +120,8 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
     if table := _read_table(document, base):
         key, cells = table
         with cells.locate():
-            return read_scenario({**document, key: cells.part}, base, pictures)
+            whole = read_scenario({**document, key: cells.part}, base, pictures)
+        return replace(whole, notes=(*whole.notes, *cells.notes))
     faults = Faults()
     faults.attempt("", validate, ScenarioFrame, document)
     rules = faults.read_part(document, "rules", _read_rules) or Rules()
@@ -151,11 +152,18 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
 
 def _read_table(document: dict[str, Any], base: Path | None) -> tuple[str, CellDocument] | None:
     """Return the key of robots or jobs that are in a table, and the table; None without one."""
-    for key, read in (("robots", read_robots_in_table), ("jobs", read_jobs_in_table)):
-        given = document.get(key)
-        if isinstance(given, dict) and "table" in given:
-            return key, read(given, base)
+    robots, jobs = document.get("robots"), document.get("jobs")
+    if isinstance(robots, dict) and "table" in robots:
+        return "robots", read_robots_in_table(robots, base)
+    if isinstance(jobs, dict) and "table" in jobs:
+        return "jobs", read_jobs_in_table(jobs, base, _measure_second(document.get("units")))
     return None
+
+
+def _measure_second(units: Any) -> Fraction:
+    """Return a second in the time unit of a document; times without a unit are in seconds."""
+    unit = units.get("time") if isinstance(units, dict) else None
+    return 1 / SECONDS.get(str(unit), Fraction(1))
 
 
 def read_classic(path: Path, count: int | None) -> Loaded:

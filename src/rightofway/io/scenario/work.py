@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -55,16 +56,17 @@ class ReadWork:
                 yield fault
 
 
-def read_jobs_in_table(data: dict[str, Any], base: Path | None) -> CellDocument:
-    """Return the jobs of a CSV file that the document names."""
+def read_jobs_in_table(data: dict[str, Any], base: Path | None, second: Fraction) -> CellDocument:
+    """Return the jobs of a file that the document names; a second is given in time units."""
+    from rightofway.io.orders.formats import OrderTimes, read_jobs_of_file
     from rightofway.io.scenario.work_shape import JobDocument, JobTableDocument
-    from rightofway.io.tables import read_csv, read_jobs_of_rows
 
     with locate_faults("jobs"):
-        name = validate(JobTableDocument, data).table
+        document = validate(JobTableDocument, data)
+        times = OrderTimes(second=second, **document.get_given("begin", "work"))
         with locate_faults("table"):
-            rows, cell = read_csv(find_file_beside(base, name), ("jobs", "table"))
-            return read_jobs_of_rows(rows, cell, list_keys(JobDocument))
+            file = find_file_beside(base, document.table)
+            return read_jobs_of_file(file, times, list_keys(JobDocument), ("jobs", "table"))
 
 
 def read_work(document: Mapping[str, Any], on: LoadedMap | None, faults: Faults) -> ReadWork:

@@ -107,9 +107,18 @@ class JobDocument(Document):
 
 
 class JobTableDocument(Document):
-    """Jobs from the rows of a CSV file, with the keys of a job as headings."""
+    """Jobs of a file of their own: a CSV file, or orders of another program."""
 
-    table: Name = Field(description="a .csv file, relative to the scenario's own")
+    table: Name = Field(
+        description="a .csv file, or a list of jobs or orders, relative to the scenario's own"
+    )
+    begin: Name = make_optional(
+        "of orders: the instant of time 0, like 2026-11-28T06:00:00Z; by default the first one"
+        " at which an order was made or may begin"
+    )
+    work: NotNegative = make_optional(
+        "of orders: work time at stops without one [time unit], 0 by default"
+    )
 
 
 class BatteryDocument(Document):
