@@ -64,6 +64,16 @@ def test_the_report_for_programs_has_exact_times(cli: Cli, slower: Path) -> None
     assert {piece["robot"] for piece in group["bottleneck"]} == {"R2"}
 
 
+def test_steps_of_a_bottleneck_have_kinds_and_names_and_no_sentence(cli: Cli) -> None:
+    """A right of way names the robot that has to leave first."""
+    [group] = json.loads(cli("laps", EXAMPLES / "bay.yaml", "--json").out)["groups"]
+    steps = group["bottleneck"]
+    assert {tuple(step) for step in steps} == {("kind", "robot", "after", "vertices", "for")}
+    after = [(step["robot"], step["after"]) for step in steps if step["kind"] == "right of way"]
+    assert sorted(after) == [("R1", "R2"), ("R1", "R3"), ("R2", "R1"), ("R3", "R1")]
+    assert all(step["after"] is None for step in steps if step["kind"] != "right of way")
+
+
 def test_times_are_in_the_units_of_the_scenario_or_in_ticks(cli: Cli, slower: Path) -> None:
     slower.write_text(SLOWER + "units: {length: m, time: s}\n", encoding="utf-8")
     ended = cli("laps", slower)

@@ -35,6 +35,8 @@ class CircuitStep:
         The vertices where that is, each once for laps.
     ticks
         How long it takes [ticks].
+    after
+        The robot that a right of way waits for, by index; None for other steps.
     text
         The actions; the sentence continues after the robot's name.
     """
@@ -44,6 +46,7 @@ class CircuitStep:
     places: tuple[VertexId, ...]
     ticks: Tick
     text: Phrase
+    after: int | None = None
 
 
 def list_circuit_steps(pieces: Sequence[Piece], scenario: Scenario) -> list[CircuitStep]:
@@ -104,8 +107,14 @@ def _step(piece: Piece, awaited: int, scenario: Scenario, place: PlaceNames) -> 
                 other=other,
                 left=names[-1],
             )
+    is_after = piece.kind == "right of way" and awaited != piece.robot
     return CircuitStep(
-        kind=piece.kind, robot=piece.robot, places=piece.places, ticks=piece.ticks, text=text
+        kind=piece.kind,
+        robot=piece.robot,
+        places=piece.places,
+        ticks=piece.ticks,
+        text=text,
+        after=awaited if is_after else None,
     )
 
 

@@ -41,14 +41,22 @@ BY_VISIT = ("conflicts", "first_lap", "bottleneck", "sensitivity", "curves")
 """Keys of --json that are computed visit by visit."""
 
 
-def make_laps_data(run: CyclicResult, *, by_visit: bool = True) -> dict[str, Any]:
-    """Return a result for programs: plain data, exact times [time unit]."""
+def make_laps_data(
+    run: CyclicResult, *, by_visit: bool = True, with_text: bool = False
+) -> dict[str, Any]:
+    """Return a result for programs: plain data, exact times [time unit].
+
+    For pages, steps of critical circuits also have a ``text``.
+    """
     return {
         "rule": run.rule,
         "routes": run.routes,
         **describe_measures(run.scenario),
         "throughput_per_hour": format_number(compute_hour(run.scenario) * run.compute_throughput()),
-        "groups": [_group_data(run.scenario, group, by_visit=by_visit) for group in run.groups],
+        "groups": [
+            _group_data(run.scenario, group, by_visit=by_visit, with_text=with_text)
+            for group in run.groups
+        ],
     }
 
 
@@ -74,7 +82,9 @@ def is_long(group: GroupResult) -> bool:
     return group.pattern is not None and group.pattern.n_visits > MAX_VISITS
 
 
-def _group_data(scenario: Scenario, group: GroupResult, *, by_visit: bool) -> dict[str, Any]:
+def _group_data(
+    scenario: Scenario, group: GroupResult, *, by_visit: bool, with_text: bool
+) -> dict[str, Any]:
     robots, place, clock = scenario.robots, scenario.roadmap.name, scenario.problem.clock
     names, pattern, measured, time = (
         list_names(scenario, group),
@@ -127,9 +137,9 @@ def _group_data(scenario: Scenario, group: GroupResult, *, by_visit: bool) -> di
         data |= {
             "conflicts": waits_data(group.waits(), "offset"),
             "first_lap": waits_data(group.list_first_waits(), "time"),
-            "bottleneck": _make_steps(scenario, bottleneck),
+            "bottleneck": _make_steps(scenario, bottleneck, with_text=with_text),
             "sensitivity": _make_sensitivity(scenario, group),
-            "curves": _make_curves(scenario, group),
+            "curves": _make_curves(scenario, group, with_text=with_text),
         }
     if group.comparison is not None:
         hour = compute_hour(scenario) / clock.tick
@@ -163,23 +173,29 @@ def _make_sensitivity(scenario: Scenario, group: GroupResult) -> list[dict[str, 
     ]
 
 
-def _make_steps(scenario: Scenario, bottleneck: Bottleneck | None) -> list[dict[str, Any]]:
+def _make_steps(
+    scenario: Scenario, bottleneck: Bottleneck | None, *, with_text: bool
+) -> list[dict[str, Any]]:
     place, clock = scenario.roadmap.name, scenario.problem.clock
-    return [
-        {
+    names, steps = [robot.name for robot in scenario.robots], list[dict[str, Any]]()
+    for step in list_circuit_steps(bottleneck.pieces if bottleneck else (), scenario):
+        name = names[step.robot]
+        data = {
             "kind": step.kind,
-            "robot": scenario.robots[step.robot].name,
+            "robot": name,
+            "after": None if step.after is None else names[step.after],
             "vertices": [place(vertex) for vertex in step.places],
             "for": format_number(clock.convert_to_time(step.ticks)),
-            "text": Phrase(
-                "steps of robot", robot=scenario.robots[step.robot].name, steps=step.text
-            ),
         }
-        for step in list_circuit_steps(bottleneck.pieces if bottleneck else (), scenario)
-    ]
+        if with_text:
+            data["text"] = Phrase("steps of robot", robot=name, steps=step.text)
+        steps.append(data)
+    return steps
 
 
-def _make_curves(scenario: Scenario, group: GroupResult) -> dict[str, Any] | None:
+def _make_curves(
+    scenario: Scenario, group: GroupResult, *, with_text: bool
+) -> dict[str, Any] | None:
     """Return the period as a function of each parameter, and the circuits that decide it.
 
     The period is ``fixed + slope * value``; of a speed ``fixed + slope / value``.
@@ -222,6 +238,6 @@ def _make_curves(scenario: Scenario, group: GroupResult) -> dict[str, Any] | Non
             continue
         bottleneck = trace_bottleneck(graph, arcs)
         visits = [list(visit) for visit in list_visits_along(group, pattern, graph, arcs)]
-        pieces = _make_steps(scenario, bottleneck)
+        pieces = _make_steps(scenario, bottleneck, with_text=with_text)
         listed.append({"periods": bottleneck.periods, "pieces": pieces, "visits": visits})
     return data | {"curves": curves, "circuits": listed}

@@ -42,6 +42,7 @@ export interface Choices {
 export interface CirclePiece {
   kind: string;
   robot: string;
+  after: string | null;
   vertices: Array<string>;
   for: number | string;
   text: PhraseData;

@@ -531,7 +531,14 @@ class Compared(TypedDict):
 
 CirclePiece = TypedDict(
     "CirclePiece",
-    {"kind": str, "robot": str, "vertices": list[str], "for": Exact, "text": Phrase},
+    {
+        "kind": str,
+        "robot": str,
+        "after": str | None,
+        "vertices": list[str],
+        "for": Exact,
+        "text": Phrase,
+    },
 )
 """A step of the circle that sets the pace of laps."""
 

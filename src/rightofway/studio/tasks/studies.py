@@ -89,7 +89,7 @@ def make_laps(emit: Emit, _blobs: Blobs, *, document: Any, folder: str, **settin
 
 def _describe_laps(run: CyclicResult, *, by_visit: bool = True) -> Any:
     """Return the data of laps, with each reason as a sentence, too."""
-    data = make_laps_data(run, by_visit=by_visit)
+    data = make_laps_data(run, by_visit=by_visit, with_text=True)
     for group, row in zip(run.groups, data["groups"], strict=True):
         row["reason"] = write_reason(group)
         if curves := row["curves"]:
