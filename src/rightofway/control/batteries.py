@@ -11,6 +11,7 @@ from fractions import Fraction
 from heapq import heappop, heappush
 from itertools import pairwise
 
+from rightofway.dispatch import PlannedStep
 from rightofway.model import Battery, PlannedItem, Scenario, Tick
 from rightofway.site import VertexId
 
@@ -53,6 +54,17 @@ class FleetBatteries:
         for tail, head in pairwise(vertices):
             need += self._find_share(robot, tail, head) or 0
         return need
+
+    def measure_drive(self, robot: int, tail: str, head: str) -> Fraction:
+        """Return the share that the drive of a robot along an edge takes, with its time."""
+        get_vertex = self._scenario.roadmap.get_vertex
+        return self._find_share(robot, get_vertex(tail), get_vertex(head)) or Fraction(0)
+
+    def may_charge(self, robot: int, place: str) -> bool:
+        """Return whether a robot has a battery and may charge it at a place."""
+        if self.of_robot[robot] is None:
+            return False
+        return self._scenario.roadmap.get_vertex(place) in self._list_charging(robot)
 
     def _list_charging(self, robot: int) -> tuple[VertexId, ...]:
         work = self._scenario.problem.work
@@ -109,7 +121,7 @@ def follow_charge(
     scenario: Scenario,
     battery: Battery,
     vertices: Sequence[int],
-    tour: Sequence[PlannedItem],
+    tour: Sequence[PlannedItem | PlannedStep],
     *,
     soc: Fraction,
     begin: Tick,

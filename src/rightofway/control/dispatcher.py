@@ -24,6 +24,8 @@ from rightofway.control.messages import Message
 from rightofway.control.releases import list_strayed_to
 from rightofway.control.rest import RestPlanner, explain_error
 from rightofway.control.robot_ledger import RobotLedger
+from rightofway.control.round_driver import RoundDriver
+from rightofway.control.round_worker import Rounds, RoundsAtOnce
 from rightofway.control.routes import RouteToDrive, make_routes_to_drive
 from rightofway.errors import GaveUp, InputError
 from rightofway.facts import Fact
@@ -57,6 +59,8 @@ class Dispatcher:
     patience
         Calls of `pass_stuck` for which a robot does not go on before others are replanned round it,
         and after which a replanning that has failed is tried again.
+    rounds
+        Where rounds of a plan with jobs are planned; by default here, while robots wait.
 
     Attributes
     ----------
@@ -64,6 +68,8 @@ class Dispatcher:
         As given.
     closures
         The closures of the scenario, if it has any; `keep_time` sets them.
+    rounds
+        The rounds of a plan with jobs; None for other plans.
     report
         Receives a fact when no plan of the rest is found, and when one is found again; a
         supervisor sets it. A command that is refused for this reason has the answer instead.
@@ -78,6 +84,7 @@ class Dispatcher:
         planner: str = "auto",
         time_limit: float | None = 2,
         patience: int = PATIENCE,
+        rounds: Rounds | None = None,
     ) -> None:
         self._patience = patience
         self.report: Report = lambda *_: None
@@ -92,6 +99,12 @@ class Dispatcher:
         self.closures: ClockedClosures | None = None
         self._waiting_work: HeldWork | None = None
         self._planned_round = set[Edge]()  # what closures closed when the rest was planned
+        self.rounds: RoundDriver | None = None
+        if plan.scenario.jobs is not None:
+            own_rounds = rounds or RoundsAtOnce(time_limit, planner)
+            self.rounds = RoundDriver(plan.scenario, control, own_rounds)
+            self.rounds.report = self._report_round
+            self.rounds.list_closed = self._list_closed_edges
         control.dispatch, control.may_drive = self._add_laps, cache(self._may_drive)
         control.may_stop = self._rest.may_stop
 
@@ -135,7 +148,9 @@ class Dispatcher:
         return any(ticks[roadmap.class_of_edge[edge]] >= 0 for edge in edges)
 
     def _add_laps(self) -> list[Message]:
-        """Add laps where robots come to the end of theirs."""
+        """Add laps where robots come to the end of theirs; go on with rounds."""
+        if self.rounds is not None:
+            return self.rounds.go_on()
         robots = list(map(self._rest.begin_at_stop, self.ledger.robots))
         more = self._laps.extend(robots) if self._laps else None
         if more is None:
@@ -243,6 +258,10 @@ class Dispatcher:
         GaveUp
             If no plan was found: the old one stands.
         """
+        if self.rounds is not None:
+            self.control.commit(*notes)
+            self.rounds.want()
+            return self.rounds.go_on()
         stops = self.list_stops() if stops is None else stops
         messages = self._plan_rest(stops, withdrawn=withdrawn, notes=notes, placed=placed)
         return [*messages, *self._add_laps()]
@@ -278,6 +297,8 @@ class Dispatcher:
         A robot that is lost, faulty, on hold or not fit lets others go first, where they can.
         """
         control, ledger = self.control, self.ledger
+        if self.rounds is not None:  # each round decides anew
+            return []
         better = self._rest.find_better_order(
             ledger.robots, control.list_committed(), control.list_stuck()
         )
@@ -296,6 +317,8 @@ class Dispatcher:
         if self.plan.scenario.jobs is not None:
             self._waiting_work = HeldWork(self.plan.scenario, self.control, read_ticks)
             self.control.may_begin = self._waiting_work.may_begin
+        if self.rounds is not None:
+            self.rounds.read_ticks = read_ticks
         if self.plan.scenario.closures:
             self.closures = ClockedClosures(self.plan.scenario, read_ticks)
             self.control.may_enter = lambda robot, part: self.find_closed(robot, part) is None
@@ -318,8 +341,10 @@ class Dispatcher:
         The plan has its times and ways from closures. The rest is replanned where one without an
         end begins, and where one ends that it was planned round.
         """
+        if self.rounds is not None:
+            self.rounds.look()
         if self.closures is None:
-            return self.control.note() if self._waiting_work else []
+            return [*self.control.note(), *self._add_laps()] if self.rounds else []
         closed, planned_round = self.closures.list_closed_edges(), self._planned_round
         for_good = self.closures.list_closed_edges(forever=True) - planned_round
         if self._is_led_over(for_good) or not planned_round <= closed:
@@ -350,11 +375,14 @@ class Dispatcher:
             is_due = self._tries_in <= 0
         else:
             is_due = has_moved or not long >= self._passed
+            is_due |= self.rounds is not None and long > self._passed
             is_due |= long > self._passed and not long.isdisjoint(self._list_awaited())
         if not is_due:
             return []
         before, self._passed = self._passed, long
         self._held = [own.held for own in robots]
+        if self.rounds is not None:
+            self.rounds.unable = long
         messages = self.replan_if_possible()
         if messages is None:
             self._passed = before & long
@@ -382,6 +410,14 @@ class Dispatcher:
             awaited |= {arrival.robot for arrival in missing}
             awaited.update(list_strayed_to(ledger, own.route.get_place(part)))
         return awaited
+
+    def _report_round(self, fact: Fact | None, is_over: bool) -> None:
+        """Report once that a round has found no plan, and that one has found one again."""
+        if is_over and self._has_failed:
+            self.report(Fact("rest replanned"), True)
+        elif not is_over and not self._has_failed:
+            self.report(fact, False)
+        self._has_failed = not is_over
 
     def _try(self, make_plan: Callable[[], list[Message]]) -> list[Message] | None:
         """Return the messages of a new plan; None where none is found: that is reported once."""

@@ -101,6 +101,8 @@ class FleetControl:
         Tells of a robot whether an item of its work may begin, see
         `rightofway.control.work_items`: robots drive to the places of work that may not, and stand
         there. A dispatcher sets it.
+    kept
+        The last part of each robot that is released while a round is under way; None: no round is.
     stranded
         Robots whose batteries are too low for the way to a charging place.
     charges
@@ -132,6 +134,7 @@ class FleetControl:
         self.may_stop: Callable[[str], bool] = lambda _: True
         self.may_begin: MayBegin = lambda *_: True
         self.charges: dict[int, float] = {}
+        self.kept: tuple[int, ...] | None = None
         self._since_snapshot = 0
         for number, entry in enumerate(journal.read_entries(), 1):
             self.ledger.read(number, entry)
@@ -411,11 +414,18 @@ class FleetControl:
 
     def _make_order(self, robot: int, begin: int, end: int) -> Entry:
         """Return the entry of a new order over some parts."""
-        return make_order(self.ledger, robot, begin, end, self.may_begin)
+        return make_order(self.ledger, robot, begin, end, self._may_begin)
 
     def _make_update(self, robot: int, end: int) -> Entry:
         """Return the entry of an update to a last part."""
-        return make_update(self.ledger, robot, end, self.may_begin)
+        return make_update(self.ledger, robot, end, self._may_begin)
+
+    def _may_begin(self, robot: int, item: str) -> bool:
+        """Return whether work may begin; none begins that a round may give to another robot."""
+        own = self.ledger.robots[robot]
+        if self.kept is not None and item in own.route.get_jobs(self.kept[robot]):
+            return own.is_sent(item)
+        return self.may_begin(robot, item)
 
     # --- what may be released (rules 4 and 5) ----------------------------------------------------
 
@@ -460,7 +470,7 @@ class FleetControl:
         item = own.find_next_item()
         if item is None or own.is_on_hold or own.fault is not None or not self.is_fit(robot):
             return None
-        if own.is_asked_for(item) or not self.may_begin(robot, item):
+        if own.is_asked_for(item) or not self._may_begin(robot, item):
             return None
         return self._make_order(robot, own.released, own.released)
 
@@ -474,7 +484,7 @@ class FleetControl:
             robot,
             ahead,
             self._is_in_base,
-            may_enter=self.may_enter,
+            may_enter=self._may_enter,
             may_stop=self.may_stop,
         )
         if end == own.released:
@@ -483,6 +493,11 @@ class FleetControl:
         if own.order_jobs >= self._long_order and own.arrived == own.released:
             return self._make_order(robot, own.released, end)
         return self._make_update(robot, end)
+
+    def _may_enter(self, robot: int, part: int) -> bool:
+        """Return whether nothing but other robots keeps a robot from a part."""
+        is_kept = self.kept is None or part <= self.kept[robot]
+        return is_kept and self.may_enter(robot, part)
 
     _is_in_base = staticmethod(is_in_base)
 

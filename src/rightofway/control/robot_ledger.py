@@ -94,6 +94,10 @@ class RobotLedger:
         items = self.route.get_jobs(self.arrived)
         return next((item for item in items if item not in self.finished), None)
 
+    def is_sent(self, item: str) -> bool:
+        """Return whether an order had the work of an item, or it is finished."""
+        return item in self.finished or self.attempts.get(item, 0) > 0
+
     def is_asked_for(self, item: str) -> bool:
         """Return whether the last node of the last order has the work of an item, or it failed."""
         actions = self.message.nodes[-1].actions if self.message else ()

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from rightofway.control.batteries import follow_charge
+from rightofway.control.batteries import FleetBatteries, follow_charge
 from rightofway.control.work_items import name_charge, name_stop
 from rightofway.model import Battery, Plan, PlannedItem, Scenario, Tick, Track, make_route
 
@@ -223,7 +223,7 @@ def make_route_with_work(
 ) -> RouteToDrive:
     """Return the route of a robot with the stops and charges of its tour.
 
-    A charge at the end of the route has no end: the robot charges until it has more to do.
+    A robot that ends where it may charge does so until it has more to do.
 
     Parameters
     ----------
@@ -237,7 +237,8 @@ def make_route_with_work(
     jobs: list[list[str]] = [[] for _ in track.vertices]
     work: list[list[int]] = [[] for _ in track.vertices]
     targets, last = list[tuple[str, float]](), len(track) - 1
-    for number, (item, soc) in enumerate(_follow_tour(scenario, robot, track, tour)):
+    number = 0
+    for number, (item, soc) in enumerate(_follow_tour(scenario, robot, track, tour), 1):
         if item.job is not None and item.stop is not None:
             assert scenario.jobs is not None, "a plan with tours has jobs"
             jobs[item.visit].append(name_stop(scenario.jobs[item.job].name, item.stop))
@@ -249,6 +250,11 @@ def make_route_with_work(
             jobs[item.visit].append(name_charge(number, "end"))
             work[item.visit].append(item.end - item.begin)
             targets.append((name_charge(number, "end"), float(soc)))
+    rests_at = scenario.roadmap.name(int(track.vertices[-1]))
+    is_charging = bool(tour) and tour[-1].job is None and tour[-1].visit == last
+    if not is_charging and FleetBatteries(scenario).may_charge(robot, rests_at):
+        jobs[last].append(name_charge(number + 1, "begin"))
+        work[last].append(0)
     return RouteToDrive(
         places=tuple(map(scenario.roadmap.name, track.vertices.tolist())),
         jobs=tuple(map(tuple, jobs)),

@@ -46,8 +46,7 @@ def refuse_changes(
             keeps_released = own.is_off and begin == old.end
         else:
             keeps_released = begin <= own.arrived and all(
-                (old.get_place(visit), old.get_jobs(visit))
-                == (new.get_place(visit), new.get_jobs(visit))
+                _keeps_visit(own, new, visit, is_last=visit == end)
                 for visit in range(begin, end + 1)
             )
         if not keeps_released:
@@ -56,6 +55,18 @@ def refuse_changes(
         unwanted = {job for other, job in withdrawn if other == robot}
         if lost := sorted(old.all_jobs - own.finished - new.all_jobs - unwanted):
             raise InputError.at(("routes", robot), f"{lost[0]} is in no visit (keep each job)")
+
+
+def _keeps_visit(own: RobotLedger, new: RouteToDrive, visit: int, *, is_last: bool) -> bool:
+    """Return whether a route keeps place and work of a visit.
+
+    Work that no order has yet may change in the last one: it gets an order of its own.
+    """
+    before, after = own.route.get_jobs(visit), new.get_jobs(visit)
+    if is_last:
+        before = tuple(filter(own.is_sent, before))
+        after = after[: len(before)]
+    return own.route.get_place(visit) == new.get_place(visit) and before == after
 
 
 def refuse_ways(

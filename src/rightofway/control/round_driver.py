@@ -1,0 +1,215 @@
+"""Rounds while robots drive: begun when there is more to plan, spliced when they are planned.
+
+Until a plan takes over, the old one stands, and no robot gets more than the part that it keeps. A
+round that finds no plan changes nothing. Nothing is kept here that is not in the journal, but for
+the reasons of the last round: a control that starts again begins a round.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import replace
+
+from rightofway.control.fleet_control import FleetControl
+from rightofway.control.journal import Entry
+from rightofway.control.laps import build_graph_behind_released
+from rightofway.control.ledger import Edge
+from rightofway.control.messages import Message
+from rightofway.control.round_view import (
+    ViewOfRound,
+    find_kept_parts,
+    make_routes_of_round,
+    view_fleet,
+)
+from rightofway.control.round_worker import RoundRequest, Rounds
+from rightofway.control.routes import RouteToDrive
+from rightofway.control.work_items import find_stop
+from rightofway.dispatch import PoolEvent, Round
+from rightofway.facts import Fact
+from rightofway.model import Scenario, Tick, UnservedReason
+from rightofway.precedence import ReleaseGraph
+
+__all__ = ["RoundDriver"]
+
+FOR_GOOD: frozenset[UnservedReason] = frozenset({"latest", "after"})
+"""Reasons for which a job leaves the pool: no robot can ever do it."""
+
+AHEAD = 4
+"""Parts beyond the released ones that a robot may keep while a round is under way."""
+
+PAUSE = 10
+"""Calls of `look` until a round that has found no plan is tried again."""
+
+Report = Callable[[Fact | None, bool], None]
+
+
+class RoundDriver:
+    """The rounds of a control.
+
+    Parameters
+    ----------
+    scenario
+        The scenario of the plan, with jobs.
+    control
+        The control, with the pool of jobs in its ledger.
+    rounds
+        Where rounds are planned.
+
+    Attributes
+    ----------
+    reasons
+        Why jobs are in no tour, by name, as the last round had it.
+    report
+        Receives a fact when a round finds no plan, or with True when one finds one again.
+    unable
+        Robots that do not go on: others are planned round them.
+    is_wanted
+        Whether there is more to plan.
+    """
+
+    def __init__(self, scenario: Scenario, control: FleetControl, rounds: Rounds) -> None:
+        rules = replace(scenario.rules, occupancy="both", rotations=False)
+        self._fleet = replace(scenario, rules=rules, clock=scenario.problem.clock, tours=None)
+        self._scenario = replace(self._fleet, closures=())
+        self._control, self.rounds = control, rounds
+        self.reasons: dict[str, UnservedReason | None] = {}
+        self.report: Report = lambda *_: None
+        self.unable = frozenset[int]()
+        self.list_closed: Callable[[], Collection[Edge]] = tuple
+        self.read_ticks: Callable[[], int] = lambda: 0
+        self.is_wanted = False
+        self._seen: ViewOfRound | None = None  # of the round that is under way
+        self._graph: ReleaseGraph | None = None  # of the plan that it replaces
+        self._count = 0  # rounds since the start
+        self._pause = 0  # calls of `go_on` until the next try after a failure
+        self._tried = frozenset[str]()  # jobs without a tour that the last round knew
+
+    @property
+    def is_under_way(self) -> bool:
+        """Whether a round is planned now."""
+        return self._seen is not None
+
+    def want(self) -> None:
+        """Begin a round as soon as none is under way."""
+        self.is_wanted, self._pause = True, 0
+
+    def list_waiting(self) -> list[str]:
+        """Return the jobs of the pool that are in no tour and not begun."""
+        planned = {
+            stop[0]
+            for own in self._control.ledger.robots
+            if not own.is_off
+            for item in own.route.all_jobs
+            if (stop := find_stop(item))
+        }
+        pool = self._control.ledger.pool
+        return [
+            name for name, own in pool.jobs.items() if not own.is_begun and name not in planned
+        ]
+
+    def look(self) -> None:
+        """Want a round where jobs wait and a robot has nothing to do; call it every second."""
+        self._pause = max(0, self._pause - 1)
+        waiting = frozenset(self.list_waiting())
+        robots = self._control.ledger.robots
+        is_idle = any(
+            own.is_done and not own.is_off and robot not in self.unable
+            for robot, own in enumerate(robots)
+        )
+        if waiting and is_idle and not waiting <= self._tried:
+            self.is_wanted = True
+
+    def go_on(self) -> list[Message]:
+        """Splice the plan of a round that has ended, and begin the next one; return messages."""
+        messages = list[Message]()
+        if self._seen is not None:
+            planned = self.rounds.poll()
+            if planned is None:
+                return []
+            messages = self._take_over(self._seen, planned)
+        if self.is_wanted and not self._pause and self._seen is None:
+            self._begin()
+        if self._seen is not None and (planned := self.rounds.poll()) is not None:
+            messages += self._take_over(self._seen, planned)
+        return messages
+
+    def _begin(self) -> None:
+        control, ledger = self._control, self._control.ledger
+        if all(own.is_off or k in self.unable for k, own in enumerate(ledger.robots)):
+            return
+        self.is_wanted = False
+        kept = find_kept_parts(ledger, control.list_committed(), AHEAD)
+        now, lead = self.read_ticks(), 0
+        if self.rounds.time_limit is not None:
+            seconds = float(self._scenario.problem.clock.tick * (self._scenario.units.seconds or 1))
+            lead = int(self.rounds.time_limit / seconds)
+        self._seen = seen = view_fleet(
+            self._scenario,
+            ledger,
+            kept,
+            charges=control.charges,
+            unable=self.unable,
+            closed=self.list_closed(),
+            now=now,
+            takeover=now + lead,
+        )
+        control.kept, self._graph = seen.kept, ledger.graph
+        self._count += 1
+        present = tuple(self._fleet.robots[robot] for robot in seen.present)
+        self.rounds.begin(
+            RoundRequest(
+                scenario=replace(
+                    self._fleet, robots=present, jobs=(), clock=self._fleet.problem.clock
+                ),
+                view=seen.view,
+                jobs=dict(seen.jobs),
+                over=dict(ledger.pool.left),
+                seed=self._count,
+            )
+        )
+
+    def _take_over(self, seen: ViewOfRound, planned: Round) -> list[Message]:
+        """Let the plan of a round take over, if it is one and still fits."""
+        control, ledger = self._control, self._control.ledger
+        self._seen = control.kept = None
+        if ledger.graph is not self._graph:  # another splice came first
+            self.is_wanted = True
+            return control.note()
+        if planned.stands:
+            return self._keep_old(planned.facts[0].values["reason"])
+        routes = make_routes_of_round(self._scenario, ledger, seen, planned)
+        absent = [robot for robot, own in enumerate(ledger.robots) if own.is_off]
+        graph = build_graph_behind_released(self._scenario, routes, seen.kept, absent)
+        if graph.find_rotation():
+            return self._keep_old(Fact("robots would rotate"))
+        self.reasons = {**dict(planned.unserved), **dict.fromkeys(planned.postponed)}
+        self._tried = frozenset(self.reasons)
+        self.report(None, True)
+        notes = self._list_unserved(planned)
+        return control.splice(routes, graph, withdrawn=self._list_moved(routes), notes=notes)
+
+    def _keep_old(self, reason: Fact) -> list[Message]:
+        """Let the old plan go on, and try again later."""
+        self.is_wanted, self._pause = True, PAUSE
+        kept = reason if reason.about is None else str(reason)  # the journal has no scenario
+        self.report(Fact("no plan of the rest", reason=kept), False)
+        return self._control.note()
+
+    def _list_moved(self, routes: Sequence[RouteToDrive]) -> list[tuple[int, str]]:
+        """Return the work that robots had to do and have no more: others do it, or later."""
+        return [
+            (robot, item)
+            for robot, (own, route) in enumerate(
+                zip(self._control.ledger.robots, routes, strict=True)
+            )
+            for item in sorted(own.route.all_jobs - own.finished - route.all_jobs)
+        ]
+
+    def _list_unserved(self, planned: Round) -> list[Entry]:
+        """Return entries on jobs that no robot can ever do."""
+        roadmap, now = self._scenario.roadmap, Tick(self.read_ticks())
+        return [
+            PoolEvent(kind="job unserved", at=now, name=name, reason=reason).to_document(roadmap)
+            for name, reason in planned.unserved
+            if reason in FOR_GOOD
+        ]

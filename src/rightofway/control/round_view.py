@@ -1,0 +1,328 @@
+"""The fleet of a control as a round sees it, and the plan of a round as routes to drive.
+
+Each robot keeps a part of its route, at least all that is released to it. What is kept goes first
+in the new order, so commitments wait for nobody.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from rightofway.control.batteries import FleetBatteries, follow_charge
+from rightofway.control.commitments import RobotCommitment, make_robot_commitment
+from rightofway.control.ledger import Edge, Ledger
+from rightofway.control.robot_ledger import RobotLedger
+from rightofway.control.routes import RouteToDrive
+from rightofway.control.work_items import find_charge_step, find_stop, name_charge, name_stop
+from rightofway.dispatch import FleetView, PlannedStep, PooledJob, RobotView, Round
+from rightofway.model import Scenario, Tick, Track
+from rightofway.precedence import Part
+from rightofway.site import VertexId
+
+__all__ = ["ViewOfRound", "find_kept_parts", "make_routes_of_round", "view_fleet"]
+
+WHOLE = 1000
+"""Into how many parts a measured charge is rounded: shares of a battery are exact."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ViewOfRound:
+    """What a round is planned from.
+
+    Attributes
+    ----------
+    view
+        The robots that are on the floor.
+    present
+        Their numbers in the fleet.
+    kept
+        The last part of each robot of the fleet that is kept.
+    commitments
+        What each robot that is on the floor keeps.
+    jobs
+        The jobs of the round, as they were known.
+    """
+
+    view: FleetView
+    present: tuple[int, ...]
+    kept: tuple[int, ...]
+    commitments: tuple[RobotCommitment, ...]
+    jobs: Mapping[str, PooledJob]
+
+
+def find_kept_parts(ledger: Ledger, released: Sequence[int], ahead: int) -> list[int]:
+    """Return the last part of each robot that is kept: so many beyond the released ones, at most.
+
+    A part is kept only together with all that go before it by right of way. A robot keeps none
+    behind a stop that is not asked for yet.
+
+    Parameters
+    ----------
+    ledger
+        The state that the journal describes.
+    released
+        The last released part of each robot.
+    ahead
+        How many more parts a robot may keep.
+    """
+    kept, grows = list(released), True
+    while grows:
+        grows = False
+        for robot, own in enumerate(ledger.robots):
+            part = kept[robot] + 1
+            if own.is_off or part >= min(own.route.end, released[robot] + ahead + 1):
+                continue
+            is_free = all(map(own.is_sent, own.route.get_jobs(part - 1)))
+            before = ledger.graph.waits(Part(robot, part))
+            if is_free and all(_is_kept(ledger, kept, *arrival) for arrival in before):
+                kept[robot], grows = part, True
+    return kept
+
+
+def _is_kept(ledger: Ledger, kept: Sequence[int], robot: int, visit: int) -> bool:
+    return ledger.robots[robot].is_off or visit <= kept[robot]
+
+
+def view_fleet(
+    scenario: Scenario,
+    ledger: Ledger,
+    kept: Sequence[int],
+    *,
+    charges: Mapping[int, float],
+    unable: Collection[int],
+    closed: Collection[Edge],
+    now: int,
+    takeover: int,
+) -> ViewOfRound:
+    """Return the fleet as a round sees it.
+
+    Parameters
+    ----------
+    scenario
+        The problem, with bookings of ``both``.
+    ledger
+        The state that the journal describes.
+    kept
+        The last part of each robot that is kept.
+    charges
+        Measured states of charge, from 0 to 1; a robot that reports none counts as full.
+    unable
+        Robots that do not go on: what they hold is a closure.
+    closed
+        Edges that robots shall not enter, as names of their vertices.
+    now, takeover
+        When the round begins, and when its plan takes over [ticks].
+    """
+    present = tuple(robot for robot, own in enumerate(ledger.robots) if not own.is_off)
+    batteries, roadmap = FleetBatteries(scenario), scenario.roadmap
+    jobs = {
+        name: own
+        for name, own in ledger.pool.jobs.items()
+        if own.robot is None or not ledger.robots[own.robot].is_off
+    }
+    views, commitments, ends = list[RobotView](), list[RobotCommitment](), list[tuple[str, Tick]]()
+    for robot in present:
+        own = _leave_out_unsent(ledger.robots[robot], kept[robot])
+        commitment = make_robot_commitment(scenario, robot, own, kept[robot])
+        begun = {job.job.name: job for job in jobs.values() if job.robot == robot}
+        busy = Tick(max(0, commitment.part.busy - (takeover - now)))
+        ends += [(k, busy) for k, job in begun.items() if job.begun == len(job.job.stops)]
+        vertices = commitment.part.vertices
+        commitments.append(commitment)
+        views.append(
+            RobotView(
+                kept=Track.of(vertices, range(1 - len(vertices), 1)),
+                last=kept[robot],
+                free=busy,
+                soc=_forecast_soc(batteries, robot, own, charges.get(robot)),
+                begun=tuple(
+                    (name, job.begun)
+                    for name, job in begun.items()
+                    if job.begun < len(job.job.stops)
+                ),
+                is_able=robot not in unable,
+                steps=tuple(_list_old_steps(ledger.robots[robot], kept[robot], scenario)),
+            )
+        )
+    shut = frozenset((roadmap.get_vertex(tail), roadmap.get_vertex(head)) for tail, head in closed)
+    view = FleetView(
+        now=Tick(now),
+        takeover=Tick(takeover),
+        robots=tuple(views),
+        ends=tuple(ends),
+        closed=frozenset((int(tail), int(head)) for tail, head in shut),
+    )
+    return ViewOfRound(
+        view=view,
+        present=present,
+        kept=tuple(kept),
+        commitments=tuple(commitments),
+        jobs=jobs,
+    )
+
+
+def _leave_out_unsent(own: RobotLedger, kept: int) -> RobotLedger:
+    """Return a robot without the work at the end of what it keeps that no order has yet."""
+    route, index = own.route, kept - own.route.first
+    rows = zip(route.jobs[index], route.work[index], strict=True)
+    sent = [(item, ticks) for item, ticks in rows if own.is_sent(item)]
+    jobs = (*route.jobs[:index], tuple(item for item, _ in sent), *route.jobs[index + 1 :])
+    work = (*route.work[:index], tuple(ticks for _, ticks in sent), *route.work[index + 1 :])
+    return replace(own, route=replace(route, jobs=jobs, work=work))
+
+
+def _forecast_soc(
+    batteries: FleetBatteries, robot: int, own: RobotLedger, charge: float | None
+) -> Fraction:
+    """Return the state of charge at the end of the kept part."""
+    battery = batteries.of_robot[robot]
+    if battery is None or charge is None:
+        return Fraction(1)
+    places = own.route.stretch(own.arrived, own.route.end)
+    measured = Fraction(round(charge * WHOLE), WHOLE)
+    drives = sum(
+        (batteries.measure_drive(robot, tail, head) for tail, head in itertools.pairwise(places)),
+        Fraction(0),
+    )
+    return max(measured - drives, Fraction(0))
+
+
+def _list_old_steps(own: RobotLedger, kept: int, scenario: Scenario) -> Iterator[PlannedStep]:
+    """Yield the stops of jobs behind what is kept, and those there that no order has yet."""
+    for visit in range(kept, own.route.end):
+        for item in own.route.get_jobs(visit):
+            stop = find_stop(item)
+            if stop is None or (visit == kept and own.is_sent(item)):
+                continue
+            vertex = VertexId(scenario.roadmap.get_vertex(own.route.get_place(visit)))
+            yield PlannedStep(
+                visit=visit - kept,
+                vertex=vertex,
+                begin=Tick(0),
+                end=Tick(0),
+                job=stop[0],
+                stop=stop[1],
+            )
+
+
+def make_routes_of_round(
+    scenario: Scenario, ledger: Ledger, seen: ViewOfRound, planned: Round
+) -> list[RouteToDrive]:
+    """Return the routes of a fleet that has planned a round.
+
+    Jobs that have changed or left meanwhile are left out: the next round has them.
+
+    Parameters
+    ----------
+    scenario, ledger
+        As for `view_fleet`.
+    seen
+        What the round was planned from.
+    planned
+        The plan.
+    """
+    routes = [own.route.cut_before(own.arrived) for own in ledger.robots]
+    later = 1 + max(commitment.route.enter[-1] for commitment in seen.commitments)
+    batteries = FleetBatteries(scenario)
+    for index, robot in enumerate(seen.present):
+        steps = [step for step in planned.steps[index] if _is_as_known(ledger, seen, step)]
+        track, view = planned.tracks[index], seen.view.robots[index]
+        battery = batteries.of_robot[robot]
+        items = _Items(ledger.robots[robot], seen.commitments[index].route, len(track))
+        targets = [1.0] * len(steps)
+        if battery is not None:
+            path = track.vertices.tolist()
+            reached = follow_charge(scenario, battery, path, steps, soc=view.soc, begin=view.free)
+            targets = list(map(float, reached))
+        for number, (step, target) in enumerate(zip(steps, targets, strict=True)):
+            is_last = number == len(steps) - 1 and step.visit == len(track) - 1
+            items.add(step, target, is_last=is_last)
+        rests_at = scenario.roadmap.name(int(track.vertices[-1]))
+        items.finish(charges=batteries.may_charge(robot, rests_at))
+        routes[robot] = items.make_route(
+            list(map(scenario.roadmap.name, track.vertices.tolist())),
+            [later + tick for tick in track.enter.tolist()],
+            ledger.robots[robot].arrived,
+        )
+    return routes
+
+
+def _is_as_known(ledger: Ledger, seen: ViewOfRound, step: PlannedStep) -> bool:
+    """Return whether the job of a step is still the one that was planned."""
+    if step.job is None:
+        return True
+    own = ledger.pool.jobs.get(step.job)
+    return own is not None and own.job == seen.jobs[step.job].job
+
+
+class _Items:
+    """The items of work along the new route of a robot.
+
+    Parameters
+    ----------
+    own
+        The robot.
+    kept
+        The part of its route that it keeps.
+    length
+        How many visits the new part has; the first one is the last that is kept.
+    """
+
+    def __init__(self, own: RobotLedger, kept: RouteToDrive, length: int) -> None:
+        self._kept, self._numbers = kept, itertools.count(own.next_job)
+        self._jobs = [list(kept.jobs[-1]), *([] for _ in range(length - 1))]
+        self._work = [list(kept.work[-1]), *([] for _ in range(length - 1))]
+        self._targets = list(kept.targets)
+        begun = [item for item in kept.jobs[-1] if find_charge_step(item) is not None]
+        is_open = bool(begun) and find_charge_step(begun[-1]) == "begin"
+        self._open = begun[-1] if is_open else None  # a charge that is under way
+
+    def add(self, step: PlannedStep, target: float, *, is_last: bool) -> None:
+        """Add the work of a stop, or a charge, which ends unless it is the last thing to do."""
+        if step.job is not None and step.stop is not None:
+            self._end_charge(0, 0.0)
+            self._jobs[step.visit].append(name_stop(step.job, step.stop))
+            self._work[step.visit].append(int(step.end - step.begin))
+            return
+        if self._open is None or step.visit > 0:
+            self._end_charge(0, 0.0)
+            self._begin_charge(step.visit)
+        if not is_last:
+            self._end_charge(int(step.end - step.begin), target, step.visit)
+
+    def finish(self, *, charges: bool) -> None:
+        """End the last charge if the robot drives on; a robot that rests at a charger charges."""
+        if self._open is not None and self._open not in self._jobs[-1]:
+            self._end_charge(0, 0.0)
+        if charges and self._open is None:
+            self._begin_charge(len(self._jobs) - 1)
+
+    def _begin_charge(self, visit: int) -> None:
+        self._open = name_charge(next(self._numbers), "begin")
+        self._jobs[visit].append(self._open)
+        self._work[visit].append(0)
+
+    def _end_charge(self, ticks: int, target: float, visit: int = 0) -> None:
+        if self._open is None:
+            return
+        item, self._open = f"{self._open} end", None
+        self._jobs[visit].append(item)
+        self._work[visit].append(ticks)
+        self._targets.append((item, target))
+
+    def make_route(self, places: Sequence[str], enter: Sequence[int], arrived: int) -> RouteToDrive:
+        """Return the route from where the robot has arrived."""
+        route = replace(
+            self._kept,
+            places=(*self._kept.places, *places[1:]),
+            jobs=(*self._kept.jobs[:-1], *map(tuple, self._jobs)),
+            work=(*self._kept.work[:-1], *map(tuple, self._work)),
+            enter=(*self._kept.enter, *enter[1:]),
+            lap_ends=(),
+            in_step=False,
+            targets=tuple(self._targets),
+        )
+        return route.cut_before(max(arrived, route.first))
