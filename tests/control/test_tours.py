@@ -221,7 +221,7 @@ def test_a_robot_that_reports_no_charge_charges_as_long_as_planned() -> None:
             ends.setdefault(item, now[0])
     assert plan.tours is not None
     planned = next(item for item in plan.tours[1] if item.job is None)
-    assert ends["charge0 end"] - ends["charge0"] in range(
+    assert ends["charge1 end"] - ends["charge1"] in range(
         planned.end - planned.begin, planned.end - planned.begin + 4
     )
     assert control.is_done

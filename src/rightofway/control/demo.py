@@ -243,7 +243,9 @@ class _Demo:
             change = self._find_next_change()
             moments = [*(row[0] for row in agenda[:1]), *(() if change is None else (change,))]
             if not agenda and change is None and not self._waits_for_people:
-                return
+                if not self._plan_waiting_jobs():
+                    return
+                continue
             moment = Fraction(min(moments)) if moments else self._moment + self._step
             if not self._wait_for(moment, wait_until):
                 continue
@@ -260,6 +262,15 @@ class _Demo:
     def _find_next_change(self) -> int | None:
         """Return when time may let robots go on [ticks]; None if it lets none."""
         return None if self._control.is_done else self._dispatcher.find_next_change()
+
+    def _plan_waiting_jobs(self) -> bool:
+        """Plan jobs that are in no tour; return whether robots get anything to do."""
+        rounds = self._dispatcher.rounds
+        if rounds is None:
+            return False
+        messages = self._supervisor.take_turn()
+        self._deliver(self._end.make_letters(messages))
+        return bool(messages)
 
     @property
     def _waits_for_people(self) -> bool:

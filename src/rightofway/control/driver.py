@@ -26,6 +26,7 @@ from rightofway.control.laps import LapsToDrive
 from rightofway.control.messages import Message
 from rightofway.control.notices import EVERY_KIND, Notices
 from rightofway.control.order_map import OrderMap, make_order_maps
+from rightofway.control.round_worker import ProcessRounds
 from rightofway.control.story import Story
 from rightofway.control.supervisor import Supervisor
 from rightofway.errors import InputError
@@ -108,7 +109,8 @@ class Driver:
         roadmap = plan.scenario.roadmap
         self.control = FleetControl(self._journal, report=notices.report_on, roadmap=roadmap)
         repeated = None if laps is None else LapsToDrive(plan, laps)
-        self._dispatcher = dispatcher = Dispatcher(self.control, plan, repeated)
+        rounds = None if plan.scenario.jobs is None else ProcessRounds()
+        self._dispatcher = dispatcher = Dispatcher(self.control, plan, repeated, rounds=rounds)
         self._began = time.time() if began is None else began
         self._tick = float(plan.scenario.problem.clock.tick * (plan.scenario.units.seconds or 1))
         self._supervisor = Supervisor(dispatcher, notices, self._read_ticks, commands)
@@ -147,6 +149,13 @@ class Driver:
         stays
             Whether to go on for ever.
         """
+        try:
+            await self._run(broker, stays=stays)
+        finally:
+            if self._dispatcher.rounds is not None:
+                self._dispatcher.rounds.rounds.close()
+
+    async def _run(self, broker: Broker, *, stays: bool) -> None:
         import aiomqtt
 
         wait, is_lost = RETRY[0], False
@@ -169,8 +178,12 @@ class Driver:
 
     @property
     def is_done(self) -> bool:
-        """Whether robots have come to the end of their way, or of all laps that are wanted."""
-        return self.control.is_done
+        """Whether robots have come to the end of their way, or of all laps that are wanted.
+
+        With jobs, no round is wanted or under way any more, too.
+        """
+        rounds = self._dispatcher.rounds
+        return self.control.is_done and (rounds is None or rounds.is_over)
 
     def _read_ticks(self) -> Tick:
         """Return the time since the run began."""

@@ -66,10 +66,9 @@ class HeldWork:
             return self._find_end_of_charge(robot, item) if find_charge_step(item) == "end" else 0
         pool, (name, number) = self._control.ledger.pool, stop
         own = pool.jobs.get(name)
-        if own is None:
-            return 0
-        is_first = number == 0
-        if is_first and not own.is_begun and not all(map(pool.is_over, own.job.after)):
+        if own is None or name in self._control.ledger.outdated:
+            return None
+        if number == 0 and not own.is_begun and not all(map(pool.is_over, own.job.after)):
             return None
         return self._clock.count_ticks(own.job.stops[number].earliest)
 

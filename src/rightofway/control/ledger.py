@@ -39,6 +39,7 @@ class Ledger:
 
     def __init__(self, roadmap: Roadmap | None = None) -> None:
         self._roadmap, self.pool = roadmap, Pool()
+        self.outdated = set[str]()  # jobs that have changed since they were planned
         self.run = ""
         self.starts = 0
         self.names: tuple[str, ...] = ()
@@ -169,7 +170,7 @@ class Ledger:
             self.commands, self.answer = entry["number"], entry["answer"]
             self.failed = entry["failed"]
         elif kind in JOB_EVENTS:
-            self.pool.apply(PoolEvent.of_document(entry, self.roadmap))
+            self._apply_job_event(PoolEvent.of_document(entry, self.roadmap))
         elif kind in UNFOLDED:
             pass
         else:
@@ -184,6 +185,24 @@ class Ledger:
         assert self._roadmap is not None, "a journal with jobs is read with its map"
         return self._roadmap
 
+    def _apply_job_event(self, event: PoolEvent) -> None:
+        """Take in what has happened to a job; its work does not begin where it has changed.
+
+        Robots pass the places of a job that has left; they stand at those of a changed one until it
+        is planned again.
+        """
+        self.pool.apply(event)
+        if event.kind == "job changed":
+            self.outdated.add(event.name)
+        if not self.pool.is_over(event.name):
+            return
+        for own in self.robots:
+            items = own.route.all_jobs
+            own.finished |= {
+                item for item in items if (find_stop(item) or ("", 0))[0] == event.name
+            }
+        self.changed.update(range(len(self.robots)))
+
     def count_jobs(self) -> tuple[int, ...]:
         """Return how many jobs each robot has done; of plans without jobs, its stops."""
         has_jobs = self.pool.jobs or self.pool.left
@@ -195,7 +214,6 @@ class Ledger:
         items = {
             "order": lambda: [item for _, item, _ in entry["actions"]],
             "finished": lambda: [entry["job"]],
-            "skipped": lambda: [entry["job"]],
         }.get(entry["kind"], list)()
         for name, stop in filter(None, map(find_stop, items)):
             robot: int = entry["robot"]
@@ -218,12 +236,14 @@ class Ledger:
             "failed": self.failed,
             "robots": robots,
             "waits": waits,
+            "outdated": sorted(self.outdated),
             "pool": self.pool.to_document(self.roadmap) if self._roadmap else None,
         }
 
     def _apply_plan(self, entry: Entry) -> None:
         routes = [RouteToDrive.of_document(route) for route in entry["routes"]]
         self.graph = _make_graph(routes, entry["waits"])
+        self.outdated.clear()
         if entry["kind"] == "plan":
             self.run, self.names = entry["run"], tuple(entry["names"])
             self.robots = [RobotLedger(route) for route in routes]
@@ -241,6 +261,7 @@ class Ledger:
         self.failed = entry["failed"]
         self.robots = [RobotLedger.of_document(robot) for robot in entry["robots"]]
         self.graph = _make_graph([own.route for own in self.robots], entry["waits"])
+        self.outdated = set(entry["outdated"])
         if entry["pool"] is not None:
             self.pool = Pool.of_document(entry["pool"], self.roadmap)
         self.changed.update(range(len(self.robots)))

@@ -9,6 +9,7 @@ import numpy as np
 
 from rightofway.control.journal import Entry
 from rightofway.control.ledger import Edge, Ledger
+from rightofway.control.work_items import find_stop
 from rightofway.errors import InputError, find_nearest, quote
 from rightofway.facts import Fact
 from rightofway.resume.rest_of_fleet import StopToMake
@@ -65,6 +66,12 @@ def find_robot(ledger: Ledger, name: str) -> int:
 
 def find_failed_job(ledger: Ledger, name: str) -> Entry:
     """Return robot and job of a failed job."""
+    for number, own in enumerate(ledger.robots):
+        for item in own.failed:
+            if (find_stop(item) or ("", 0))[0] == name:
+                return {"robot": number, "job": item}
+    if name in ledger.pool.jobs:
+        raise InputError.at("job", f"{quote(name)} has not failed (see rightofway jobs list)")
     robot, _, job = name.rpartition("/")
     number = find_robot(ledger, robot)
     if job not in ledger.robots[number].failed:

@@ -22,6 +22,7 @@ from rightofway.control.commands import (
 from rightofway.control.commitments import list_stops_to_make
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.fleet_control import UNSOUND
+from rightofway.control.job_commands import JobCommands, list_pooled_jobs
 from rightofway.control.journal import Entry
 from rightofway.control.messages import Message
 from rightofway.control.names import (
@@ -54,6 +55,9 @@ OPERATIONS: Mapping[str, Entry] = {
 }
 """What an operator does to robots: the entry of each command, without its robot."""
 
+JOB_KINDS = frozenset({"list", "add", "change", "withdraw", "skip"})
+"""Commands on jobs, which a plan with jobs keeps in a pool."""
+
 UNREACHABLE = 10**12
 """More than any way [ticks]."""
 
@@ -74,6 +78,9 @@ class Operator:
         self._ledger = dispatcher.ledger
         self._distances = Distances(self._scenario.roadmap)
         self._number: int | None = None  # of the command under way, until it is committed
+        self._jobs = None
+        if dispatcher.rounds is not None:
+            self._jobs = JobCommands(self._scenario, self._ledger)
 
     def obey(self, commands: Commands) -> tuple[list[Message], list[tuple[int, Answer]]]:
         """Carry out the commands of people, each once.
@@ -125,6 +132,8 @@ class Operator:
     def _run_command(self, command: Mapping[str, Any]) -> tuple[list[Message], Answer]:
         """Carry out a command; return the messages to send, and the answer."""
         refuse_nameless(command)
+        if self._jobs is not None and command["kind"] in JOB_KINDS:
+            return self._run_job_command(self._jobs, command)
         ledger = self._ledger
         kind, lasts, clock = command["kind"], command.get("work"), self._scenario.problem.clock
         texts = {key: str(value) for key, value in command.items() if value is not None}
@@ -149,6 +158,36 @@ class Operator:
         change = changes.get(kind) or partial(self.operate, kind, texts.get("name"))
         messages = change()
         return messages, {"done": True, "fact": ledger.answer}
+
+    def _run_job_command(
+        self, jobs: JobCommands, command: Mapping[str, Any]
+    ) -> tuple[list[Message], Answer]:
+        """Carry out a command on the jobs of a plan with jobs."""
+        rounds, kind = self._dispatcher.rounds, command["kind"]
+        assert rounds is not None, "a plan with jobs has rounds"
+        if kind == "list":
+            rows = list_pooled_jobs(self._ledger, rounds.reasons)
+            return [], {"done": True, "fact": None, "jobs": rows}
+        given = {key: value for key, value in command.items() if key != "kind"}
+        name, now = str(given.get("name", "")), rounds.read_ticks()
+        changes: dict[str, Callable[[], tuple[list[Entry], Fact]]] = {
+            "add": lambda: jobs.add(given, now),
+            "change": lambda: jobs.change(given, now),
+            "withdraw": lambda: jobs.withdraw(name, now),
+            "skip": lambda: jobs.give_up(self._find_failed(name), now),
+        }
+        entries, fact = changes[kind]()
+        notes = [*entries, *self._record_answer(fact)]
+        if entries:
+            messages = self._dispatcher.replan(notes=notes)
+        else:
+            messages = self._dispatcher.control.note(*notes)
+        return messages, {"done": True, "fact": fact.as_dict(), "name": fact.values["job"]}
+
+    def _find_failed(self, name: str) -> str:
+        """Return the job of a failed stop; refuse one that has not failed."""
+        find_failed_job(self._ledger, name)
+        return name
 
     # --- robots ----------------------------------------------------------------------------------
 
@@ -175,7 +214,10 @@ class Operator:
         fact = Fact("all operated", operation=kind)
         if name is not None:
             fact = Fact("operated", robot=name, operation=kind)
-        return self._note(*({**entry, "robot": robot} for robot in robots), fact=fact)
+        messages = self._note(*({**entry, "robot": robot} for robot in robots), fact=fact)
+        if self._dispatcher.rounds is not None and kind in {"clear", "remove"}:
+            messages += self._dispatcher.replan()
+        return messages
 
     def place_robot(self, name: str, at: str | None = None) -> list[Message]:
         """Take in a robot again that was off the floor, where a person has put it.
@@ -205,6 +247,9 @@ class Operator:
         if at is None and not said:
             raise InputError.at("robot", f"{name} does not say where it is (give --at)")
         place = self._name_stop(at or said)
+        if self._dispatcher.rounds is not None:
+            notes = self._record_answer(Fact("robot placed", robot=name, place=place))
+            return self._dispatcher.place(robot, place, notes)
         first, stops = own.route.end, self._dispatcher.list_stops()
         # A lap that ends where the robot has arrived was counted, its work there may not be done.
         laps_ahead = tuple(end for end in own.route.lap_ends if end > own.arrived)

@@ -57,10 +57,14 @@ class RoundDriver:
 
     Attributes
     ----------
+    scenario
+        The fleet with bookings of ``both``, without its jobs, states and closures.
     reasons
         Why jobs are in no tour, by name, as the last round had it.
     report
         Receives a fact when a round finds no plan, or with True when one finds one again.
+    tell
+        Receives facts on jobs that no robot does.
     unable
         Robots that do not go on: others are planned round them.
     is_wanted
@@ -69,11 +73,16 @@ class RoundDriver:
 
     def __init__(self, scenario: Scenario, control: FleetControl, rounds: Rounds) -> None:
         rules = replace(scenario.rules, occupancy="both", rotations=False)
-        self._fleet = replace(scenario, rules=rules, clock=scenario.problem.clock, tours=None)
-        self._scenario = replace(self._fleet, closures=())
+        clock = scenario.problem.clock
+        robots = tuple(replace(robot, start=None) for robot in scenario.robots)
+        self._fleet = replace(
+            scenario, rules=rules, clock=clock, robots=robots, jobs=(), tours=None
+        )
+        self.scenario = replace(self._fleet, closures=(), clock=clock)
         self._control, self.rounds = control, rounds
         self.reasons: dict[str, UnservedReason | None] = {}
         self.report: Report = lambda *_: None
+        self.tell: Callable[[Fact], None] = lambda _: None
         self.unable = frozenset[int]()
         self.list_closed: Callable[[], Collection[Edge]] = tuple
         self.read_ticks: Callable[[], int] = lambda: 0
@@ -82,12 +91,17 @@ class RoundDriver:
         self._graph: ReleaseGraph | None = None  # of the plan that it replaces
         self._count = 0  # rounds since the start
         self._pause = 0  # calls of `go_on` until the next try after a failure
-        self._tried = frozenset[str]()  # jobs without a tour that the last round knew
+        self._tried: object = None  # what was known when a round was last wanted for idle robots
 
     @property
     def is_under_way(self) -> bool:
         """Whether a round is planned now."""
         return self._seen is not None
+
+    @property
+    def is_over(self) -> bool:
+        """Whether nothing is planned, and no more is to plan."""
+        return not self.is_wanted and not self.is_under_way
 
     def want(self) -> None:
         """Begin a round as soon as none is under way."""
@@ -103,21 +117,20 @@ class RoundDriver:
             if (stop := find_stop(item))
         }
         pool = self._control.ledger.pool
-        return [
-            name for name, own in pool.jobs.items() if not own.is_begun and name not in planned
-        ]
+        return [name for name, own in pool.jobs.items() if not own.is_begun and name not in planned]
 
     def look(self) -> None:
         """Want a round where jobs wait and a robot has nothing to do; call it every second."""
         self._pause = max(0, self._pause - 1)
-        waiting = frozenset(self.list_waiting())
-        robots = self._control.ledger.robots
-        is_idle = any(
-            own.is_done and not own.is_off and robot not in self.unable
-            for robot, own in enumerate(robots)
-        )
-        if waiting and is_idle and not waiting <= self._tried:
-            self.is_wanted = True
+        ledger, waiting = self._control.ledger, self.list_waiting()
+        idle = [
+            robot
+            for robot, own in enumerate(ledger.robots)
+            if own.is_done and not own.is_off and robot not in self.unable
+        ]
+        known = waiting, idle, len(ledger.pool.left)
+        if waiting and idle and known != self._tried:
+            self._tried, self.is_wanted = known, True
 
     def go_on(self) -> list[Message]:
         """Splice the plan of a round that has ended, and begin the next one; return messages."""
@@ -136,15 +149,16 @@ class RoundDriver:
     def _begin(self) -> None:
         control, ledger = self._control, self._control.ledger
         if all(own.is_off or k in self.unable for k, own in enumerate(ledger.robots)):
+            self.report(Fact("no plan of the rest", reason=Fact("no robot that drives")), False)
             return
         self.is_wanted = False
         kept = find_kept_parts(ledger, control.list_committed(), AHEAD)
         now, lead = self.read_ticks(), 0
         if self.rounds.time_limit is not None:
-            seconds = float(self._scenario.problem.clock.tick * (self._scenario.units.seconds or 1))
+            seconds = float(self.scenario.problem.clock.tick * (self.scenario.units.seconds or 1))
             lead = int(self.rounds.time_limit / seconds)
         self._seen = seen = view_fleet(
-            self._scenario,
+            self.scenario,
             ledger,
             kept,
             charges=control.charges,
@@ -158,9 +172,7 @@ class RoundDriver:
         present = tuple(self._fleet.robots[robot] for robot in seen.present)
         self.rounds.begin(
             RoundRequest(
-                scenario=replace(
-                    self._fleet, robots=present, jobs=(), clock=self._fleet.problem.clock
-                ),
+                scenario=replace(self._fleet, robots=present, clock=self._fleet.problem.clock),
                 view=seen.view,
                 jobs=dict(seen.jobs),
                 over=dict(ledger.pool.left),
@@ -177,13 +189,15 @@ class RoundDriver:
             return control.note()
         if planned.stands:
             return self._keep_old(planned.facts[0].values["reason"])
-        routes = make_routes_of_round(self._scenario, ledger, seen, planned)
+        routes = make_routes_of_round(self.scenario, ledger, seen, planned)
         absent = [robot for robot, own in enumerate(ledger.robots) if own.is_off]
-        graph = build_graph_behind_released(self._scenario, routes, seen.kept, absent)
+        graph = build_graph_behind_released(self.scenario, routes, seen.kept, absent)
         if graph.find_rotation():
             return self._keep_old(Fact("robots would rotate"))
+        for name, reason in planned.unserved:
+            if self.reasons.get(name) != reason:
+                self.tell(Fact("unserved", job=name, why=Fact(f"unserved {reason}")))
         self.reasons = {**dict(planned.unserved), **dict.fromkeys(planned.postponed)}
-        self._tried = frozenset(self.reasons)
         self.report(None, True)
         notes = self._list_unserved(planned)
         return control.splice(routes, graph, withdrawn=self._list_moved(routes), notes=notes)
@@ -207,7 +221,7 @@ class RoundDriver:
 
     def _list_unserved(self, planned: Round) -> list[Entry]:
         """Return entries on jobs that no robot can ever do."""
-        roadmap, now = self._scenario.roadmap, Tick(self.read_ticks())
+        roadmap, now = self.scenario.roadmap, Tick(self.read_ticks())
         return [
             PoolEvent(kind="job unserved", at=now, name=name, reason=reason).to_document(roadmap)
             for name, reason in planned.unserved

@@ -134,7 +134,7 @@ def view_fleet(
         commitments.append(commitment)
         views.append(
             RobotView(
-                kept=Track.of(vertices, range(1 - len(vertices), 1)),
+                kept_track=Track.of(vertices, range(1 - len(vertices), 1)),
                 last=kept[robot],
                 free=busy,
                 soc=_forecast_soc(batteries, robot, own, charges.get(robot)),

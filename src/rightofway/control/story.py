@@ -90,10 +90,9 @@ class Story:
         if own.jobs_done > chapter.finished:
             chapter.finished = own.jobs_done
             jobs = own.jobs_done + len(own.route.all_jobs - own.finished)
-            kind, about = "work done", {}
+            done = Fact("work done", robot=name, place=place, done=chapter.finished, jobs=jobs)
             if (item := _find_last_item(own)) is not None:
-                kind, about = "item done", {"item": item}
-            done = Fact(kind, robot=name, place=place, done=chapter.finished, jobs=jobs, **about)
+                done = Fact("item done", robot=name, place=place, item=item)
             yield Happening(robot, "work", done)
         waited = chapter.waits_for is not None and own.released >= chapter.waits_for
         if waited or (own.released > own.arrived and not chapter.has_set_out):

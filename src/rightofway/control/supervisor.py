@@ -60,6 +60,8 @@ class Supervisor:
         scenario, control = dispatcher.plan.scenario, dispatcher.control
         self._batteries = BatteryWatch(scenario, control, notices) if scenario.batteries else None
         dispatcher.report = self._report_replanning
+        if dispatcher.rounds is not None:
+            dispatcher.rounds.tell = notices.report
         dispatcher.keep_time(read_ticks)
 
     def _report_replanning(self, fact: Fact | None, is_over: bool) -> None:

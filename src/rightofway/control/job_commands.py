@@ -1,0 +1,278 @@
+"""Commands of people on the jobs of a plan with jobs: into the pool, and out of it.
+
+A job is given as in scenario files, but its times count from now on. A command is idempotent by the
+name of its job: asked for again, it changes nothing and is answered as before.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any
+
+from rightofway.control.journal import Entry
+from rightofway.control.ledger import Ledger
+from rightofway.control.work_items import find_stop
+from rightofway.dispatch import PooledJob, PoolEvent
+from rightofway.errors import InputError, find_nearest, quote
+from rightofway.facts import Fact
+from rightofway.io.scenario.loaded_map import LoadedMap
+from rightofway.io.scenario.work import read_job
+from rightofway.io.scenario.work_writer import dump_job
+from rightofway.model import Job, Scenario, Tick, UnservedReason
+
+__all__ = ["JobCommands", "list_pooled_jobs", "read_duration"]
+
+MOMENTS = ("earliest", "latest", "due")
+DURATIONS = ("work", "pickup_work", "dropoff_work")
+
+SECONDS = {"s": 1, "min": 60, "h": 3600}
+
+LONGEST = 40
+"""Characters of a duration; Python reads no number of more than 4300 digits."""
+
+DURATION = re.compile(r"([0-9]+(?:\.[0-9]+|/[1-9][0-9]*)?) ?(s|min|h)?", re.ASCII)
+
+
+class JobCommands:
+    """The commands on the jobs of a pool; each returns its entries and a fact that answers it.
+
+    Parameters
+    ----------
+    scenario
+        The scenario of the plan.
+    ledger
+        Has the pool.
+    """
+
+    def __init__(self, scenario: Scenario, ledger: Ledger) -> None:
+        self._scenario, self._ledger = scenario, ledger
+        self._map = LoadedMap(roadmap=scenario.roadmap)
+
+    def add(self, given: Mapping[str, Any], now: int) -> tuple[list[Entry], Fact]:
+        """Take a job into the pool.
+
+        Parameters
+        ----------
+        given
+            The job as a document; its times count from now on. `urgent` means due at once. Without
+            a name it gets one.
+        now
+            The time since the run began [ticks].
+
+        Raises
+        ------
+        InputError
+            With every fault of the job.
+        """
+        document = {**given, "name": str(given.get("name") or self._find_new_name())}
+        name, pool = document["name"], self._ledger.pool
+        if name in pool.jobs or name in pool.left:
+            return [], Fact("job known already", job=name)
+        job = self._read(document, now)
+        return [self._make_event("job known", job, now)], Fact("job known", job=name)
+
+    def change(self, given: Mapping[str, Any], now: int) -> tuple[list[Entry], Fact]:
+        """Change a job that is not begun: the given keys replace those of before.
+
+        Parameters
+        ----------
+        given
+            Its name and the keys that change, as for `add`.
+        now
+            The time since the run began [ticks].
+
+        Raises
+        ------
+        InputError
+            If there is no such job, or it is begun, or with every fault of the changed job.
+        """
+        own = self._find_open(str(given["name"]))
+        before = dump_job(own.job, self._scenario.roadmap)
+        kept = {key: value for key, value in before.items() if not _is_replaced(key, given)}
+        job = self._read({**given, "name": own.job.name}, now, kept)
+        if job == own.job:
+            return [], Fact("job changed", job=job.name)
+        return [self._make_event("job changed", job, now)], Fact("job changed", job=job.name)
+
+    def withdraw(self, name: str, now: int) -> tuple[list[Entry], Fact]:
+        """Take a job back that is not begun.
+
+        Parameters
+        ----------
+        name
+            Of the job.
+        now
+            The time since the run began [ticks].
+
+        Raises
+        ------
+        InputError
+            If there is no such job, or it is begun or done.
+        """
+        if self._ledger.pool.left.get(name) == "withdrawn":
+            return [], Fact("job withdrawn", job=name)
+        self._find_open(name)
+        event = PoolEvent(kind="job withdrawn", at=Tick(now), name=name)
+        return [event.to_document(self._scenario.roadmap)], Fact("job withdrawn", job=name)
+
+    def give_up(self, name: str, now: int) -> tuple[list[Entry], Fact]:
+        """Give up a job of which a stop has failed: its robot goes on without it.
+
+        Parameters
+        ----------
+        name
+            Of the job.
+        now
+            The time since the run began [ticks].
+        """
+        entries: list[Entry] = [
+            {"kind": "skipped", "robot": robot, "job": item}
+            for robot, own in enumerate(self._ledger.robots)
+            for item in sorted(own.route.all_jobs - own.finished)
+            if (find_stop(item) or ("", 0))[0] == name
+        ]
+        event = PoolEvent(kind="job unserved", at=Tick(now), name=name, reason="not found")
+        return [*entries, event.to_document(self._scenario.roadmap)], Fact("job skipped", job=name)
+
+    def _find_open(self, name: str) -> PooledJob:
+        pool = self._ledger.pool
+        if name not in pool.jobs:
+            state = "is done already" if pool.left.get(name) == "done" else "is no job"
+            near = find_nearest(name, pool.jobs) if name not in pool.left else None
+            remedy = f"did you mean {near}?" if near else "see rightofway jobs list"
+            raise InputError.at("job", f"{quote(name)} {state} ({remedy})")
+        if pool.jobs[name].is_begun:
+            raise InputError.at("job", f"{quote(name)} is begun already (it cannot be changed)")
+        return pool.jobs[name]
+
+    def _find_new_name(self) -> str:
+        pool = self._ledger.pool
+        number = len(pool.jobs) + len(pool.left) + 1
+        while f"job{number}" in pool.jobs or f"job{number}" in pool.left:
+            number += 1
+        return f"job{number}"
+
+    def _make_event(self, kind: Any, job: Job, now: int) -> Entry:
+        event = PoolEvent(kind=kind, at=Tick(now), name=job.name, job=job)
+        return event.to_document(self._scenario.roadmap)
+
+    def _read(
+        self, given: Mapping[str, Any], now: int, kept: Mapping[str, Any] | None = None
+    ) -> Job:
+        """Return the job of a document whose times count from now; keys may be kept as they are."""
+        passed = self._scenario.problem.clock.convert_to_time(now)
+        document = self._shift_times(given, passed)
+        if document.pop("urgent", False):
+            document["due"] = passed
+        job = read_job({**(kept or {}), **document}, self._map)
+        first = replace(job.stops[0], earliest=max(job.stops[0].earliest, passed))
+        job = replace(job, stops=(first, *job.stops[1:]))
+        names = [robot.name for robot in self._scenario.robots]
+        if job.robot is not None and job.robot not in names:
+            near = find_nearest(job.robot, names) or names[0]
+            raise InputError.at("robot", f"{quote(job.robot)} is no robot (for example {near})")
+        pool = self._ledger.pool
+        for before in job.after:
+            if (before not in pool.jobs and before not in pool.left) or before == job.name:
+                remedy = "name a job that is known"
+                raise InputError.at("after", f"{quote(before)} is no other job ({remedy})")
+        for number, stop in enumerate(job.stops):
+            if self._scenario.roadmap.is_passed(stop.at):
+                place = self._scenario.roadmap.name(stop.at)
+                message = f"{place} is driven through only (name a vertex without pass)"
+                raise InputError.at(("stops", number), message)
+        return job
+
+    def _shift_times(self, given: Mapping[str, Any], passed: Fraction) -> dict[str, Any]:
+        """Return a document with times from the start of the run, as scenario files have them."""
+        seconds = self._scenario.units.seconds
+        document = {key: value for key, value in given.items() if value is not None}
+        for key in (*MOMENTS, *DURATIONS):
+            if key in document:
+                time = read_duration(document[key], seconds)
+                document[key] = time + (passed if key in MOMENTS else 0)
+        if isinstance(document.get("stops"), list):
+            document["stops"] = [
+                self._shift_times(stop, passed) if isinstance(stop, dict) else stop
+                for stop in document["stops"]
+            ]
+        return document
+
+
+def _is_replaced(key: str, given: Mapping[str, Any]) -> bool:
+    """Return whether a key of a job has no effect beside the given ones."""
+    forms = ({"at", "work"}, {"pickup", "dropoff", "pickup_work", "dropoff_work"}, {"stops"})
+    places = ("at", "pickup", "stops")
+    if not any(place in given for place in places):
+        return key in given
+    return key in given or any(key in form for form in forms)
+
+
+def list_pooled_jobs(
+    ledger: Ledger, reasons: Mapping[str, UnservedReason | None]
+) -> list[dict[str, Any]]:
+    """Return the jobs of a pool in the order in which they became known: name, place, state, robot.
+
+    Parameters
+    ----------
+    ledger
+        Has the pool.
+    reasons
+        Why jobs are in no tour, by name.
+    """
+    planned = {
+        stop[0]: ledger.names[robot]
+        for robot, own in enumerate(ledger.robots)
+        if not own.is_off
+        for item in own.route.all_jobs
+        if (stop := find_stop(item))
+    }
+    failed = {stop[0] for own in ledger.robots for item in own.failed if (stop := find_stop(item))}
+    rows = []
+    for name, own in ledger.pool.jobs.items():
+        robot = planned.get(name) if own.robot is None else ledger.names[own.robot]
+        state = "waiting" if robot is None else "planned"
+        state = "begun" if own.is_begun else state
+        next_stop = own.job.stops[min(own.done, len(own.job.stops) - 1)]
+        rows.append(
+            {
+                "name": name,
+                "at": ledger.roadmap.name(next_stop.at),
+                "state": "failed" if name in failed else state,
+                "robot": robot,
+                "reason": reasons.get(name) if robot is None else None,
+            }
+        )
+    return rows
+
+
+def read_duration(given: object, seconds: Fraction | None) -> Fraction:
+    """Return a duration that a person has written [time unit].
+
+    Parameters
+    ----------
+    given
+        A number or a fraction, not negative, perhaps with a unit: ``90``, ``1/2``, ``15min``.
+    seconds
+        How long a time unit is [s]; None where it has no unit.
+
+    Raises
+    ------
+    InputError
+        If it is no duration, or has a unit though times have none.
+    """
+    text = str(given) if isinstance(given, str | int | float | Fraction) else ""
+    match = DURATION.fullmatch(text.strip()) if len(text) <= LONGEST else None
+    if match is None:
+        remedy = "for example 5, 1/2, 90s, 15min or 2h"
+        raise InputError.at("time", f"{quote(given)} is no duration ({remedy})")
+    value, unit = Fraction(match[1]), match[2]
+    if unit is None:
+        return value
+    if seconds is None:
+        message = f"{quote(given)} has a unit, and the times of the plan have none"
+        raise InputError.at("time", f"{message} (leave it out)")
+    return value * SECONDS[unit] / seconds

@@ -1,0 +1,278 @@
+"""Jobs that arrive, change and are withdrawn while robots drive, planned in rounds."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+from rightofway.control import FleetControl
+from rightofway.control.dispatcher import Dispatcher
+from rightofway.control.job_commands import read_duration
+from rightofway.control.journal import Entry
+from rightofway.control.round_worker import RoundRequest, RoundsAtOnce
+from rightofway.control.work_items import find_stop
+from rightofway.dispatch import Round
+from rightofway.errors import InputError
+from rightofway.facts import Fact
+from rightofway.model import Plan
+from tests.builders.chaos import MemoryJournal
+from tests.builders.floor_jobs import floor_plan
+from tests.builders.floors import Floor
+
+
+class Shift:
+    """The robots of a plan with jobs, a second after another, and people who ask for more."""
+
+    def __init__(self, plan: Plan | None = None, rounds: RoundsAtOnce | None = None) -> None:
+        self.plan, self.now = plan or floor_plan(), 0
+        self.journal, self.said = MemoryJournal(), list[str]()
+        control = FleetControl(self.journal, roadmap=self.plan.scenario.roadmap)
+        self.dispatcher = Dispatcher(control, self.plan, rounds=rounds or RoundsAtOnce(None))
+        self.dispatcher.keep_time(lambda: self.now)
+        assert self.dispatcher.rounds is not None
+        self.rounds = self.dispatcher.rounds
+        self.rounds.tell = lambda fact: self.said.append(str(fact))
+        self.dispatcher.report = lambda fact, _: self.said.append(str(fact))
+        self.dispatcher.begin("run")
+        self.floor = Floor(self.dispatcher)
+
+    @property
+    def pool(self) -> Any:
+        return self.dispatcher.ledger.pool
+
+    def ask(self, kind: str, **values: Any) -> dict[str, Any]:
+        """Carry out a command; return the answer."""
+        messages, answer = self.floor.operator._run_command({"kind": kind, **values})
+        self.floor.send(messages)
+        return dict(answer)
+
+    def drive(self, seconds: int) -> None:
+        """Have robots drive."""
+        for _ in range(seconds):
+            self.now += 1
+            self.floor.drive(1)
+            self.floor.send(self.dispatcher.follow_time())
+
+    def list_done(self) -> list[str]:
+        """Return the finished stops in their order."""
+        return [
+            entry["job"]
+            for entry in self.journal.written
+            if entry["kind"] == "finished" and find_stop(entry["job"])
+        ]
+
+    def list_jobs(self) -> dict[str, str]:
+        return {job["name"]: job["state"] for job in self.ask("list")["jobs"]}
+
+
+def test_jobs_that_arrive_are_done_each_stop_once_and_in_order() -> None:
+    shift = Shift()
+    shift.drive(3)
+    shift.ask("add", name="A1", pickup="N14", dropoff="N0", due="10")
+    shift.drive(5)
+    shift.ask("add", name="A2", stops=[{"at": "N2", "work": 2}, {"at": "N10"}], after=["A1"])
+    shift.drive(120)
+    assert dict.fromkeys(shift.pool.left.values()) == {"done": None}
+    done = shift.list_done()
+    assert sorted(done) == ["A1/0", "A1/1", "A2/0", "A2/1", "J1/0", "J1/1", "J2/0", "J3/0", "J3/1"]
+    for first, later in (("A1/0", "A1/1"), ("A1/1", "A2/0"), ("A2/0", "A2/1"), ("J1/1", "J2/0")):
+        assert done.index(first) < done.index(later)
+
+
+def test_a_job_of_a_known_name_is_added_once() -> None:
+    shift = Shift()
+    first = shift.ask("add", name="A1", at="N2")
+    again = shift.ask("add", name="A1", at="N12")
+    assert (first["fact"]["kind"], again["fact"]["kind"]) == ("job known", "job known already")
+    shift.drive(80)
+    assert shift.list_done().count("A1/0") == 1
+    assert shift.ask("add", name="A1", at="N12")["fact"]["kind"] == "job known already"
+    shift.drive(40)
+    assert shift.list_done().count("A1/0") == 1
+
+
+def test_jobs_without_a_name_get_names_of_their_own() -> None:
+    shift = Shift()
+    names = [shift.ask("add", at="N2")["name"] for _ in range(3)]
+    assert len({*names}) == 3
+    assert {*names} <= shift.pool.jobs.keys()
+
+
+def test_a_job_that_is_withdrawn_is_not_done_and_one_that_is_begun_cannot_be() -> None:
+    shift = Shift()
+    shift.ask("add", name="A1", at="N2", earliest=30)
+    shift.drive(2)
+    shift.ask("withdraw", name="A1")
+    assert shift.ask("withdraw", name="A1")["done"]
+    shift.drive(15)  # J1 begins at 12
+    assert shift.list_jobs()["J1"] == "begun"
+    with pytest.raises(InputError, match="'J1' is begun already"):
+        shift.ask("withdraw", name="J1")
+    shift.drive(80)
+    assert "A1/0" not in shift.list_done()
+    assert shift.pool.left["A1"] == "withdrawn"
+    with pytest.raises(InputError, match="'J1' is done already"):
+        shift.ask("change", name="J1", at="N2")
+
+
+def test_a_job_that_has_changed_is_done_where_it_is_now() -> None:
+    shift = Shift()
+    shift.ask("add", name="A1", at="N2", work=1, earliest=20)
+    shift.drive(2)
+    shift.ask("change", name="A1", at="N12")
+    assert shift.pool.jobs["A1"].job.stops[0].work == 0
+    assert shift.pool.jobs["A1"].job.earliest == 20
+    shift.drive(100)
+    orders = [entry for entry in shift.journal.written if entry["kind"] == "order"]
+    places = {
+        node["place"]
+        for entry in orders
+        for node in entry["order"]["nodes"]
+        for action in node["actions"]
+        if "-A1/0-" in action
+    }
+    assert places == {"N12"}
+
+
+def test_an_urgent_job_is_begun_before_others_that_are_not_due() -> None:
+    shift = Shift()
+    shift.ask("add", name="A1", pickup="N12", dropoff="N10", robot="R1")
+    shift.ask("add", name="A2", pickup="N12", dropoff="N2", robot="R1", urgent=True)
+    shift.drive(120)
+    done = shift.list_done()
+    assert done.index("A2/0") < done.index("A1/0")
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"at": "N99"}, "N99"),
+        ({"at": "N2", "robot": "R9"}, "'R9' is no robot"),
+        ({"at": "N2", "after": ["X"]}, "'X' is no other job"),
+        ({"at": "N2", "due": "soon"}, "'soon' is no duration"),
+        ({"at": "N2", "due": "5min"}, "has a unit, and the times of the plan have none"),
+        ({"pickup": "N2"}, "has no dropoff"),
+        ({"at": "N2", "colour": "red"}, "colour"),
+    ],
+)
+def test_a_job_with_faults_is_refused_and_changes_nothing(
+    given: dict[str, Any], message: str
+) -> None:
+    shift = Shift()
+    with pytest.raises(InputError) as caught:
+        shift.ask("add", name="A1", **given)
+    assert message in str(caught.value)
+    assert "A1" not in shift.pool.jobs
+
+
+@pytest.mark.parametrize(
+    ("text", "time"), [("90", 90), ("1/2", Fraction(1, 2)), ("15min", 900), ("2 h", 7200), (3, 3)]
+)
+def test_durations_have_units_where_the_plan_has_one(text: object, time: Fraction) -> None:
+    assert read_duration(text, Fraction(1)) == time
+
+
+def test_a_job_that_no_robot_can_do_is_reported_once() -> None:
+    shift = Shift()
+    shift.ask("add", name="A1", pickup="N2", dropoff="N0", load=5)
+    shift.drive(30)
+    assert [line for line in shift.said if "A1" in line] == [
+        "A1 is not served: no robot may do it and can carry it"
+    ]
+    assert shift.list_jobs()["A1"] == "waiting"
+
+
+class SlowRounds(RoundsAtOnce):
+    """Rounds whose plans come only when they are asked for."""
+
+    def __init__(self) -> None:
+        super().__init__(None)
+        self.is_ready = False
+        self.requests = list[RoundRequest]()
+
+    def begin(self, request: RoundRequest) -> None:
+        self.requests.append(request)
+        super().begin(request)
+
+    def poll(self) -> Round | None:
+        return super().poll() if self.is_ready else None
+
+
+def test_nothing_beyond_the_kept_parts_is_released_while_a_round_is_under_way() -> None:
+    rounds = SlowRounds()
+    shift = Shift(rounds=rounds)
+    shift.drive(2)
+    shift.ask("add", name="A1", pickup="N12", dropoff="N0")
+    kept = shift.dispatcher.control.kept
+    assert kept is not None
+    begun = {name for name, own in shift.pool.jobs.items() if own.is_begun}
+    shift.drive(30)
+    robots = shift.dispatcher.ledger.robots
+    assert all(own.released <= last for own, last in zip(robots, kept, strict=True))
+    assert {name for name, own in shift.pool.jobs.items() if own.is_begun} == begun
+    assert len(rounds.requests) == 1
+    rounds.is_ready = True
+    shift.drive(120)
+    assert dict.fromkeys(shift.pool.left.values()) == {"done": None}
+    assert len(shift.pool.left) == 4
+
+
+class NoRounds(RoundsAtOnce):
+    """Rounds that find nothing."""
+
+    def begin(self, request: RoundRequest) -> None:
+        assert request.view.robots
+        fact = Fact("old plan stands", reason=Fact("robots would rotate"))
+        self._planned = [Round(tracks=(), steps=(), stands=True, facts=(fact,))]
+
+
+def test_the_old_plan_goes_on_where_a_round_finds_none_and_this_is_reported_once() -> None:
+    shift = Shift(rounds=NoRounds(None))
+    shift.drive(2)
+    shift.ask("add", name="A1", pickup="N12", dropoff="N0")
+    shift.drive(100)
+    assert sorted(shift.pool.left) == ["J1", "J2", "J3"]
+    assert len([line for line in shift.said if line.startswith("the old plan stands")]) == 1
+
+
+def test_a_job_withdrawn_during_a_round_is_not_done_by_its_plan() -> None:
+    rounds = SlowRounds()
+    shift = Shift(rounds=rounds)
+    shift.ask("add", name="A1", at="N12")
+    shift.ask("withdraw", name="A1")
+    rounds.is_ready = True
+    shift.drive(120)
+    assert "A1/0" not in shift.list_done()
+    assert len(shift.pool.left) == 4
+
+
+def test_a_robot_taken_off_the_floor_is_placed_again_and_ends_its_job() -> None:
+    shift = Shift()
+    shift.drive(18)
+    assert shift.list_jobs()["J1"] == "begun"
+    shift.ask("remove", name="R1")
+    shift.drive(10)
+    shift.floor.robots[0].forget()
+    shift.floor.robots[0].place = "N5"
+    shift.ask("place", name="R1", at="N5")
+    shift.drive(150)
+    assert shift.pool.left == dict.fromkeys(("J3", "J1", "J2"), "done")
+
+
+def test_what_is_killed_at_any_entry_goes_on_with_the_same_jobs() -> None:
+    """A start on each prefix of the journal knows the pool of that prefix, and ends the jobs."""
+    shift = Shift()
+    shift.drive(4)
+    shift.ask("add", name="A1", pickup="N12", dropoff="N0")
+    shift.drive(20)
+    entries: list[Entry] = [json.loads(json.dumps(entry)) for entry in shift.journal.written]
+    roadmap = shift.plan.scenario.roadmap
+    for end in range(1, len(entries), 5):
+        journal = MemoryJournal()
+        journal.written = entries[:end]
+        ledger = FleetControl(journal, roadmap=roadmap).ledger
+        known = [entry["job"]["name"] for entry in entries[:end] if entry["kind"] == "job known"]
+        assert {*ledger.pool.jobs, *ledger.pool.left} == {*known}
