@@ -161,11 +161,9 @@ def read_records(
         for column, key in columns.items():
             if key in NOTES:
                 continue
-            cells[*record_path, key] = cell(number, column)
+            cells[*record_path, key] = place = cell(number, column)
             if column in values:
-                value = faults.attempt(
-                    cell(number, column), read_cell_value, key, values[column], words
-                )
+                value = faults.attempt(place, read_cell_value, key, values[column], words)
                 record |= {} if value is None else {key: value}
         records.append(record)
     return CellDocument(part=records, cells=cells, faults=faults.found)
@@ -229,8 +227,10 @@ def _read_text(key: str, value: str, words: Collection[str]) -> Any:
     return value.replace(",", ".") if DECIMAL_COMMA.fullmatch(value) else value
 
 
-def read_csv(path: Path, names_it: Where) -> tuple[Iterator[Row], CellOf]:
+def read_csv(path: Path, names_it: Steps) -> tuple[Iterator[Row], CellOf]:
     """Return the rows of a CSV file, with columns between commas, semicolons or tabs.
+
+    Cells have places at the key of the document that names the file.
 
     Raises
     ------
@@ -250,9 +250,11 @@ def read_csv(path: Path, names_it: Where) -> tuple[Iterator[Row], CellOf]:
     )
     headings = [find_heading_key(text) for text in rows[0]] if rows else []
 
+    file = str(path)
+
     def cell(row: int, column: int) -> Location:
         is_named = row > 1 and 1 < column <= len(headings)
         steps = (headings[column - 1],) if is_named and headings[column - 1] else ()
-        return Location(file=str(path), line=row, path=steps).nest(names_it)
+        return Location(path=names_it, inner=Location(file=file, line=row, path=steps))
 
     return ((number, row) for number, row in filled if row), cell

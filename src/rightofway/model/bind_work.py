@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import accumulate
@@ -172,6 +172,7 @@ def _bind_jobs(scenario: Shift, clock: Clock) -> Iterator[BoundJob]:
         if own.start is not None
         for name, count in own.start.begun
     }
+    known: dict[Hashable, tuple[int, ...]] = {}
     for job, weight in zip(jobs, scale_weights(jobs), strict=True):
         robot, first = begun.get(job.name, (None, 0))
         stops = [_bind_stop(stop, clock) for stop in job.stops[first:]]
@@ -182,7 +183,7 @@ def _bind_jobs(scenario: Shift, clock: Clock) -> Iterator[BoundJob]:
             first=first,
             weight=weight,
             due=_round_down(job.due, clock),
-            robots=tuple(_list_able(scenario, job, robot)),
+            robots=_list_able(scenario, job, robot, known),
             after=() if robot is not None else tuple(index[name] for name in job.after),
             begun_by=robot,
             earliest=stops[0].earliest if robot is None else Tick(0),
@@ -203,19 +204,25 @@ def _round_down(time: Fraction | None, clock: Clock) -> Tick | None:
     return None if time is None else Tick(time // clock.tick)
 
 
-def _list_able(scenario: Shift, job: Job, begun_by: int | None) -> Iterator[int]:
-    """Yield the robots that may do a job and can."""
+def _list_able(
+    scenario: Shift, job: Job, begun_by: int | None, known: dict[Hashable, tuple[int, ...]]
+) -> tuple[int, ...]:
+    """Return the robots that may do a job and can; those of jobs that are alike are known."""
     load = max(accumulate(stop.load for stop in job.stops))
-    for index, robot in enumerate(scenario.robots):
-        barred = scenario.roadmap.barred_vertices
-        if (
-            begun_by in {None, index}
+    barred = scenario.roadmap.barred_vertices
+    kept_out = frozenset(kind for stop in job.stops for kind in barred.get(stop.at, ()))
+    alike = begun_by, job.robot, job.types, load, kept_out
+    if alike not in known:
+        known[alike] = tuple(
+            index
+            for index, robot in enumerate(scenario.robots)
+            if begun_by in {None, index}
             and job.robot in {None, robot.name}
             and (not job.types or robot.type in job.types)
             and get_capacity(robot) >= load
-            and not any(robot.type in barred.get(stop.at, ()) for stop in job.stops)
-        ):
-            yield index
+            and robot.type not in kept_out
+        )
+    return known[alike]
 
 
 def get_capacity(robot: Robot) -> int:

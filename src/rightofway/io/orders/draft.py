@@ -126,7 +126,7 @@ def balance_loads(order: ForeignOrder, file: OrderFile) -> None:
 
 def make_documents(
     file: OrderFile, begin: Fraction | None, work: Fraction, second: Fraction
-) -> tuple[list[dict[str, Any]], dict[Steps, Where]]:
+) -> tuple[list[dict[str, Any]], dict[Steps, Source]]:
     """Return the orders of a file as jobs of a document, and the places of their values.
 
     Time 0 is ``begin`` [s since 1970], by default the first instant at which an order was made or
@@ -134,15 +134,15 @@ def make_documents(
     """
     known = [at for order in file.orders for at in (order.known, order.earliest) if at is not None]
     begin = min(known, default=None) if begin is None else begin
-    jobs, places = list[dict[str, Any]](), dict[Steps, Where]()
+    jobs, places = list[dict[str, Any]](), dict[Steps, Source]()
     for order in file.orders:
         job: dict[str, Any] = {"name": order.name}
         path: Steps = ("jobs", len(jobs))
-        places[path] = order.source.location
+        places[path] = order.source
         job["stops"] = list(_dump_stops(order.stops, work, second))
         for number, stop in enumerate(order.stops):
-            places[*path, "stops", number] = stop.at.location
-            places[*path, "stops", number, "at"] = stop.at.location
+            places[*path, "stops", number] = stop.at
+            places[*path, "stops", number, "at"] = stop.at
         for key in ("earliest", "due"):
             instant = getattr(order, key)
             if instant is not None:
@@ -152,7 +152,7 @@ def make_documents(
         job |= {"after": order.after} if order.after else {}
         job |= {"weight": format_number(order.weight)} if order.weight != 1 else {}
         names = {"kind": "types"}
-        places |= {(*path, names.get(k, k)): value.location for k, value in order.keys.items()}
+        places |= {(*path, names.get(k, k)): value for k, value in order.keys.items()}
         jobs.append(job)
     return jobs, places
 
@@ -177,11 +177,11 @@ def _count(source: Source, instant: Fraction, begin: Fraction | None, second: Fr
     return format_number(max(instant - begin, Fraction(0)) * second)
 
 
-def locate_file(places: dict[Steps, Where], file: str, names_it: Where) -> dict[Steps, Where]:
-    """Return places in a file as places of the document that names the file."""
-
-    def nest(where: Where) -> Location:
-        assert isinstance(where, Location), "it is a place in the file"
-        return Location(file=file, line=where.line, path=where.path).nest(names_it)
-
-    return {steps: nest(where) for steps, where in places.items()}
+def locate_file(places: dict[Steps, Source], file: str, names_it: Steps) -> dict[Steps, Where]:
+    """Return values of a file as places of the document that names the file."""
+    return {
+        steps: Location(
+            path=names_it, inner=Location(file=file, line=source.line, path=source.path)
+        )
+        for steps, source in places.items()
+    }

@@ -8,7 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from rightofway.errors import InputError, Location, Where, name_file
+from rightofway.errors import InputError, Location, Steps, name_file
 from rightofway.io.content import read_text
 from rightofway.io.documents import parse_document
 from rightofway.io.layouts.xml_tree import parse_xml
@@ -44,7 +44,7 @@ class OrderTimes:
 
 
 def read_jobs_of_file(
-    path: Path, times: OrderTimes, known: Iterable[str], names_it: Where
+    path: Path, times: OrderTimes, known: Iterable[str], names_it: Steps
 ) -> CellDocument:
     """Return the jobs of a file that a document names.
 
@@ -90,7 +90,7 @@ def _read_orders(data: Any, path: Path) -> OrderFile | None:
     return open_rmf.read_json(data) if open_rmf.recognizes(data) else None
 
 
-def _read_own(data: Any, times: OrderTimes, path: Path, text: str, names_it: Where) -> CellDocument:
+def _read_own(data: Any, times: OrderTimes, path: Path, text: str, names_it: Steps) -> CellDocument:
     """Return a list of jobs, or those of a document."""
     _refuse_times(times)
     steps = ("jobs",) if isinstance(data, dict) and "jobs" in data else ()
@@ -102,7 +102,7 @@ def _read_own(data: Any, times: OrderTimes, path: Path, text: str, names_it: Whe
 
 
 def _place(
-    orders: OrderFile, times: OrderTimes, path: Path, text: str, names_it: Where
+    orders: OrderFile, times: OrderTimes, path: Path, text: str, names_it: Steps
 ) -> CellDocument:
     """Return orders as jobs, with the places of their values in the file."""
     orders.faults.stop()
