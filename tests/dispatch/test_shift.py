@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
+from rightofway.facts import Fact
 from rightofway.io.scenario.reader import parse_scenario
 from rightofway.model import Scenario, Tick
 from tests.builders.shifts import hold_shift
@@ -95,4 +96,5 @@ def test_a_shift_in_which_nothing_moves_says_why() -> None:
     assert record.jobs["J2"].reason == "robot"
     ((tick, fact),) = record.facts
     assert (tick, fact.kind, fact.values["jobs"]) == (2, "nothing moves", 1)
-    assert fact.values["reasons"] == ("robot",)
+    assert fact.values["reasons"] == (Fact("unserved robot"),)
+    assert str(fact) == "nothing moves, and a job is known: no robot may do it and can carry it"

@@ -44,7 +44,7 @@ def read_scenario(path: str, count: int | None = None, jobs: str | None = None) 
     """
     from rightofway.io import load_with_notes
 
-    return _note_loaded(load_with_notes(path, count=count, jobs=jobs), path)
+    return note_loaded(load_with_notes(path, count=count, jobs=jobs), path)
 
 
 def _keep_file(context: click.Context, parameter: click.Parameter, given: str | None) -> None:
@@ -92,10 +92,11 @@ def read_either(path: str, count: int | None = None, own: Collection[str] = ()) 
     from rightofway.io import Loaded, load_either
 
     opened = load_either(path, count=count, **({} if path in own else _list_files()))
-    return _note_loaded(opened, path) if isinstance(opened, Loaded) else opened
+    return note_loaded(opened, path) if isinstance(opened, Loaded) else opened
 
 
-def _note_loaded(loaded: Loaded, path: str) -> Scenario:
+def note_loaded(loaded: Loaded, path: str) -> Scenario:
+    """Write the notes of a scenario's reader, and return the scenario."""
     from rightofway.report.facts import write_notes
 
     for note in write_notes(loaded.notes):

@@ -25,7 +25,11 @@ GROUPS: dict[str, dict[str, str]] = {
         "table": "cli.tables",
         "collisions": "cli.collisions",
     },
-    "Repeated work and delays": {"laps": "cli.laps", "simulate": "cli.simulate"},
+    "Repeated work, delays and shifts": {
+        "laps": "cli.laps",
+        "simulate": "cli.simulate",
+        "shift": "cli.shift",
+    },
     "Drive": {
         "drive": "control.command_line.drive",
         "jobs": "control.command_line.jobs",

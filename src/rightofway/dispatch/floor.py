@@ -28,7 +28,7 @@ from rightofway.model.turning import list_headings
 from rightofway.precedence import Arrival, DelayModel
 from rightofway.site import Roadmap
 
-__all__ = ["Floor", "FloorEvent", "FloorRobot", "StepToDo", "VisitToCome"]
+__all__ = ["FloorEvent", "FloorRobot", "SimulatedFloor", "StepToDo", "VisitToCome"]
 
 AHEAD = 64
 """The visits of each robot that a forecast looks at."""
@@ -164,7 +164,7 @@ class FloorRobot:
         return twin
 
 
-class Floor:
+class SimulatedFloor:
     """Robots that drive by right of way.
 
     Parameters
@@ -226,7 +226,7 @@ class Floor:
         """Whether all robots have last arrived when the plan has them arrive."""
         return all(own.recent[-1][1] == own.visits[0].planned for own in self.robots)
 
-    def fork(self, now: int, ahead: int | None = AHEAD) -> Floor:
+    def fork(self, now: int, ahead: int | None = AHEAD) -> SimulatedFloor:
         """Return a floor to forecast with: without delays, as far as they are not known.
 
         Parameters

@@ -428,7 +428,7 @@ def _shift_job(
 def _keep_old(view: FleetView, error: Exception) -> Round:
     """Return the old plan as a round, and why it stands."""
     reason = getattr(error, "reason", None)
-    fact = reason if isinstance(reason, Fact) else Fact("words", text=str(error))
+    fact = reason if isinstance(reason, Fact) else Fact("other", text=str(error))
     return Round(
         tracks=tuple(own.track or Track.of([own.at], [0]) for own in view.robots),
         steps=tuple(own.steps for own in view.robots),

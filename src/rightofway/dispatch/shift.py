@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from rightofway.dispatch.delays import DelayDraws
-from rightofway.dispatch.floor import Floor, FloorEvent
+from rightofway.dispatch.floor import FloorEvent, SimulatedFloor
 from rightofway.dispatch.pool import Pool, PoolEvent
 from rightofway.dispatch.record import JobRecord, RoundRecord, ShiftRecord
 from rightofway.dispatch.reveal import Reveal
@@ -95,7 +95,7 @@ class _Shift:
         self._scenario, self._reveal, self._rules = scenario, reveal, rules
         model = delays or DelayModel.none(len(scenario.robots))
         draws = DelayDraws(model, rules.seed, rules.until or NEVER)
-        self._floor, self._pool = Floor(scenario, draws), Pool()
+        self._floor, self._pool = SimulatedFloor(scenario, draws), Pool()
         self._planner = RoundPlanner(scenario, rules.planner)
         self._now = Tick(0)
         self._jobs: dict[str, JobRecord] = {}
@@ -244,5 +244,6 @@ class _Shift:
         self._has_told = True
         reasons = sorted({self._jobs[name].reason or "not found" for name in self._pool.jobs})
         last = self._rounds[-1].facts if self._rounds else ()
-        fact = Fact("nothing moves", jobs=len(self._pool.jobs), reasons=tuple(reasons), why=last)
+        why = last or tuple(Fact(f"unserved {reason}") for reason in reasons)
+        fact = Fact("nothing moves", self._scenario, jobs=len(self._pool.jobs), reasons=why)
         self._facts.append((self._now, fact))

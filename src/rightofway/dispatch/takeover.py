@@ -14,7 +14,7 @@ from itertools import islice
 
 import numpy as np
 
-from rightofway.dispatch.floor import Floor, StepToDo, VisitToCome, count_soc
+from rightofway.dispatch.floor import SimulatedFloor, StepToDo, VisitToCome, count_soc
 from rightofway.dispatch.pool import PooledJob
 from rightofway.dispatch.view import (
     FleetView,
@@ -33,7 +33,7 @@ __all__ = ["cap_floor", "lift_caps", "look_at_floor", "splice_round"]
 
 
 def look_at_floor(
-    floor: Floor, now: int, takeover: int, jobs: Mapping[str, PooledJob]
+    floor: SimulatedFloor, now: int, takeover: int, jobs: Mapping[str, PooledJob]
 ) -> FleetView:
     """Return the fleet as it is expected to be at the takeover.
 
@@ -74,7 +74,11 @@ def look_at_floor(
 
 
 def _look_at_robot(
-    floor: Floor, ahead: Floor, robot: int, times: tuple[int, int], begun: Mapping[str, int]
+    floor: SimulatedFloor,
+    ahead: SimulatedFloor,
+    robot: int,
+    times: tuple[int, int],
+    begun: Mapping[str, int],
 ) -> RobotView:
     own, (now, takeover) = ahead.robots[robot], times
     state, battery = floor.states[robot], floor.states[robot].battery
@@ -109,7 +113,7 @@ def _look_at_robot(
 
 
 def _expect_times(
-    floor: Floor, robots: Sequence[RobotView], now: int, takeover: int
+    floor: SimulatedFloor, robots: Sequence[RobotView], now: int, takeover: int
 ) -> Iterator[RobotView]:
     """Yield views whose old tracks have the times that are expected now."""
     expected = floor.fork(now, None)
@@ -123,7 +127,7 @@ def _expect_times(
         yield replace(seen, track=track)
 
 
-def _find_heading(floor: Floor, robot: int, takeover: int) -> Fraction | None:
+def _find_heading(floor: SimulatedFloor, robot: int, takeover: int) -> Fraction | None:
     """Return the heading of a robot that may be about to turn to its next edge."""
     own = floor.robots[robot]
     turning = floor.scenario.problem.itineraries[robot].turning
@@ -153,7 +157,7 @@ def _list_rest(rest: Sequence[VisitToCome], n_begun: int) -> Iterator[PlannedSte
             )
 
 
-def cap_floor(floor: Floor, view: FleetView) -> None:
+def cap_floor(floor: SimulatedFloor, view: FleetView) -> None:
     """Keep robots from beginning more than their kept parts until a plan takes over.
 
     Parameters
@@ -167,7 +171,7 @@ def cap_floor(floor: Floor, view: FleetView) -> None:
         own.cap = seen.last, seen.n_steps
 
 
-def lift_caps(floor: Floor) -> None:
+def lift_caps(floor: SimulatedFloor) -> None:
     """Let the old plan go on.
 
     Parameters
@@ -180,7 +184,7 @@ def lift_caps(floor: Floor) -> None:
 
 
 def splice_round(
-    floor: Floor, view: FleetView, planned: Round, jobs: Mapping[str, PooledJob]
+    floor: SimulatedFloor, view: FleetView, planned: Round, jobs: Mapping[str, PooledJob]
 ) -> None:
     """Let the plan of a round take over.
 
@@ -218,7 +222,9 @@ def splice_round(
         own.forget_before(view.takeover)
 
 
-def _list_visits(floor: Floor, robot: int, seen: RobotView, track: Track) -> Iterator[VisitToCome]:
+def _list_visits(
+    floor: SimulatedFloor, robot: int, seen: RobotView, track: Track
+) -> Iterator[VisitToCome]:
     """Yield the visits of a new track, the first of which is the end of the kept part."""
     roadmap, itinerary = floor.roadmap, floor.scenario.problem.itineraries[robot]
     edges = roadmap.find_edges(track.vertices[:-1], track.vertices[1:])

@@ -1,0 +1,102 @@
+"""``rightofway shift`` as a user meets it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from rightofway.check import check
+from rightofway.dispatch.record_file import dump_shift, load_shift
+from tests.cli.conftest import Cli
+
+SCENARIO = """
+format: rightofway-scenario/1
+map: {grid: ["......", "......"]}
+units: {time: s}
+robots:
+  - {name: R1, home: N0, battery: tank}
+  - {name: R2, home: N6, battery: tank}
+batteries: {tank: {drive: 1/50, charge: 1/20, reserve: 1/10}}
+charging: [N0, N6]
+rules: {turn: 0}
+jobs:
+  - {name: J1, pickup: N5, dropoff: N1, pickup_work: 2, due: 60}
+  - {name: J2, at: N11, work: 3, earliest: 4}
+  - {name: J3, pickup: N4, dropoff: N9, earliest: 30, due: 31}
+  - {name: J4, at: N3, latest: 2}
+"""
+
+
+@pytest.fixture
+def scenario(tmp_path: Path) -> Path:
+    """Return a scenario with jobs that become known one after another."""
+    path = tmp_path / "shift.yaml"
+    path.write_text(SCENARIO)
+    return path
+
+
+def test_the_report_says_what_is_done_and_what_robots_do(cli: Cli, scenario: Path) -> None:
+    ended = cli("shift", scenario, "--lead", "0")
+    assert ended.code == 0
+    lines = ended.out.splitlines()
+    # J3 is known at 30 and due at 31; nobody is at N3 by 2.
+    assert "jobs          3 of 4 done, 2 in time and 1 late" in lines
+    assert "not served    1: no robot would end it in time" in lines
+    assert any(line.startswith("R1 ") for line in lines)
+    assert max(map(len, lines)) <= 80
+
+
+def test_the_record_is_a_file_that_plays_again(cli: Cli, scenario: Path, tmp_path: Path) -> None:
+    path = tmp_path / "record.json"
+    cli("shift", scenario, "--lead", "0", "-o", path)
+    record = load_shift(path)
+    assert check(record.make_plan()).ok
+    assert dump_shift(record) == json.loads(path.read_text())
+
+
+def test_the_figures_for_programs(cli: Cli, scenario: Path) -> None:
+    data = json.loads(cli("shift", scenario, "--lead", "0", "--json").out)
+    assert (data["known"], data["done"], data["late"], data["under_way"]) == (4, 3, 1, 0)
+    assert data["unserved"] == {"latest": 1}
+    assert {"median", "p95"} <= data["service_time"].keys()
+    use = data["robots"][0]
+    parts = ("driving", "waiting", "working", "charging", "idle")
+    assert sum(use[part] for part in parts) == data["until"]
+    assert [job["ended"] is None for job in data["jobs"]] == [False, True, False, False]
+
+
+def test_jobs_become_known_before_their_earliest(cli: Cli, scenario: Path, tmp_path: Path) -> None:
+    (tmp_path / "known.csv").write_text("name,known\nJ3,10\n")
+    for known, ticks in ((str(tmp_path / "known.csv"), 10), ("25", 5)):
+        data = json.loads(cli("shift", scenario, "--lead", "0", "--json", "--known", known).out)
+        assert {job["name"]: job["known"] for job in data["jobs"]}["J3"] == ticks
+
+
+def test_a_shift_ends_at_its_time(cli: Cli, scenario: Path) -> None:
+    data = json.loads(cli("shift", scenario, "--until", "8", "--lead", "0", "--json").out)
+    assert data["until"] == 8
+    assert data["under_way"] == 1
+
+
+@pytest.mark.parametrize(
+    ("args", "message"),
+    [
+        (["--reveal", "1", "--known", "3"], "--reveal and --known both say when jobs become known"),
+        (["--known", "none.csv"], "none.csv"),
+        (["--round-time", "0"], "0 is not positive (give seconds)"),
+    ],
+)
+def test_options_that_do_not_fit_are_refused(
+    cli: Cli, scenario: Path, args: list[str], message: str
+) -> None:
+    ended = cli("shift", scenario, *args)
+    assert ended.code == 2
+    assert message in ended.err
+
+
+def test_a_scenario_without_jobs_is_refused(cli: Cli, door: Path) -> None:
+    ended = cli("shift", door)
+    assert ended.code == 2
+    assert "has no jobs (a shift needs jobs: [], at least)" in ended.err
