@@ -85,7 +85,7 @@ def test_what_cannot_be_done_is_refused_with_the_reason(cli: Cli, journal: Path)
     [
         (("add",), "give --at"),
         (("withdraw",), "withdraw needs a NAME"),
-        (("add", "--at", "N7", "--work", "-1"), "'-1' is no time"),
+        (("add", "--at", "N7", "--work", "-1"), "'-1' is no duration"),
     ],
 )
 def test_usage_that_asks_for_nothing_is_refused(

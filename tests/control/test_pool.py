@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 
 from rightofway.control import FleetControl
+from rightofway.control.commands import read_duration
 from rightofway.control.dispatcher import Dispatcher
-from rightofway.control.job_commands import read_duration
 from rightofway.control.journal import Entry
 from rightofway.control.round_worker import RoundRequest, RoundsAtOnce
 from rightofway.control.work_items import find_stop

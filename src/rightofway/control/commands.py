@@ -25,7 +25,7 @@ __all__ = [
     "Commands",
     "CommandsFailed",
     "read_command",
-    "read_time",
+    "read_duration",
     "refuse_nameless",
 ]
 
@@ -46,8 +46,13 @@ NAMED: Mapping[str, str] = {
 }
 """The kinds of commands that need a ``name``, each with the thing that it names."""
 
-LONGEST_TIME = 40
-"""Characters of a time; Python reads no number of more than 4300 digits."""
+SECONDS = {"s": 1, "min": 60, "h": 3600}
+"""Units of durations that people write [s]."""
+
+LONGEST = 40
+"""Characters of a duration; Python reads no number of more than 4300 digits."""
+
+DURATION = re.compile(r"([0-9]+(?:\.[0-9]+|/[1-9][0-9]*)?) ?(s|min|h)?", re.ASCII)
 
 KEPT = 1_000
 """Commands that are kept with their answers."""
@@ -198,21 +203,30 @@ def refuse_nameless(command: Mapping[str, Any]) -> None:
         raise InputError.at(named, f"{kind} needs the name of a {named} (give one)")
 
 
-def read_time(text: object) -> Fraction:
-    """Return a time that a person has written [time unit].
+def read_duration(given: object, seconds: Fraction | None) -> Fraction:
+    """Return a duration that a person has written [time unit].
 
     Parameters
     ----------
-    text
-        A decimal number or a fraction, not negative.
+    given
+        A number or a fraction, not negative, perhaps with a unit: ``90``, ``1/2``, ``15min``.
+    seconds
+        How long a time unit is [s]; None where it has no unit.
 
     Raises
     ------
     InputError
-        If it is none, or has more than `LONGEST_TIME` characters.
+        If it is no duration, or has a unit though times have none.
     """
-    pattern = r"[0-9]+(\.[0-9]+|/[1-9][0-9]*)?"
-    given = str(text) if isinstance(text, str | int | float) else ""
-    if len(given) > LONGEST_TIME or not re.fullmatch(pattern, given, re.ASCII):
-        raise InputError.at("work", f"{quote(text)} is no time (for example 5 or 1/2)")
-    return Fraction(given)
+    text = str(given) if isinstance(given, str | int | float | Fraction) else ""
+    match = DURATION.fullmatch(text.strip()) if len(text) <= LONGEST else None
+    if match is None:
+        remedy = "for example 5, 1/2, 90s, 15min or 2h"
+        raise InputError.at("time", f"{quote(given)} is no duration ({remedy})")
+    value, unit = Fraction(match[1]), match[2]
+    if unit is None:
+        return value
+    if seconds is None:
+        message = f"{quote(given)} has a unit, and the times of the plan have none"
+        raise InputError.at("time", f"{message} (leave it out)")
+    return value * SECONDS[unit] / seconds

@@ -6,12 +6,12 @@ name of its job: asked for again, it changes nothing and is answered as before.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
+from rightofway.control.commands import read_duration
 from rightofway.control.journal import Entry
 from rightofway.control.ledger import Ledger
 from rightofway.control.work_items import find_stop
@@ -23,17 +23,10 @@ from rightofway.io.scenario.work import read_job
 from rightofway.io.scenario.work_writer import dump_job
 from rightofway.model import Job, Scenario, Tick, UnservedReason
 
-__all__ = ["JobCommands", "list_pooled_jobs", "read_duration"]
+__all__ = ["JobCommands", "list_pooled_jobs"]
 
 MOMENTS = ("earliest", "latest", "due")
 DURATIONS = ("work", "pickup_work", "dropoff_work")
-
-SECONDS = {"s": 1, "min": 60, "h": 3600}
-
-LONGEST = 40
-"""Characters of a duration; Python reads no number of more than 4300 digits."""
-
-DURATION = re.compile(r"([0-9]+(?:\.[0-9]+|/[1-9][0-9]*)?) ?(s|min|h)?", re.ASCII)
 
 
 class JobCommands:
@@ -204,11 +197,11 @@ class JobCommands:
 
 def _is_replaced(key: str, given: Mapping[str, Any]) -> bool:
     """Return whether a key of a job has no effect beside the given ones."""
-    forms = ({"at", "work"}, {"pickup", "dropoff", "pickup_work", "dropoff_work"}, {"stops"})
+    forms = {"at", "work", "pickup", "dropoff", "pickup_work", "dropoff_work", "load", "stops"}
     places = ("at", "pickup", "stops")
     if not any(place in given for place in places):
         return key in given
-    return key in given or any(key in form for form in forms)
+    return key in given or key in forms
 
 
 def list_pooled_jobs(
@@ -247,32 +240,3 @@ def list_pooled_jobs(
             }
         )
     return rows
-
-
-def read_duration(given: object, seconds: Fraction | None) -> Fraction:
-    """Return a duration that a person has written [time unit].
-
-    Parameters
-    ----------
-    given
-        A number or a fraction, not negative, perhaps with a unit: ``90``, ``1/2``, ``15min``.
-    seconds
-        How long a time unit is [s]; None where it has no unit.
-
-    Raises
-    ------
-    InputError
-        If it is no duration, or has a unit though times have none.
-    """
-    text = str(given) if isinstance(given, str | int | float | Fraction) else ""
-    match = DURATION.fullmatch(text.strip()) if len(text) <= LONGEST else None
-    if match is None:
-        remedy = "for example 5, 1/2, 90s, 15min or 2h"
-        raise InputError.at("time", f"{quote(given)} is no duration ({remedy})")
-    value, unit = Fraction(match[1]), match[2]
-    if unit is None:
-        return value
-    if seconds is None:
-        message = f"{quote(given)} has a unit, and the times of the plan have none"
-        raise InputError.at("time", f"{message} (leave it out)")
-    return value * SECONDS[unit] / seconds

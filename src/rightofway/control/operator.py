@@ -16,7 +16,7 @@ from rightofway.control.commands import (
     Answer,
     Commands,
     read_command,
-    read_time,
+    read_duration,
     refuse_nameless,
 )
 from rightofway.control.commitments import list_stops_to_make
@@ -139,11 +139,13 @@ class Operator:
         texts = {key: str(value) for key, value in command.items() if value is not None}
         name, at, robot = texts.get("name", ""), texts.get("at"), texts.get("robot")
         places = [texts[key] for key in ("name", "to") if key in texts]
-        ticks = None if lasts is None else clock.count_ticks(read_time(lasts))
+        seconds, after = self._scenario.units.seconds, command.get("after")
+        ticks = None if lasts is None else clock.count_ticks(read_duration(lasts, seconds))
+        before = str(after[0] if isinstance(after, list) and after else after or "") or None
         if kind == "list":
             return [], {"done": True, "fact": None, "jobs": list_jobs(ledger)}
         changes: dict[str, Callable[[], list[Message]]] = {
-            "add": lambda: self.add_job(at or "", int(ticks or 0), robot, texts.get("after"))[1],
+            "add": lambda: self.add_job(at or "", int(ticks or 0), robot, before)[1],
             "change": lambda: self.change_job(name, at, ticks),
             "withdraw": lambda: self.withdraw_job(name),
             "again": lambda: self.retry_job(name),

@@ -54,7 +54,7 @@ class ViewOfRound:
 
 
 def find_kept_parts(ledger: Ledger, released: Sequence[int], ahead: int) -> list[int]:
-    """Return the last part of each robot that is kept: so many beyond the released ones, at most.
+    """Return the last part of each robot that is kept, at most ``ahead`` beyond the released ones.
 
     A part is kept only together with all that go before it by right of way. A robot keeps none
     behind a stop that is not asked for yet.

@@ -70,6 +70,7 @@ def create_app(studio: Studio, access: Access, *, has_page: bool = True) -> Fast
         app.include_router(routes.router, prefix=API)
     app.include_router(drives.api, prefix=API)
     app.include_router(drives.router)
+    app.include_router(drives.make_jobs_router("/drives/{number}"), prefix=API)
     if has_page:
         app.include_router(pages.router)
     return _add_guard(app, access)
@@ -80,6 +81,7 @@ def create_watch(watched: Watched, access: Access) -> FastAPI:
     app = FastAPI(title="rightofway drive", openapi_url=None, docs_url=None, redoc_url=None)
     app.state.drives = {0: watched}
     app.include_router(drives.router)
+    app.include_router(drives.make_jobs_router(""))
 
     @app.get("/")
     async def get_page(request: Request) -> Response:

@@ -177,16 +177,46 @@ class Watched:
                 raise InputError.at(key, f"{json.dumps(given)[:40]} is no name (give text)")
             if given is not None:
                 command[key] = given
-        commands = Commands(self._journal)
-        try:
-            number = commands.ask(command)
-            answer = commands.wait_for(number, PATIENCE)
-        finally:
-            commands.close()
+        answer = self._ask(command)
         if answer is None:
             refusal = Fact("refused", reason=Fact("no control"))
             answer = {"done": False, "fact": refusal.as_dict()}
         return _write_answer(answer)
+
+    def _ask(self, command: Mapping[str, Any]) -> Answer | None:
+        """Give a command to the control; return its answer, None if none came in time."""
+        commands = Commands(self._journal)
+        try:
+            return commands.wait_for(commands.ask(command), PATIENCE)
+        finally:
+            commands.close()
+
+    def ask_on_jobs(self, command: Mapping[str, Any]) -> Answer:
+        """Ask the control of a plan with jobs for something on them; return its answer.
+
+        Parameters
+        ----------
+        command
+            Its ``kind``, and the keys of a job as scenario files have them.
+
+        Raises
+        ------
+        Refused
+            If this page takes no orders, the plan has no jobs, the control does not answer in time,
+            or it refuses: then with its reason.
+        """
+        if not self._takes_orders:
+            raise Refused("this page only watches (open that of the control)", 403)
+        if self._plan.scenario.jobs is None:
+            raise Refused("the plan has no jobs (drive one of a scenario with jobs)", 409)
+        answer = self._ask(command)
+        if answer is None:
+            message = f"no answer within {PATIENCE:g} s: it is carried out when the control runs"
+            raise Refused(message, 503)
+        if not answer["done"]:
+            reason = read_fact(answer["fact"]).values["reason"]
+            raise Refused(FactWriter(None).write(reason), 409)
+        return answer
 
 
 def _write_answer(answer: Answer) -> dict[str, Any]:

@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from rightofway.cli.options import as_json_option
+from rightofway.cli.options import Whole, as_json_option
 from rightofway.cli.terminal import put_json, put_report, say
 from rightofway.errors import InputError
 
+if TYPE_CHECKING:
+    from rightofway.control.commands import Answer
+
+NO_ANSWER = "no answer within {wait:g} s: it is carried out when the control runs"
+
 ACTIONS = {
     "list": "list jobs that are not done",
-    "add": "give a robot a job: --at, perhaps --work, --robot and --after",
-    "change": "change a job NAME that is not released: --at, --work",
-    "withdraw": "take back a job NAME that is not released",
+    "add": "add a job: --at, or --from and --to; perhaps with a NAME, a time and --robot",
+    "change": "change a job NAME that is not begun: its places and times",
+    "withdraw": "take back a job NAME that is not begun",
     "again": "have a robot do a job NAME again that has failed",
     "skip": "give up a job NAME that has failed: its robot goes on without it",
     "close": "let no robot enter the vertex NAME, or the lane from NAME to --to",
@@ -33,6 +41,8 @@ Examples:
   rightofway jobs plan.journal list
   rightofway jobs plan.journal add --at N7 --work 5
   rightofway jobs plan.journal add --at N6 --after R1/job7
+  rightofway jobs plan.journal add T12 --from Dock --to Rack --due 15min
+  rightofway jobs plan.journal add - < jobs.csv
   rightofway jobs plan.journal withdraw R1/job7
   rightofway jobs plan.journal close N4
   rightofway jobs plan.journal close N4 --to N7
@@ -40,34 +50,61 @@ Examples:
 """
 
 
-def _read_time(
+def _read_duration(
     _context: click.Context, _parameter: click.Parameter, given: str | None
 ) -> str | None:
-    from rightofway.control.commands import read_time
+    from rightofway.control.commands import read_duration
 
     if given is not None:
         try:
-            read_time(given)
+            read_duration(given, Fraction(1))
         except InputError as error:
             raise click.BadParameter(error.faults[0].message) from None
     return given
+
+
+def _add_job_options(command: Any) -> Any:
+    """Add the options that describe a job."""
+    for option in reversed(
+        (
+            click.option("--at", metavar="PLACE",
+                         help="Where the job is, or the robot: a vertex or a station."),
+            click.option("--from", "pickup", metavar="PLACE",
+                         help="Where a load is picked up (plans with jobs)."),
+            click.option("--to", metavar="PLACE",
+                         help="Where it is dropped off; or the other end of a lane, to close or"
+                         " open it."),
+            click.option("--load", type=Whole(1), metavar="NUMBER",
+                         help="How much is picked up; 1 by default."),
+            click.option("--work", metavar="TIME", callback=_read_duration,
+                         help="How long it lasts, at both places of a load [time unit, or with s,"
+                         " min or h]."),
+            click.option("--earliest", metavar="TIME", callback=_read_duration,
+                         help="When it may begin, from now on."),
+            click.option("--due", metavar="TIME", callback=_read_duration,
+                         help="When it should be done, from now on: later costs more."),
+            click.option("--latest", metavar="TIME", callback=_read_duration,
+                         help="When it has to be done, from now on: else nobody does it."),
+            click.option("--urgent", is_flag=True, help="Due at once: it comes before others."),
+            click.option("--weight", metavar="FACTOR",
+                         help="How much it counts compared with other jobs; 1 by default."),
+            click.option("--robot", metavar="ROBOT",
+                         help="Whose job it is; by default that of the robot which drives least"
+                         " more."),
+            click.option("--after", metavar="JOB", multiple=True,
+                         help="A job that ends before it begins; can be repeated. In a plan without"
+                         " jobs, one that its robot does directly before it, as R1/job2."),
+        )
+    ):  # fmt: skip
+        command = option(command)
+    return command
 
 
 @click.command(epilog=EXAMPLES, short_help="Change the work of robots that drive.")
 @click.argument("journal", type=click.Path())
 @click.argument("action", type=click.Choice(list(ACTIONS)))
 @click.argument("name", required=False)
-@click.option(
-    "--at", metavar="PLACE", help="Where the job is, or the robot: a vertex or a station."
-)
-@click.option("--work", metavar="TIME", callback=_read_time, help="How long it lasts [time unit].")
-@click.option("--to", metavar="VERTEX", help="The other end of a lane, to close or open it.")
-@click.option("--robot", metavar="ROBOT",
-              help="Whose job it is; by default that of the robot which drives least more.",
-              )  # fmt: skip
-@click.option("--after", metavar="JOB",
-              help="A job that its robot does directly before it, as R1/job2; by default it comes"
-              " where it is the least detour.")  # fmt: skip
+@_add_job_options
 @click.option("--wait", metavar="SECONDS", type=click.FloatRange(min=0), default=10,
               show_default=True, help="How long to wait for the answer.")  # fmt: skip
 @as_json_option("answer")
@@ -76,24 +113,24 @@ def jobs(
     journal: str,
     action: str,
     name: str | None,
-    at: str | None,
-    to: str | None,
-    work: str | None,
-    robot: str | None,
-    after: str | None,
     wait: float,
     as_json: bool,
+    **options: Any,
 ) -> int:
     """Ask the control that drives with a JOURNAL for an ACTION.
 
     Released parts stay, the rest is replanned and judged before it counts. Where no plan is
     found, the old one stands and the command is refused: exit code 1. A control that does not run
     carries the command out at its next start.
+
+    In a plan with jobs, NAME is that of a job: added twice, it is one job. The next round plans it.
+    With - as NAME, jobs come from standard input: a CSV table, or a JSON object a line.
     """
     if not Path(journal).exists():
         raise InputError.at(journal, "there is no such file (name the journal of rightofway drive)")
-    if action == "add" and at is None:
-        raise click.UsageError("a job is somewhere (give --at)")
+    given = _list_given(name, options, is_lane=action in {"close", "open"})
+    if action == "add" and not {"at", "pickup"} & given.keys() and name != "-":
+        raise click.UsageError("a job is somewhere (give --at, or --from and --to)")
     from rightofway.control.commands import NAMED, Commands
     from rightofway.control.journal import JournalReader
     from rightofway.facts import read_fact
@@ -103,13 +140,18 @@ def jobs(
         raise click.UsageError(f"{action} needs a NAME")
     JournalReader(Path(journal)).close()
     commands = Commands(Path(journal))
-    values = {"name": name, "at": at, "to": to, "work": work, "robot": robot, "after": after}
-    given = {key: value for key, value in values.items() if value is not None}
+    if name == "-":
+        from rightofway.control.command_line.job_input import read_jobs
+
+        numbers = [commands.ask({**job, "kind": action}) for job in read_jobs()]
+        answers = [commands.wait_for(number, wait) for number in numbers]
+        commands.close()
+        return _report_answers(answers, wait, as_json=as_json)
     number = commands.ask({"kind": action, **given})
     answer = commands.wait_for(number, wait)
     commands.close()
     if answer is None:
-        say(f"no answer within {wait:g} s: it is carried out when the control runs")
+        say(NO_ANSWER.format(wait=wait))
         return 3
     if as_json:
         put_json(dict(answer))
@@ -120,3 +162,31 @@ def jobs(
         sentence = FactWriter(None).write(read_fact(answer["fact"]))
         (put_report if answer["done"] else say)(sentence)
     return 0 if answer["done"] else 1
+
+
+def _list_given(name: str | None, options: Mapping[str, Any], *, is_lane: bool) -> dict[str, Any]:
+    """Return the values of a command, with the keys of jobs in scenario files."""
+    values = {"name": name, **options, "after": [*options["after"]] or None}
+    values["urgent"] = options["urgent"] or None
+    if values["pickup"] is not None and not is_lane:
+        values["dropoff"] = values.pop("to")
+        values["pickup_work"] = values["dropoff_work"] = values.pop("work")
+    return {key: value for key, value in values.items() if value is not None}
+
+
+def _report_answers(answers: Sequence[Answer | None], wait: float, *, as_json: bool) -> int:
+    """Report the answers to commands on several jobs; return the exit code."""
+    from rightofway.facts import read_fact
+    from rightofway.report.facts import FactWriter
+
+    known = [dict(answer) for answer in answers if answer is not None]
+    if as_json:
+        put_json(known)
+    else:
+        for answer in known:
+            sentence = FactWriter(None).write(read_fact(answer["fact"]))
+            (put_report if answer["done"] else say)(sentence)
+    if len(known) < len(answers):
+        say(NO_ANSWER.format(wait=wait))
+        return 3
+    return 0 if all(answer["done"] for answer in known) else 1

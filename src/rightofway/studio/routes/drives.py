@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Body, Path, Request
+from fastapi import APIRouter, Body, Path, Request, Response
 from fastapi.responses import HTMLResponse, StreamingResponse
 
 from rightofway.studio.errors import Refused
@@ -58,6 +58,42 @@ def _find_watched(request: Request, number: int) -> Watched:
     if number not in drives:
         raise Refused(f"no fleet {number} is driven here (open the page of one that is)", 404)
     return drives[number]
+
+
+def make_jobs_router(prefix: str) -> APIRouter:
+    """Return the addresses on the jobs of a fleet: the interface of a warehouse management.
+
+    Parameters
+    ----------
+    prefix
+        What they begin with: nothing for the only fleet, or with the ``number`` of one.
+    """
+    jobs = APIRouter(prefix=prefix, tags=["jobs"])
+
+    def find(request: Request) -> Watched:
+        return _find_watched(request, int(request.path_params.get("number", 0)))
+
+    @jobs.get("/jobs")
+    def list_jobs(request: Request) -> dict[str, Any]:
+        """List the jobs that are known and not finished, each with its state and its robot."""
+        return {"jobs": find(request).ask_on_jobs({"kind": "list"})["jobs"]}
+
+    @jobs.post("/jobs", status_code=201)
+    def add_job(
+        request: Request, response: Response, job: Annotated[dict[str, Any], Body()]
+    ) -> dict[str, Any]:
+        """Add a job; one whose name is known already is not added again (status 200)."""
+        answer = find(request).ask_on_jobs({**job, "kind": "add"})
+        if answer["fact"]["kind"] == "job known already":
+            response.status_code = 200
+        return {"name": answer["name"]}
+
+    @jobs.delete("/jobs/{name:path}")
+    def withdraw_job(request: Request, name: str) -> dict[str, Any]:
+        """Withdraw a job that is not begun; withdrawn already, it stays so."""
+        return {"name": find(request).ask_on_jobs({"kind": "withdraw", "name": name})["name"]}
+
+    return jobs
 
 
 @router.get("/drives/{number}/")
