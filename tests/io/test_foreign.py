@@ -324,6 +324,7 @@ def test_jobs_of_robots_that_turn_are_tasks_and_actions_of_the_league(tmp_path: 
 def test_an_errand_that_the_league_does_not_count_is_not_finished(tmp_path: Path) -> None:
     """One robot does both tasks at one cell and instant: the second one is not counted there."""
     plan = read_league(tmp_path, "2\n1,0\n6\n")
+    assert plan.tours is not None
     twice = replace(plan, tours=((*plan.tours[0], plan.tours[0][-1]), ()))
     document = json.loads(format_foreign(twice, "planviz"))
     assert document["events"] == [[1, 0, 0, 1], [4, 0, 0, 2], [5, 0, 0, 2]]

@@ -8,13 +8,20 @@ import json
 import math
 from fractions import Fraction
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from rightofway import check, solve
-from rightofway.io import SITE_PLAN_FORMATS, format_site_plan, parse_scenario
-from rightofway.model import Plan, PlannerRun, Scenario, Track, find_stays
+from rightofway.io import (
+    SITE_PLAN_FORMATS,
+    format_site_plan,
+    load,
+    parse_scenario,
+    write_scenario,
+)
+from rightofway.model import Plan, PlannedItem, PlannerRun, Scenario, Tick, Track, find_stays
 
 
 def planned(**keys: Any) -> Plan:
@@ -226,3 +233,112 @@ def test_a_robot_drives_on_through_a_small_turn() -> None:
     assert bent["position"][2] == pytest.approx(away / 2, abs=1e-6)
     assert math.hypot(*bent["velocity"]) == pytest.approx(1, abs=0.01)
     assert corner["velocity"] == [0, 0, 0]
+
+
+def shift() -> Plan:
+    """Return a plan of R1, which charges and does J1, and R2, which does J2 and then J3."""
+    scenario = parse_scenario(
+        {
+            "format": "rightofway-scenario/1",
+            "map": {
+                "roadmap": {"vertices": {"a": [0, 0], "b": [2, 0], "c": [4, 0], "d": [6, 0]},
+                            "edges": [["a", "b"], ["b", "c"], ["c", "d"]]},
+                "y": "up",
+            },
+            "units": {"length": "m", "time": "s"},
+            "robots": [{"name": "R1", "home": "a", "battery": "tank"}, {"name": "R2", "home": "d"}],
+            "batteries": {"tank": {"charge": 1}},
+            "charging": ["a"],
+            "jobs": [
+                {"name": "J1", "at": "b", "work": 3, "robot": "R1"},
+                {"name": "J2", "pickup": "d", "dropoff": "c", "dropoff_work": 1, "robot": "R2"},
+                {"name": "J3", "at": "d", "after": ["J1"], "robot": "R2", "earliest": 9},
+            ],
+            "rules": {"turn": 0},
+        }
+    )  # fmt: skip
+    first = Track.of([0, 1, 0], [0, 3, 8])
+    second = Track.of([3, 2, 3], [0, 2, 5])
+    tours = (
+        (PlannedItem(visit=0, begin=Tick(0), end=Tick(1)),
+         PlannedItem(visit=1, begin=Tick(3), end=Tick(6), job=0, stop=0)),
+        (PlannedItem(visit=0, begin=Tick(0), end=Tick(0), job=1, stop=0),
+         PlannedItem(visit=1, begin=Tick(2), end=Tick(3), job=1, stop=1),
+         PlannedItem(visit=2, begin=Tick(9), end=Tick(9), job=2, stop=0)),
+    )  # fmt: skip
+    plan = Plan(scenario=scenario, tracks=(first, second), tours=tours, run=PlannerRun())
+    assert not check(plan).faults
+    return plan
+
+
+def test_events_name_the_job_and_the_stop_of_each_work() -> None:
+    rows = written(shift(), "events")
+    done = [row for row in rows if row["event"] in {"work", "charge"}]
+    assert [
+        (float(row["time"]), row["robot"], row["event"], row["place"], row["job"], row["stop"])
+        for row in done
+    ] == [
+        (0, "R1", "charge", "a", "", ""),
+        (0, "R2", "work", "d", "J2", "1"),
+        (2, "R2", "work", "c", "J2", "2"),
+        (3, "R1", "work", "b", "J1", "1"),
+        (9, "R2", "work", "d", "J3", "1"),
+    ]
+    assert {row["job"] for row in rows if row["event"] == "arrive"} == {""}
+    assert "job" not in written(crossing(), "events")[0]
+
+
+def test_paths_and_trajectories_have_the_work_of_each_robot() -> None:
+    work = [
+        {"job": "J2", "stop": 1, "place": "d", "begin": 0.0, "end": 0.0},
+        {"job": "J2", "stop": 2, "place": "c", "begin": 2.0, "end": 3.0},
+        {"job": "J3", "stop": 1, "place": "d", "begin": 9.0, "end": 9.0},
+    ]
+    robots = written(shift(), "nav2")["robots"]
+    assert robots["R2"]["work"] == work
+    assert robots["R1"]["work"][0] == {"charge": True, "place": "a", "begin": 0.0, "end": 1.0}
+    of_rmf = written(shift(), "open-rmf")["work"]["R2"]
+    assert [(item["job"], item["begin"], item["end"]) for item in of_rmf] == [
+        ("J2", 0, 0),
+        ("J2", 2 * 10**9, 3 * 10**9),
+        ("J3", 9 * 10**9, 9 * 10**9),
+    ]
+    assert "work" not in written(crossing(), "open-rmf")
+
+
+def test_jobs_are_transport_orders_of_vehicles_in_the_order_of_their_tours() -> None:
+    orders = written(shift(), "opentcs")
+    assert orders == {
+        "J1": {
+            "intendedVehicle": "R1",
+            "destinations": [{"locationName": "b", "operation": "MOVE"}],
+        },
+        "J2": {
+            "intendedVehicle": "R2",
+            "destinations": [
+                {"locationName": "d", "operation": "Load cargo"},
+                {"locationName": "c", "operation": "Unload cargo"},
+            ],
+        },
+        "J3": {
+            "intendedVehicle": "R2",
+            "destinations": [{"locationName": "d", "operation": "MOVE"}],
+            "dependencies": ["J2", "J1"],
+        },
+    }
+    assert written(crossing(), "opentcs")["R1"]["destinations"][0]["locationName"] == "b"
+
+
+def test_transport_orders_that_are_written_are_read_as_the_jobs_of_the_plan(tmp_path: Path) -> None:
+    plan = shift()
+    write_scenario(plan.scenario, tmp_path / "site.json")
+    text, _ = format_site_plan(plan, "opentcs")
+    (tmp_path / "orders.json").write_text(text, encoding="utf-8")
+    jobs = load(tmp_path / "site.json", jobs=tmp_path / "orders.json").jobs or ()
+    assert [(job.name, job.robot, job.after) for job in jobs] == [
+        ("J1", "R1", ()),
+        ("J2", "R2", ()),
+        ("J3", "R2", ("J2", "J1")),
+    ]
+    stops = [[(stop.at, stop.load) for stop in job.stops] for job in plan.scenario.jobs or ()]
+    assert [[(stop.at, stop.load) for stop in job.stops] for job in jobs] == stops

@@ -15,6 +15,7 @@ import rightofway
 from rightofway.model import Plan, Rules
 from rightofway.viz.table.result import make_result, write_result
 from tests.builders.fleets import PAPER, grid_fleet, paper_scenario
+from tests.builders.planned_jobs import make_plan
 
 CASES = {case["name"]: case for case in PAPER}
 
@@ -45,6 +46,21 @@ def test_it_has_a_sheet_for_each_question(door: Any) -> None:
         "summary", "diagram", "time and space", "legend", "events", "collisions",
         "left in the plan", "decisions", "diagram data",
     ]  # fmt: skip
+
+
+def test_stops_of_jobs_are_a_sheet_with_the_reason_of_jobs_that_are_not_served(
+    tmp_path: Path,
+) -> None:
+    """R1 does J1, and R2 the last stop of J3, which it had begun, and J2."""
+    rows = list(result(make_plan(), tmp_path)["jobs"].values)
+    assert rows == [
+        ("job", "stop", "robot", "place", "begins", "ends", "not served"),
+        ("J1", 1, "R1", "N1", 3, 5, None),
+        ("J1", 2, "R1", "N3", 8, 9, None),
+        ("J2", 1, "R2", "N8", 9, 12, None),
+        ("J3", 2, "R2", "N7", 4, 4, None),
+        ("J4", None, None, None, None, None, "not found"),
+    ]
 
 
 def test_the_summary_says_where_each_completion_time_goes(door: Any) -> None:

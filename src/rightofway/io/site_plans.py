@@ -15,15 +15,17 @@ from __future__ import annotations
 import csv
 import io
 import math
+from collections import defaultdict
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 from rightofway.io.json_text import format_json_line
+from rightofway.io.orders.writing import write_orders
 from rightofway.kinds.table import make_words
 from rightofway.metrics.events import list_events
-from rightofway.model import Plan, Stays, Track
+from rightofway.model import Plan, PlannedItem, Stays, Track
 
 FRAME = "map"
 """The frame of a site in ROS."""
@@ -40,6 +42,8 @@ SMOOTH = math.radians(10)
 BILLION = 10**9
 
 COLUMNS = ("time", "robot", "event", "place", "x", "y", "heading", "purpose", "waits_for")
+
+COLUMNS_OF_JOBS = ("job", "stop")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -187,11 +191,16 @@ def _round_number(number: Fraction | float) -> float:
 def _write_events(plan: Plan) -> str:
     """Return one event a line, by time and robot.
 
-    ``start``, ``arrive``, ``work`` (work and turning begin), ``wait``, ``depart``, ``done``.
+    ``start``, ``arrive``, ``work`` (work and turning begin), ``wait``, ``depart``, ``done``. With
+    jobs, ``work`` is for each stop, with the job, and there is ``charge``.
     """
     site = _Site(plan, y_up=False)
     robots, name = plan.scenario.robots, plan.scenario.roadmap.name
     came: dict[int, float] = {}
+    has_jobs, items = plan.tours is not None, defaultdict[tuple[int, int], list[PlannedItem]](list)
+    for index, tour in enumerate(plan.tours or ()):
+        for item in tour:
+            items[index, item.visit].append(item)
     rows = list[tuple[int, int, tuple[Any, ...]]]()
     headings = [
         {pose.visit: pose.heading for pose in site.list_poses(robot)}
@@ -203,7 +212,7 @@ def _write_events(plan: Plan) -> str:
         goes = headings[robot][event.visit]
         is_last = event.leave is None
         steps = [(now, "arrive" if event.visit else "start", came.get(robot, goes), "")]
-        if dwell:
+        if dwell and plan.tours is None:
             steps.append((now, "work", came.get(robot, goes), ""))
         if event.waits:
             for_robot = "" if event.waits_for is None else robots[event.waits_for].name
@@ -212,19 +221,55 @@ def _write_events(plan: Plan) -> str:
             steps.append((max(event.leave - drive, now), "depart", goes, ""))
         if is_last:
             steps.append((int(stays.completion), "done", came.get(robot, goes), ""))
-        came[robot] = goes
+        arrival, came[robot] = came.get(robot, goes), goes
         x, y = map(_round_number, site.locate_vertex(event.vertex))
-        for tick, doing, heading, for_robot in steps:
+        done: list[tuple[int, str, float, str, Any, Any]] = [
+            (tick, doing, heading, for_robot, "", "") for tick, doing, heading, for_robot in steps
+        ]
+        for item in items.get((robot, event.visit), ()):
+            doing = "charge" if item.job is None else "work"
+            done.append((item.begin, doing, arrival, "", *_name_stop(plan, item)))
+        for tick, doing, heading, for_robot, *stop in sorted(done, key=lambda step: step[0]):
             row = (
                 _round_number(tick * site.second), robots[robot].name, doing, name(event.vertex),
-                x, y, _round_number(heading), event.purpose, for_robot,
+                x, y, _round_number(heading), event.purpose, for_robot, *stop[: 2 * has_jobs],
             )  # fmt: skip
             rows.append((tick, robot, row))
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(COLUMNS)
+    writer.writerow((*COLUMNS, *(COLUMNS_OF_JOBS if has_jobs else ())))
     writer.writerows(row for _, _, row in sorted(rows, key=lambda row: row[:2]))
     return text.getvalue()
+
+
+def _name_stop(plan: Plan, item: PlannedItem) -> tuple[str, int | str]:
+    """Return the name of a job and the number of its stop, from 1; empty for a charge."""
+    if item.job is None or item.stop is None:
+        return "", ""
+    assert plan.scenario.jobs is not None, "tours are of jobs"
+    return plan.scenario.jobs[item.job].name, item.stop + 1
+
+
+def _list_work(site: _Site, robot: int, unit: int = 1) -> list[dict[str, Any]]:
+    """Return the work of a robot at stops of jobs, and its charges.
+
+    Times are seconds, or whole parts of seconds of which `unit` are one.
+    """
+    plan = site.plan
+    assert plan.tours is not None, "the plan has jobs"
+    work, track = list[dict[str, Any]](), plan.tracks[robot]
+    for item in plan.tours[robot]:
+        begin, end = (tick * site.second for tick in (item.begin, item.end))
+        name, stop = _name_stop(plan, item)
+        work.append(
+            {
+                **({"job": name, "stop": stop} if name else {"charge": True}),
+                "place": site.roadmap.name(int(track.vertices[item.visit])),
+                "begin": int(begin * unit) if unit > 1 else _round_number(begin),
+                "end": int(end * unit) if unit > 1 else _round_number(end),
+            }
+        )
+    return work
 
 
 def _write_nav2(plan: Plan) -> str:
@@ -245,6 +290,7 @@ def _write_nav2(plan: Plan) -> str:
         robots[plan.scenario.robots[robot].name] = {
             "path": path,
             "nodes": list(map(int, nodes)) if are_ids else nodes,
+            **({} if plan.tours is None else {"work": _list_work(site, robot)}),
         }
     return _write_spread({"frame_id": FRAME, "robots": robots}) + "\n"
 
@@ -265,7 +311,8 @@ def _make_ros_pose(pose: Pose) -> dict[str, Any]:
 
 def _open_rmf(plan: Plan) -> str:
     """Return for each robot an itinerary of one route; times are nanoseconds from the start."""
-    site, itineraries = _Site(plan, y_up=True), {}
+    site, itineraries = _Site(plan, y_up=True), dict[str, Any]()
+    works = dict[str, Any]()
     for robot in range(len(plan.tracks)):
         waypoints, yaw = list[dict[str, Any]](), 0.0
         for pose in site.list_poses(robot):
@@ -280,13 +327,16 @@ def _open_rmf(plan: Plan) -> str:
             )
         route = {"map": LEVEL, "trajectory": {"waypoints": waypoints}}
         itineraries[plan.scenario.robots[robot].name] = [route]
-    return _write_spread({"itineraries": itineraries}) + "\n"
+        if plan.tours is not None:
+            works[plan.scenario.robots[robot].name] = _list_work(site, robot, BILLION)
+    work = {"work": works} if works else {}
+    return _write_spread({"itineraries": itineraries, **work}) + "\n"
 
 
 def _write_spread(value: Any, margin: str = "\n") -> str:
     """Return JSON with one pose or waypoint on a line."""
     inner = margin + "  "
-    if isinstance(value, dict) and not {"pose", "position", "stamp"} & set(value):
+    if isinstance(value, dict) and not {"place", "pose", "position", "stamp"} & set(value):
         pairs = (
             f"{format_json_line(key)}: {_write_spread(child, inner)}"
             for key, child in value.items()
@@ -308,6 +358,9 @@ SITE_PLAN_FORMATS: dict[str, SitePlanFormat] = {
     "open-rmf": SitePlanFormat(
         summary="Open-RMF: an itinerary (rmf_traffic_msgs/Route) of each robot, JSON",
         write=_open_rmf,
+    ),
+    "opentcs": SitePlanFormat(
+        summary="openTCS: a transport order of each job for its vehicle, JSON", write=write_orders
     ),
 }
 """The formats of plans for programs on the site, by name."""

@@ -104,6 +104,41 @@ def tabulate_events(
     )
 
 
+def tabulate_stops(plan: Plan) -> Listing:
+    """Return the stops of jobs in order as a list, then the jobs that are not served."""
+    jobs, name = plan.scenario.jobs or (), plan.scenario.roadmap.name
+    rows = sorted(
+        (item.job, item.stop + 1, robot, item.visit, item.begin, item.end)
+        for robot, tour in enumerate(plan.tours or ())
+        for item in tour
+        if item.job is not None and item.stop is not None
+    )
+    none: list[Value] = [None] * len(plan.unserved)
+    robots = [plan.scenario.robots[robot].name for _, _, robot, *_ in rows]
+    places = [name(int(plan.tracks[robot].vertices[visit])) for _, _, robot, visit, *_ in rows]
+    return Listing(
+        title="jobs",
+        columns=(
+            ListColumn(
+                heading="job",
+                values=[
+                    jobs[job].name for job in (*(row[0] for row in rows), *dict(plan.unserved))
+                ],
+            ),
+            ListColumn(heading="stop", values=[*(row[1] for row in rows), *none], kind="number"),
+            ListColumn(heading="robot", values=[*robots, *none]),
+            ListColumn(heading="place", values=[*places, *none]),
+            ListColumn(heading="begins", values=[*(row[4] for row in rows), *none], kind="time"),
+            ListColumn(heading="ends", values=[*(row[5] for row in rows), *none], kind="time"),
+            ListColumn(
+                heading="not served",
+                values=[*[None] * len(rows), *(reason for _, reason in plan.unserved)],
+            ),
+        ),
+        quantities=Quantities.of(plan.scenario),
+    )
+
+
 class _Cells(Sequence[Value]):
     """The cells of a column, computed from the rows that are written."""
 

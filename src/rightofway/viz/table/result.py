@@ -20,7 +20,12 @@ from rightofway.viz.motion import Phase, make_trips
 from rightofway.viz.palette import choose_colours
 from rightofway.viz.placement import make_edge_length, order_in_line
 from rightofway.viz.table.listing import ListColumn, Listing
-from rightofway.viz.table.lists import tabulate_collisions, tabulate_decisions, tabulate_events
+from rightofway.viz.table.lists import (
+    tabulate_collisions,
+    tabulate_decisions,
+    tabulate_events,
+    tabulate_stops,
+)
 from rightofway.viz.table.timespace import MAX_CELLS, make_table
 from rightofway.viz.table.workbook import (
     BOLD,
@@ -82,6 +87,7 @@ def make_result(plan: Plan) -> bytes:
     free = name_collisions(plan.scenario, free_running(plan))
     left = name_collisions(plan.scenario, plan.tracks)
     for listing in (
+        *(() if plan.tours is None else (tabulate_stops(plan),)),
         tabulate_events(plan),
         tabulate_collisions(free, quantities),
         tabulate_collisions(left, quantities, "left in the plan"),
