@@ -23,6 +23,7 @@ from fractions import Fraction
 from rightofway.assign import AssignmentSearch, measure_travel
 from rightofway.check import check
 from rightofway.deadline import Deadline
+from rightofway.dispatch.overdue import assign_overdue, has_choice
 from rightofway.dispatch.pool import PooledJob
 from rightofway.dispatch.view import (
     FleetView,
@@ -83,11 +84,13 @@ UNLIMITED = 2**31 - 1
 class _Given:
     """What a round plans: the scenario of the round, and how its indices belong to the fleet.
 
-    ``able`` are the robots of the fleet that are in it.
+    ``able`` are the robots of the fleet that are in it, ``overdue`` its overdue jobs that nobody
+    has begun, the oldest first.
     """
 
     scenario: Scenario
     able: tuple[int, ...]
+    overdue: tuple[int, ...]
     postponed: tuple[str, ...]
     unserved: tuple[tuple[str, UnservedReason], ...]
 
@@ -190,6 +193,7 @@ class RoundPlanner:
                 ),
             ),
             able=able,
+            overdue=chosen.overdue,
             postponed=chosen.postponed,
             unserved=chosen.unserved,
         )
@@ -210,7 +214,7 @@ class RoundPlanner:
     def _find_plan(self, given: _Given, view: FleetView, deadline: Deadline, seed: int) -> Plan:
         """Return a judged plan of the round, at first with the old tracks."""
         old = [view.robots[robot] for robot in given.able]
-        assignment = self._assign(given.scenario, old, deadline, seed)
+        assignment = self._assign(given.scenario, old, given.overdue, deadline, seed)
         toured = assign_tours(given.scenario, assignment.tours)
         tracks = self._improve_old(toured, old, deadline, seed)
         if tracks is not None:
@@ -224,7 +228,12 @@ class RoundPlanner:
         return solve(given.scenario, self._planner, time_limit=left, seed=seed)
 
     def _assign(
-        self, scenario: Scenario, old: Sequence[RobotView], deadline: Deadline, seed: int
+        self,
+        scenario: Scenario,
+        old: Sequence[RobotView],
+        overdue: Sequence[int],
+        deadline: Deadline,
+        seed: int,
     ) -> Assignment:
         """Return tours that go on from the old ones."""
         work = scenario.problem.work
@@ -232,11 +241,18 @@ class RoundPlanner:
         if self._distances is None or self._distances.roadmap is not scenario.roadmap:
             self._distances = Distances(scenario.roadmap)
         travel = measure_travel(scenario.problem, self._distances)
-        search = AssignmentSearch(work, travel, weights=scenario.problem.weights, seed=seed)
-        search.start(_make_old_assignment(scenario, old))
+        weights, old_tours = scenario.problem.weights, _make_old_assignment(scenario, old)
         hurried = deadline.shorten(SHARE_OF_TOURS)
+        if overdue:
+            first = deadline.shorten(SHARE_OF_TOURS / 2)
+            work, old_tours = assign_overdue(
+                work, travel, old_tours, overdue, weights=weights, deadline=first
+            )
+        search = AssignmentSearch(work, travel, weights=weights, seed=seed)
+        search.start(old_tours)
         search.construct(hurried.measure_seconds_left())
-        search.improve(STEPS_PER_JOB * len(work.jobs), hurried.measure_seconds_left())
+        if has_choice(work):
+            search.improve(STEPS_PER_JOB * len(work.jobs), hurried.measure_seconds_left())
         if search.cost.missing:
             raise GaveUp(Fact("begun jobs without a tour"))
         return search.assignment
@@ -313,9 +329,13 @@ class RoundPlanner:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ChosenJobs:
-    """The jobs of a round, those that are left to later ones, and those that nobody can do now."""
+    """The jobs of a round, those that are left to later ones, and those that nobody can do now.
+
+    ``overdue`` are the indices of overdue jobs that nobody has begun, the oldest first.
+    """
 
     jobs: tuple[PooledJob, ...]
+    overdue: tuple[int, ...] = ()
     postponed: tuple[str, ...] = ()
     unserved: tuple[tuple[str, UnservedReason], ...] = ()
 
@@ -382,6 +402,11 @@ def choose_jobs(
     assert begun_anywhere <= jobs.keys() | over.keys(), "begun jobs are known"
     return ChosenJobs(
         jobs=tuple(chosen.values()),
+        overdue=tuple(
+            index
+            for index, own in enumerate(chosen.values())
+            if own.job.name not in begun and not rank(own)[1]
+        ),
         postponed=tuple(postponed),
         unserved=tuple(unserved.items()),
     )

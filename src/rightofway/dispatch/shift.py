@@ -19,6 +19,12 @@ from rightofway.precedence import DelayModel
 
 __all__ = ["ShiftRules", "run_shift"]
 
+RETRY = 16
+"""Looks after which jobs without a tour are tried again, where nothing else has happened."""
+
+MOST_PATIENT = 8
+"""A round has up to that many times its time, after rounds in which the old plan stood."""
+
 FOR_GOOD: frozenset[UnservedReason] = frozenset({"latest", "after"})
 """Reasons for which a job leaves the pool: no robot can ever do it."""
 
@@ -103,6 +109,8 @@ class _Shift:
         self._events: list[PoolEvent] = []
         self._facts: list[tuple[Tick, Fact]] = []
         self._assigned = frozenset[str]()  # jobs in tours of the last round
+        self._retry_at = 0  # when a round looks again at jobs without a tour
+        self._n_stood = 0  # rounds in a row after which the old plan stood
         self._is_due = True  # whether something has happened that a round should look at
         self._lost = set[int]()  # robots that do not go on
         self._has_told = False  # whether the standstill that there is has been told
@@ -118,7 +126,8 @@ class _Shift:
     def go_on(self) -> None:
         """Look at the floor, plan a round if one is due, and let robots drive until the next."""
         self._note_events()
-        if self._is_due:
+        is_waiting = not self._assigned >= self._pool.jobs.keys()
+        if self._is_due or (is_waiting and self._now >= self._retry_at):
             self._plan_round()
         self._find_standstill()
         until = self._now + self._rules.step
@@ -190,15 +199,18 @@ class _Shift:
     def _plan_round(self) -> None:
         """Plan a round, and let its plan take over after the lead."""
         rules, begin = self._rules, self._now
-        takeover = Tick(begin + rules.lead)
+        patience = min(MOST_PATIENT, 2**self._n_stood)
+        limit = None if rules.time_limit is None else rules.time_limit * patience
+        takeover = Tick(begin + rules.lead * patience)
         view = look_at_floor(self._floor, begin, takeover, self._pool.jobs)
         self._is_due = False
+        self._retry_at = self._now + RETRY * rules.step
         jobs = dict(self._pool.jobs)
         planned = self._planner.plan(
             view,
             jobs,
             over=self._pool.left,
-            time_limit=rules.time_limit,
+            time_limit=limit,
             seed=rules.seed + len(self._rounds),
         )
         if rules.lead:
@@ -207,7 +219,9 @@ class _Shift:
         if planned.stands:
             lift_caps(self._floor)
             self._is_due = True
+            self._n_stood += 1
         else:
+            self._n_stood = 0
             splice_round(self._floor, view, planned, jobs)
             self._note_unserved(planned)
         self._rounds.append(
