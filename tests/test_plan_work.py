@@ -105,13 +105,24 @@ def test_a_robot_that_waits_for_the_job_of_another_names_that_robot() -> None:
 
 
 def test_fewer_jobs_are_planned_where_all_of_them_have_no_plan() -> None:
-    """The heaviest jobs are kept; those that are dropped, and those after them, have a reason."""
+    """The heaviest jobs are kept at first; the others move into that plan, if routes allow it."""
     jobs = [carry("J1", 1, 3), carry("J2", 4, 5, weight=5), carry("J3", 16, 14, after=["J1"])]
-    scenario = parse_scenario(make_document(jobs))
-    plan = plan_work(scenario, refuse_above(1, scenario), deadline=NO_DEADLINE)
+    scenario, plans = parse_scenario(make_document(jobs)), list[Plan]()
+    plan = plan_work(scenario, refuse_above(1, scenario), deadline=NO_DEADLINE, better=plans.append)
+    assert [job.job for job in list_job_times(plans[0])] == [1]
+    assert dict(plans[0].unserved)[2] in {"after", "not found"}
     assert check(plan).ok
-    assert [job.job for job in list_job_times(plan)] == [1]
-    assert dict(plan.unserved)[2] in {"after", "not found"}
+    assert plan.unserved == ()
+
+
+def test_robots_make_room_for_a_job_that_needs_it() -> None:
+    """R1 is at home where R2 has to unload; it has to leave first, and to come back."""
+    document = make_document([carry("J1", 3, 2)]) | {"map": {"grid": ["...."]}}
+    document["robots"] = [{"name": "R1", "home": "N2"}, {"name": "R2", "home": "N3"}]
+    document["jobs"][0]["robot"] = "R2"
+    plan = solve(parse_scenario(document))
+    assert plan.unserved == ()
+    assert check(plan).ok
 
 
 def test_a_fleet_without_any_plan_has_the_error_of_its_planner() -> None:

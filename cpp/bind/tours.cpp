@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "lns/fleet_search.hpp"
+#include "tours/routed_moves.hpp"
 #include "tours/tour_search.hpp"
 
 namespace rightofway::bind {
@@ -168,6 +170,61 @@ Returns
 tuple of (int, int, int, int)
     Begun jobs without a tour, the weight of other unserved jobs, the objective, the flowtime.)";
 
+constexpr auto routed_moves_doc =
+    R"(Local search over tours and routes together: moves of few jobs, judged by planned cost.
+
+The best tours of the search become those of the moves that are accepted.
+
+Parameters
+----------
+fleet : FleetSearch
+    All robots have tracks; its problem has times, but no arcs.
+tours : TourSearch
+    Its best tours are those of the tracks.
+vertex_of : int32[P]
+    Of each place.
+turn_of : int64[R]
+    After a stop. [ticks]
+stops : int32[S]
+    The stop of each stage of the problem; a charge or the last stage is -1.
+ends, completions : int64[S], int64[R]
+    When the work of each stage ends, and when each robot completes. [ticks]
+cost, late_cost : int64[J]
+    What a tick of the end of each job costs in searches, also after `due`; empty for objectives
+    without service.
+seed : int
+    For all that is drawn.
+
+Raises
+------
+ValueError
+    If the arrays do not fit.)";
+
+constexpr auto moves_run_doc =
+    R"(Try moves until the end of a cycle of annealing, and return how many.
+
+Parameters
+----------
+n_moves, most_gains : int
+    The most moves, and gains.
+time_limit : float or None
+    When to stop; at once for 0 or less. [s])";
+
+constexpr auto moves_tracks_doc = R"(Return the tracks of the best plan.
+
+Returns
+-------
+tuple of (int32[R + 1], int32[N], int64[N])
+    Where the visits of each robot begin; their vertices; when they begin. [ticks])";
+
+constexpr auto moves_items_doc = R"(Return the items of the tours that have changed.
+
+Returns
+-------
+tuple of (int32[n], int32[n + 1], int32[N], int32[N], int64[N])
+    The robots; where the items of each begin; the stop of each (-1: a charge), its vertex and its
+    ticks.)";
+
 // Copies of arrays would be made by the problem anyway: these objects keep the arrays.
 struct BoundTourRobots {
     ArrayIn<std::int32_t> travel;
@@ -234,6 +291,8 @@ void init_tour_problem(TourProblem* self, std::int32_t n_places, const ArrayIn<s
 
 using TourItems = std::tuple<ArrayOut<std::int32_t>, ArrayOut<std::int32_t>, ArrayOut<std::int32_t>,
                              ArrayOut<Tick>, ArrayOut<Tick>>;
+using MovedItems = std::tuple<ArrayOut<std::int32_t>, ArrayOut<std::int32_t>,
+                              ArrayOut<std::int32_t>, ArrayOut<VertexId>, ArrayOut<Tick>>;
 
 TourItems list_items(const TourSearch& self, const TourProblem& problem) {
     std::vector<std::int32_t> first{0};
@@ -286,6 +345,70 @@ ArrayOut<std::int64_t> compare_robots(TourSearch& self, std::int32_t job) {
         values.push_back(value.value_or(never));
     }
     return to_numpy(std::move(values));
+}
+
+void init_moves(RoutedMoves* self, const FleetSearch& fleet, TourSearch& tours,
+                const ArrayIn<VertexId>& vertex_of, const ArrayIn<Tick>& turn_of,
+                const ArrayIn<std::int32_t>& stops, const ArrayIn<Tick>& ends,
+                const ArrayIn<Tick>& completions, const ArrayIn<Tick>& cost,
+                const ArrayIn<Tick>& late_cost, std::uint64_t seed) {
+    new (self) RoutedMoves(fleet, tours,
+                           {view(vertex_of), view(turn_of), view(stops), view(ends),
+                            view(completions), view(cost), view(late_cost)},
+                           seed);
+}
+
+MovedItems list_moved(const RoutedMoves& self, std::size_t n_robots) {
+    std::vector<std::int32_t> robots;
+    std::vector<std::int32_t> first{0};
+    std::vector<std::int32_t> stops;
+    std::vector<VertexId> vertices;
+    std::vector<Tick> ticks;
+    for (std::size_t r = 0; r < n_robots; ++r) {
+        const auto robot = static_cast<RobotId>(r);
+        if (!self.has_changed(robot)) {
+            continue;
+        }
+        const RoutedMoves::Items items = self.items(robot);
+        robots.push_back(robot);
+        stops.insert(stops.end(), items.stops.begin(), items.stops.end());
+        vertices.insert(vertices.end(), items.vertices.begin(), items.vertices.end());
+        ticks.insert(ticks.end(), items.ticks.begin(), items.ticks.end());
+        first.push_back(static_cast<std::int32_t>(stops.size()));
+    }
+    return {to_numpy(std::move(robots)), to_numpy(std::move(first)), to_numpy(std::move(stops)),
+            to_numpy(std::move(vertices)), to_numpy(std::move(ticks))};
+}
+
+void bind_routed_moves(nb::module_& module) {
+    nb::class_<RoutedMoves>(module, "RoutedMoves", routed_moves_doc)
+        .def("__init__", &init_moves, nb::arg("fleet"), nb::arg("tours"), array("vertex_of"),
+             array("turn_of"), array("stops"), array("ends"), array("completions"), array("cost"),
+             array("late_cost"), nb::arg("seed"), nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>())
+        .def(
+            "run",
+            [](RoutedMoves& self, std::int64_t n_moves, std::int64_t most_gains,
+               std::optional<double> time_limit) {
+                const Deadline deadline(time_limit);
+                const nb::gil_scoped_release released;
+                const std::int64_t done = self.run(n_moves, most_gains, deadline);
+                self.finish();
+                return done;
+            },
+            nb::arg("n_moves"), nb::arg("most_gains"), nb::arg("time_limit").none() = nb::none(),
+            moves_run_doc)
+        .def_prop_ro("n_gains", &RoutedMoves::n_gains, "How many moves have made the plan better.")
+        .def(
+            "tracks",
+            [](const RoutedMoves& self) {
+                Tracks all = self.tracks();
+                return std::tuple(to_numpy(std::move(all.first_visit)),
+                                  to_numpy(std::move(all.vertex)), to_numpy(std::move(all.enter)));
+            },
+            moves_tracks_doc)
+        .def(
+            "items", [](const RoutedMoves& self) { return list_moved(self, self.n_robots()); },
+            moves_items_doc);
 }
 
 void bind_tour_input(nb::module_& module) {
@@ -372,6 +495,7 @@ void bind_tours(nb::module_& module) {
                 return std::tuple(cost.n_missing, cost.unserved, cost.value, cost.flowtime);
             },
             tour_cost_doc);
+    bind_routed_moves(module);
 }
 
 }  // namespace rightofway::bind

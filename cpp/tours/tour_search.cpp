@@ -30,6 +30,9 @@ constexpr double impossible = 1e15;         // score of an insertion that does n
 constexpr std::size_t most_compared = 100;  // jobs of a portion of the first assignment
 constexpr std::int64_t settle_every = 100;
 constexpr std::uint32_t polls_per_step = 64;
+constexpr std::size_t most_moved = 3;      // jobs of a proposal that are chosen
+constexpr std::size_t most_proposals = 8;  // without a change or too dear, until none is made
+constexpr std::array skips_of_proposals{blinks, 0.15, 0.5};  // gaps skipped, for other places
 
 }  // namespace
 
@@ -90,6 +93,7 @@ void TourSearch::start(std::span<const std::int32_t> first, std::span<const std:
             }
         }
     }
+    trial_ = current_ = best_ = TourPlan(problem_, charges_);
     // The tour is a part of the given one, so each stop has the gap after those given before it.
     const auto insert = [&](std::int32_t job) {
         Insertion as_given;
@@ -179,6 +183,11 @@ void TourSearch::begin_cycle() {
         is_first ? std::max(first_cycle, steps_per_job * n_jobs) : cycle_growth * cycle_length_;
     hottest_ =
         (is_first ? warm : hot) * energy(best_cost_) / static_cast<double>(best_.n_served() + 1);
+    go_back_to_best();
+}
+
+void TourSearch::go_back_to_best() {
+    trial_.restore(current_);
     current_.copy_from(best_, since_best_);
     trial_.copy_from(best_, since_best_);
     current_cost_ = best_cost_;
@@ -243,7 +252,7 @@ void TourSearch::step() {
         choose_robots(jobs);
         insert_by_regret(std::move(jobs), robots_, regret_noise, nullptr);
     } else {
-        insert_greedily(std::move(jobs));
+        insert_greedily(std::move(jobs), blinks);
     }
     const TourCost cost = trial_.cost();
     const double gain = cost < current_cost_ ? 1 : 0;
@@ -274,6 +283,94 @@ void TourSearch::adopt(const TourCost& cost) {
             is_since_best_[index(robot)] = 0;
         }
     }
+}
+
+std::vector<RobotId> TourSearch::propose(std::int32_t focus, double warmth) {
+    if (focus != none) {
+        require_id("focus", focus, static_cast<std::int64_t>(problem_.n_jobs()));
+    }
+    go_back_to_best();
+    const double mean = energy(best_cost_) / static_cast<double>(best_.n_served() + 1);
+    for (std::size_t tries = 0; tries < most_proposals && problem_.n_jobs() > 0; ++tries) {
+        change_a_little(focus);
+        const TourCost cost = trial_.cost();
+        const double dice = -std::log(std::max(draw_share(), 1e-300));
+        const bool is_cheap = std::pair(cost.n_missing, cost.unserved) <
+                                  std::pair(best_cost_.n_missing, best_cost_.unserved) ||
+                              (std::pair(cost.n_missing, cost.unserved) ==
+                                   std::pair(best_cost_.n_missing, best_cost_.unserved) &&
+                               energy(cost) - energy(best_cost_) <= dice * warmth * mean);
+        std::vector<RobotId> moved = is_cheap ? list_moved() : std::vector<RobotId>{};
+        if (!moved.empty()) {
+            return moved;
+        }
+        trial_.restore(current_);
+    }
+    return {};
+}
+
+void TourSearch::take_proposed() {
+    trial_.commit(current_);
+    best_ = current_;
+    best_cost_ = current_cost_ = current_.cost();
+}
+
+void TourSearch::take(const TourPlan& plan) {
+    trial_ = current_ = best_ = plan;
+    best_cost_ = current_cost_ = current_.cost();
+}
+
+void TourSearch::change_a_little(std::int32_t focus) {
+    constexpr std::size_t tails_every = 6;
+    if (!problem_.has_after() && random_.below(tails_every) == 0) {
+        exchange_tails();
+        return;
+    }
+    std::vector<std::int32_t> jobs = choose_few(focus);
+    trial_.remove(jobs);
+    if (random_.below(2) == 0 || problem_.has_after()) {
+        jobs = gather_unserved();
+    } else {  // without those that were unserved before
+        jobs = list_unserved();
+        std::erase_if(jobs, [this, focus](std::int32_t job) {
+            return job != focus && !current_.serves(job);
+        });
+    }
+    insert_greedily(std::move(jobs), skips_of_proposals[random_.below(skips_of_proposals.size())]);
+}
+
+// Some jobs near each other, or of the kinds that steps remove.
+std::vector<std::int32_t> TourSearch::choose_few(std::int32_t focus) {
+    constexpr std::array kinds{RemovalKind::related, RemovalKind::random, RemovalKind::worst,
+                               RemovalKind::strings};
+    const std::size_t n = 1 + random_.below(most_moved);
+    std::vector<std::int32_t> jobs;
+    if (focus == none) {
+        jobs = removals_.choose(trial_, kinds[random_.below(kinds.size())], n, random_);
+        return jobs;
+    }
+    const auto near = removals_.near(focus);
+    jobs.push_back(focus);
+    while (jobs.size() < n && !near.empty()) {
+        jobs.push_back(near[random_.below(std::min(near.size(), n_near_tours))]);
+    }
+    std::sort(jobs.begin(), jobs.end());
+    jobs.erase(std::unique(jobs.begin(), jobs.end()), jobs.end());
+    std::erase_if(jobs, [this](std::int32_t job) { return !trial_.serves(job); });
+    return jobs;
+}
+
+std::vector<RobotId> TourSearch::list_moved() const {
+    std::vector<RobotId> moved;
+    for (const RobotId robot : trial_.changed()) {
+        const auto before = current_.tour(robot).stops();
+        const auto after = trial_.tour(robot).stops();
+        if (!std::equal(before.begin(), before.end(), after.begin(), after.end())) {
+            moved.push_back(robot);
+        }
+    }
+    std::sort(moved.begin(), moved.end());
+    return moved;
 }
 
 // Two tours exchange all stops after a job of one and before a job near it in the other, where no
@@ -429,7 +526,7 @@ void TourSearch::try_robot(std::int32_t job, RobotId robot, double skips, Insert
     }
 }
 
-void TourSearch::insert_greedily(std::vector<std::int32_t> jobs) {
+void TourSearch::insert_greedily(std::vector<std::int32_t> jobs, double skips) {
     sort_jobs(jobs);
     Insertion best;
     for (bool goes_on = true; goes_on && !jobs.empty();) {
@@ -442,7 +539,7 @@ void TourSearch::insert_greedily(std::vector<std::int32_t> jobs) {
             best.robot = nobody;
             choose_robots(std::span(&job, 1));
             for (const RobotId robot : robots_) {
-                try_robot(job, robot, blinks, best);
+                try_robot(job, robot, skips, best);
             }
             const bool is_inserted = best.exists() && trial_.insert(job, best);
             goes_on = goes_on || (is_inserted && problem_.has_after());

@@ -35,13 +35,23 @@ class TourSearch {
     // Borrows the problem.
     TourSearch(const TourProblem& problem, std::uint64_t seed);
 
-    // Inserts jobs with the order that their stops have in these tours, while they are feasible.
+    // Inserts jobs with the order that their stops have in these tours, while they are feasible; no
+    // others stay inserted.
     // Robot r has the stops first[r] .. first[r + 1] - 1.
     void start(std::span<const std::int32_t> first, std::span<const std::int32_t> stops);
     // Inserts jobs that no tour serves, by regret. False if time ran out.
     bool construct(const StopCondition& is_over);
     // Does steps of LNS; the number of those done.
     std::int64_t improve(std::int64_t n_steps, const StopCondition& is_over);
+
+    // Changes the best plan a little: few jobs, `focus` among them unless it is `none`, move within
+    // and between tours. The robots whose stops have changed, none if no change was found. A plan
+    // of more cost is proposed with a probability that grows with `warmth`, in mean costs of a job.
+    std::vector<RobotId> propose(std::int32_t focus, double warmth);
+    const TourPlan& proposed() const { return trial_; }
+    // Takes over the plan proposed, or another one, as the best one, whatever it costs.
+    void take_proposed();
+    void take(const TourPlan& plan);
 
     const TourProblem& problem() const { return problem_; }
     const TourPlan& best() const { return best_; }
@@ -57,7 +67,11 @@ class TourSearch {
 
     void step();
     void exchange_tails();
-    void insert_greedily(std::vector<std::int32_t> jobs);
+    void go_back_to_best();
+    void change_a_little(std::int32_t focus);
+    std::vector<std::int32_t> choose_few(std::int32_t focus);
+    std::vector<RobotId> list_moved() const;
+    void insert_greedily(std::vector<std::int32_t> jobs, double skips);
     bool insert_by_regret(std::vector<std::int32_t> jobs, std::span<const RobotId> robots,
                           double noise, Poll* poll);
     void sort_jobs(std::vector<std::int32_t>& jobs);

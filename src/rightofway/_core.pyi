@@ -1847,3 +1847,74 @@ class TourSearch:
         tuple of (int, int, int, int)
             Begun jobs without a tour, the weight of other unserved jobs, the objective, the flowtime.
         """
+
+class RoutedMoves:
+    """
+    Local search over tours and routes together: moves of few jobs, judged by planned cost.
+
+    The best tours of the search become those of the moves that are accepted.
+
+    Parameters
+    ----------
+    fleet : FleetSearch
+        All robots have tracks; its problem has times, but no arcs.
+    tours : TourSearch
+        Its best tours are those of the tracks.
+    vertex_of : int32[P]
+        Of each place.
+    turn_of : int64[R]
+        After a stop. [ticks]
+    stops : int32[S]
+        The stop of each stage of the problem; a charge or the last stage is -1.
+    ends, completions : int64[S], int64[R]
+        When the work of each stage ends, and when each robot completes. [ticks]
+    cost, late_cost : int64[J]
+        What a tick of the end of each job costs in searches, also after `due`; empty for objectives
+        without service.
+    seed : int
+        For all that is drawn.
+
+    Raises
+    ------
+    ValueError
+        If the arrays do not fit.
+    """
+
+    def __init__(self, fleet: FleetSearch, tours: TourSearch, vertex_of: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], turn_of: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], stops: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], ends: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], completions: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], cost: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], late_cost: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], seed: int) -> None: ...
+
+    def run(self, n_moves: int, most_gains: int, time_limit: float | None = None) -> int:
+        """
+        Try moves until the end of a cycle of annealing, and return how many.
+
+        Parameters
+        ----------
+        n_moves, most_gains : int
+            The most moves, and gains.
+        time_limit : float or None
+            When to stop; at once for 0 or less. [s]
+        """
+
+    @property
+    def n_gains(self) -> int:
+        """How many moves have made the plan better."""
+
+    def tracks(self) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+        """
+        Return the tracks of the best plan.
+
+        Returns
+        -------
+        tuple of (int32[R + 1], int32[N], int64[N])
+            Where the visits of each robot begin; their vertices; when they begin. [ticks]
+        """
+
+    def items(self) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int64], dict(shape=(None,))]]:
+        """
+        Return the items of the tours that have changed.
+
+        Returns
+        -------
+        tuple of (int32[n], int32[n + 1], int32[N], int32[N], int64[N])
+            The robots; where the items of each begin; the stop of each (-1: a charge), its vertex and its
+            ticks.
+        """

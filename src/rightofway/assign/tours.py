@@ -111,7 +111,7 @@ class AssignmentSearch:
         Charges are planned again. Call it before `construct`.
         """
         tours = [
-            [self._first[item.job] + item.stop - self._work.jobs[item.job].first
+            [self.find_number(item.job, item.stop)
              for item in tour if item.job is not None and item.stop is not None]
             for tour in assignment.tours
         ]  # fmt: skip
@@ -148,6 +148,19 @@ class AssignmentSearch:
         """
         *values, without = self._search.compare_robots(job).tolist()
         return [None if value == _core.NEVER else value for value in values], without
+
+    @property
+    def native(self) -> _core.TourSearch:
+        """The search in the native core, for other kernels."""
+        return self._search
+
+    def find_item(self, stop: int) -> tuple[int, int]:
+        """Return the job and the stop, among all its stops, of a stop in the native core."""
+        return self._items[stop]
+
+    def find_number(self, job: int, stop: int) -> int:
+        """Return the number of a stop in the native core."""
+        return self._first[job] + stop - self._work.jobs[job].first
 
     @property
     def cost(self) -> AssignmentCost:

@@ -141,11 +141,23 @@ def _scale_costs(
     slope = max(
         sum(cost + late for cost, late in exact[first:end]) for first, end in pairwise(first_stage)
     )
+    return scale_costs(exact, slope, work.late.denominator)
+
+
+def scale_costs(
+    costs: Sequence[tuple[Fraction | int, Fraction | int]], slope: Fraction | int, unit: int
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return what ticks of ends, and of ends after due times, cost in the keys of searches.
+
+    ``costs`` are pairs of both. ``slope``, the largest sum of costs of the stages of a robot,
+    becomes `LARGEST_SLOPE`. Costs stay exact if they are parts of a ``unit``, where the scale
+    allows it.
+    """
     scale = LARGEST_SLOPE / Fraction(slope)
-    if scale >= work.late.denominator:
-        scale -= scale % work.late.denominator  # all costs are whole numbers then
-    scaled = [[min(math.ceil(cost * scale), LARGEST_COST) for cost in pair] for pair in exact]
-    columns = np.array(scaled, np.int64).T
+    if scale >= unit:
+        scale -= scale % unit  # all costs are whole numbers then
+    scaled = [[min(math.ceil(cost * scale), LARGEST_COST) for cost in pair] for pair in costs]
+    columns = np.array(scaled, np.int64).reshape(-1, 2).T
     return np.ascontiguousarray(columns[0]), np.ascontiguousarray(columns[1])
 
 

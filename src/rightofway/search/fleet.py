@@ -83,6 +83,11 @@ class FleetSearch:
         )
         self._n_robots = len(problem.itineraries)
 
+    @property
+    def native(self) -> _core.FleetSearch:
+        """The search in the native core, for other kernels."""
+        return self._core
+
     def compute_alone(self) -> NDArray[np.int64]:
         """Return each robot's least completion without the others [ticks], -1 for no way."""
         alone = self._core.alone()

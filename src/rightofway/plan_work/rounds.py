@@ -1,12 +1,9 @@
-"""From jobs to a plan: who does which job, then routes; each learns from the other.
-
-    jobs → tours → routes → rights of way → timetable → plan → judge
-      ↑                                                          │
-      └──────────────────── delays of the legs ──────────────────┘
+"""Rounds of assigning and planning, and neighbourhoods of the best plan.
 
 Tours are made from the travel times of robots alone. Their plan shows how much later robots are on
 each leg, because they wait for others or drive around them. The next round adds these delays to the
-travel times and makes other tours. The best plan that the judge passes wins.
+travel times and makes other tours. From the best plan that the judge passes, jobs move between
+tours as long as the planned cost falls.
 
 A battery may last in a tour and not in its plan, because waiting drains it. Then the next round
 counts the whole delay of each leg, so that the tour charges for longer; at last the robot loses its
@@ -16,30 +13,35 @@ last job.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
-from fractions import Fraction
 from itertools import count
-from typing import NamedTuple
 
 import numpy as np
 
-from rightofway.assign import AssignmentSearch, measure_travel
+from rightofway.assign import AssignmentSearch, Travel, measure_travel
 from rightofway.check import Report
 from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.facts import Fact
-from rightofway.metrics import list_job_times
-from rightofway.model import Objective, Plan, Scenario, compute_cost
-from rightofway.model.work import Assignment, UnservedReason, Work
+from rightofway.model import Plan, Scenario
+from rightofway.model.work import Assignment, UnservedReason
+from rightofway.plan_work.cost import WorkCost, measure_work
+from rightofway.plan_work.neighbourhoods import Neighbourhoods
 from rightofway.search import Distances
 
 ROUNDS = 8
 """How many assignments are planned, at most."""
 
-STEPS_PER_JOB = 60
+STEPS_PER_JOB = 200
 """Steps of the search for tours in each round, for each job."""
 
+SHARE_OF_ROUNDS = 0.3
+"""The part of the time for all rounds; the neighbourhoods of the best plan have the rest."""
+
 SHARE_OF_TOURS, SHARE_OF_PLAN = 0.3, 0.5
-"""The parts of the time left that a round takes for tours, then for their plan."""
+"""The parts of the time left for rounds that a round takes for tours, then for their plan."""
+
+MOVES, MOVES_PER_JOB, PATIENCE, PATIENCE_PER_JOB = 2000, 500, 1000, 200
+"""Neighbours that are tried, and neighbours in a row without a gain; at least, and for each job."""
 
 MEMORY = 0.5
 """The part of the known delay of a leg that a round keeps, where its plan shows another one."""
@@ -49,55 +51,6 @@ PlanTours = Callable[[Assignment, Deadline, int], tuple[Plan, Report]]
 
 Raises `GaveUp` or `NoPlanExists` if it finds none.
 """
-
-
-class WorkCost(NamedTuple):
-    """The objective of a plan with jobs; compared from left to right.
-
-    Attributes
-    ----------
-    unserved
-        The sum of the weights of unserved jobs.
-    value
-        The objective of the work [ticks times weights].
-    cost
-        The flowtime with weights of robots and surcharges [ticks].
-    """
-
-    unserved: int
-    value: Fraction
-    cost: int
-
-
-def measure_work(plan: Plan) -> WorkCost:
-    """Return the objective of a plan with jobs and tours that keeps the rules."""
-    work = plan.scenario.problem.work
-    assert work is not None, "the scenario has jobs"
-    cost = compute_cost(plan.scenario, plan.tracks)
-    return WorkCost(
-        unserved=sum(work.jobs[job].weight for job, _ in plan.unserved),
-        value=_measure_value(plan, work),
-        cost=cost,
-    )
-
-
-def _measure_value(plan: Plan, work: Work) -> Fraction:
-    match work.objective:
-        case "service":
-            return sum(
-                (
-                    work.jobs[done.job].weight * (done.service_time + work.late * done.late)
-                    for done in list_job_times(plan)
-                ),
-                Fraction(0),
-            )
-        case "flowtime":
-            return Fraction(sum(plan.completions))
-        case "makespan":
-            return Fraction(max(plan.completions))
-        case "both":
-            weights = plan.scenario.problem.weights
-            return Fraction(Objective.BOTH.compute_values(weights, plan.completions)[0])
 
 
 def plan_work(
@@ -115,14 +68,15 @@ def plan_work(
     those before, `report` a fact on the progress after each round. If not even the begun jobs
     alone lead to a plan, the error of that assignment is raised.
     """
-    rounds = _Rounds(scenario, plan_tours, deadline, seed)
+    of_rounds = deadline.shorten(SHARE_OF_ROUNDS)
+    rounds = _Rounds(scenario, plan_tours, of_rounds, seed)
     for number in count(1):
         plan = rounds.run(number)
         if plan is not None:
             better(plan)
         report(Fact("round of jobs", number=number, unserved=rounds.count_unserved()))
-        if rounds.best is not None and (number >= ROUNDS or deadline.measure_seconds_left() == 0):
-            return rounds.best[1]
+        if rounds.best is not None and (number >= ROUNDS or of_rounds.measure_seconds_left() == 0):
+            return rounds.move_jobs(deadline, better)
     raise AssertionError("rounds end with a plan or an error")
 
 
@@ -186,11 +140,25 @@ class _Rounds:
         self.best = cost, plan
         return plan
 
+    def move_jobs(self, deadline: Deadline, better: Callable[[Plan], None]) -> Plan:
+        """Return the best plan after moves of jobs."""
+        assert self.best is not None, "rounds end with a plan"
+        travel = self._delay_travel()
+        search = AssignmentSearch(self._work, travel, weights=self._weights, seed=self._seed)
+        near = Neighbourhoods(self.best[1], search, travel, self._seed)
+        n_jobs = len(self._work.jobs)
+        near.run(
+            MOVES + MOVES_PER_JOB * n_jobs, PATIENCE + PATIENCE_PER_JOB * n_jobs, deadline, better
+        )
+        return near.plan
+
+    def _delay_travel(self) -> Travel:
+        return self._travel.delay(np.rint(self._delays).astype(np.int32))
+
     def _assign(self, number: int) -> Assignment:
         """Return tours for the travel times and delays that are known."""
-        travel = self._travel.delay(np.rint(self._delays).astype(np.int32))
         search = AssignmentSearch(
-            self._work, travel, weights=self._weights, seed=self._seed + number
+            self._work, self._delay_travel(), weights=self._weights, seed=self._seed + number
         )
         if self._start is not None:
             search.start(self._start)
