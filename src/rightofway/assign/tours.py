@@ -179,15 +179,11 @@ class AssignmentSearch:
             ),
         )
 
-    def find_ends(self) -> dict[int, Tick]:
-        """Return when each job of the best assignment ends, without other robots in the way."""
-        _, stops, _, begins, ticks = (array.tolist() for array in self._search.tours())
-        ends = dict[int, Tick]()
-        for stop, begin, duration in zip(stops, begins, ticks, strict=True):
-            if stop >= 0:
-                job = self._items[stop][0]
-                ends[job] = Tick(max(ends.get(job, 0), begin + duration))
-        return ends
+    def list_ends(self) -> list[tuple[Tick, ...]]:
+        """Return when the items of each best tour end, without other robots in the way [ticks]."""
+        first, _, _, begins, ticks = (array.tolist() for array in self._search.tours())
+        ends = [Tick(begin + duration) for begin, duration in zip(begins, ticks, strict=True)]
+        return [tuple(ends[a:b]) for a, b in pairwise(first)]
 
     def _list_tours(self) -> list[Tour]:
         first, stops, places, _, ticks = (array.tolist() for array in self._search.tours())

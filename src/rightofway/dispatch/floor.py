@@ -129,6 +129,11 @@ class FloorRobot:
         """Whether it has nothing to do and nowhere to go."""
         return len(self.visits) == 1 and self.n_begun == len(self.visits[0].steps)
 
+    @property
+    def n_steps_left(self) -> int:
+        """How many works and charges of its route have not begun."""
+        return sum(len(visit.steps) for visit in self.visits) - self.n_begun
+
     def estimate(self, now: int) -> int:
         """Return when all that has begun is expected to end: what is overdue lasts as long again.
 

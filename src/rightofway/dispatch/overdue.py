@@ -67,9 +67,10 @@ def assign_overdue(
         search.start(best)
         search.construct(deadline.measure_seconds_left())
         search.improve(STEPS * len(taken), deadline.measure_seconds_left())
-        best, end = search.assignment, search.find_ends().get(index)
-        if end is not None:
-            work = _limit_end(work, index, end)
+        best = search.assignment
+        for tour, ends in zip(best.tours, search.list_ends(), strict=True):
+            own = [end for item, end in zip(tour, ends, strict=True) if item.job == index]
+            work = _limit_end(work, index, own[-1]) if own else work
     return work, _add_others(best, old, taken)
 
 

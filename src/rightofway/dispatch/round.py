@@ -23,6 +23,7 @@ from fractions import Fraction
 from rightofway.assign import AssignmentSearch, measure_travel
 from rightofway.check import check
 from rightofway.deadline import Deadline
+from rightofway.dispatch.horizon import cut_tours
 from rightofway.dispatch.overdue import assign_overdue, has_choice
 from rightofway.dispatch.pool import PooledJob
 from rightofway.dispatch.view import (
@@ -45,10 +46,10 @@ from rightofway.model import (
     Scenario,
     Stop,
     Tick,
+    Tour,
     TourItem,
     Track,
     UnservedReason,
-    assign_tours,
 )
 from rightofway.model.passing import wait_before_chains
 from rightofway.model.work import PATIENCE
@@ -77,6 +78,12 @@ SEARCHES = 20
 SHARE_TO_JUDGE = 0.1
 """The part of the time that is left to judge a plan."""
 
+HORIZON_IN_LEADS = 4
+"""Routes end so many times later than the next takeover at least."""
+
+BEHIND_CUT = frozenset({"stop not done"})
+"""Faults of plans whose tours are cut."""
+
 UNLIMITED = 2**31 - 1
 
 
@@ -104,12 +111,19 @@ class RoundPlanner:
         The fleet, its roads and rules; its jobs are not looked at.
     planner
         The name of the planner where planning around old tracks fails.
+    stops_ahead
+        How many stops and charges of each tour a round makes routes for; None for all. Then
+        `Round.later` has what is left.
     """
 
-    def __init__(self, scenario: Scenario, planner: str = "auto") -> None:
+    def __init__(
+        self, scenario: Scenario, planner: str = "auto", stops_ahead: int | None = None
+    ) -> None:
         clock = scenario.problem.clock
         self._scenario = replace(scenario, jobs=(), clock=clock, tours=None)
         self._planner = planner
+        self._stops_ahead = stops_ahead
+        self._later: dict[int, tuple[tuple[str, int], ...]] = {}
         self._distances: Distances | None = None
 
     def plan(
@@ -214,39 +228,58 @@ class RoundPlanner:
     def _find_plan(self, given: _Given, view: FleetView, deadline: Deadline, seed: int) -> Plan:
         """Return a judged plan of the round, at first with the old tracks."""
         old = [view.robots[robot] for robot in given.able]
-        assignment = self._assign(given.scenario, old, given.overdue, deadline, seed)
-        toured = assign_tours(given.scenario, assignment.tours)
-        tracks = self._improve_old(toured, old, deadline, seed)
-        if tracks is not None:
-            driven = wait_before_chains(toured.problem, tracks)
+        assignment, ends = self._assign(given, old, deadline, seed)
+        lead = Tick(HORIZON_IN_LEADS * (view.takeover - view.now))
+        for n_stops in dict.fromkeys((self._stops_ahead, None)):
+            cut = cut_tours(given.scenario, assignment, ends, n_stops, lead)
+            tracks = self._improve_old(cut.toured, old, deadline, seed)
+            if tracks is None:
+                break
+            driven = wait_before_chains(cut.toured.problem, tracks)
             plan = Plan(
-                scenario=toured, tracks=driven, run=PlannerRun(), unserved=assignment.unserved
+                scenario=cut.toured, tracks=driven, run=PlannerRun(), unserved=assignment.unserved
             )
-            if check(plan).ok:
+            if (frozenset() if cut.is_whole else BEHIND_CUT).issuperset(check(plan).counts):
+                self._keep_later(given, cut.later)
                 return plan
         left = deadline.measure_seconds_left()
+        self._keep_later(given, ())
         return solve(given.scenario, self._planner, time_limit=left, seed=seed)
+
+    def _keep_later(self, given: _Given, later: Sequence[Tour]) -> None:
+        """Remember the steps behind the horizon: the next round starts from them."""
+        names = [job.name for job in given.scenario.jobs or ()]
+        self._later = {
+            robot: tuple(
+                (names[item.job], item.stop)
+                for item in tour
+                if item.job is not None and item.stop is not None
+            )
+            for robot, tour in zip(given.able, later, strict=False)
+            if tour
+        }
 
     def _assign(
         self,
-        scenario: Scenario,
+        given: _Given,
         old: Sequence[RobotView],
-        overdue: Sequence[int],
         deadline: Deadline,
         seed: int,
-    ) -> Assignment:
-        """Return tours that go on from the old ones."""
-        work = scenario.problem.work
+    ) -> tuple[Assignment, list[tuple[Tick, ...]]]:
+        """Return tours that go on from the old ones, and when their items end."""
+        scenario, work = given.scenario, given.scenario.problem.work
         assert work is not None, "the scenario has jobs"
         if self._distances is None or self._distances.roadmap is not scenario.roadmap:
             self._distances = Distances(scenario.roadmap)
         travel = measure_travel(scenario.problem, self._distances)
-        weights, old_tours = scenario.problem.weights, _make_old_assignment(scenario, old)
+        weights = scenario.problem.weights
+        later = [self._later.get(robot, ()) for robot in given.able]
+        old_tours = _make_old_assignment(scenario, old, later)
         hurried = deadline.shorten(SHARE_OF_TOURS)
-        if overdue:
+        if given.overdue:
             first = deadline.shorten(SHARE_OF_TOURS / 2)
             work, old_tours = assign_overdue(
-                work, travel, old_tours, overdue, weights=weights, deadline=first
+                work, travel, old_tours, given.overdue, weights=weights, deadline=first
             )
         search = AssignmentSearch(work, travel, weights=weights, seed=seed)
         search.start(old_tours)
@@ -255,7 +288,7 @@ class RoundPlanner:
             search.improve(STEPS_PER_JOB * len(work.jobs), hurried.measure_seconds_left())
         if search.cost.missing:
             raise GaveUp(Fact("begun jobs without a tour"))
-        return search.assignment
+        return search.assignment, search.list_ends()
 
     def _improve_old(
         self, toured: Scenario, old: Sequence[RobotView], deadline: Deadline, seed: int
@@ -302,6 +335,10 @@ class RoundPlanner:
             steps=tuple(steps.get(robot, ()) for robot in range(len(view.robots))),
             unserved=(*((names[job], reason) for job, reason in plan.unserved), *given.unserved),
             postponed=given.postponed,
+            later=tuple(
+                tuple(dict.fromkeys(name for name, _ in self._later.get(robot, ())))
+                for robot in range(len(view.robots))
+            ),
         )
 
     def _judge_whole(self, given: _Given, whole: Sequence[Track]) -> None:
@@ -462,17 +499,25 @@ def _keep_old(view: FleetView, error: Exception) -> Round:
     )
 
 
-def _make_old_assignment(scenario: Scenario, old: Sequence[RobotView]) -> Assignment:
+def _make_old_assignment(
+    scenario: Scenario, old: Sequence[RobotView], later: Sequence[Sequence[tuple[str, int]]]
+) -> Assignment:
     """Return the old tours, as far as their jobs are in the round."""
     index = {job.name: number for number, job in enumerate(scenario.jobs or ())}
-    tours = [
-        tuple(
-            TourItem(job=index[step.job], stop=step.stop, vertex=step.vertex, duration=Tick(0))
-            for step in own.steps
-            if step.job is not None and step.job in index
-        )
-        for own in old
-    ]
+    jobs = scenario.jobs or ()
+    tours = []
+    for own, more in zip(old, later, strict=True):
+        ahead = [(step.job, step.stop) for step in own.steps if step.job is not None]
+        tours.append(
+            tuple(
+                TourItem(
+                    job=index[job], stop=stop, vertex=jobs[index[job]].stops[stop].at,
+                    duration=Tick(0),
+                )
+                for job, stop in (*ahead, *more)
+                if job in index and stop is not None
+            )
+        )  # fmt: skip
     return Assignment(tours=tuple(tours))
 
 

@@ -19,6 +19,9 @@ from rightofway.precedence import DelayModel
 
 __all__ = ["ShiftRules", "run_shift"]
 
+STOPS_AHEAD = 2
+"""Stops of each tour that a round makes routes for."""
+
 RETRY = 16
 """Looks after which jobs without a tour are tried again, where nothing else has happened."""
 
@@ -102,7 +105,7 @@ class _Shift:
         model = delays or DelayModel.none(len(scenario.robots))
         draws = DelayDraws(model, rules.seed, rules.until or NEVER)
         self._floor, self._pool = SimulatedFloor(scenario, draws), Pool()
-        self._planner = RoundPlanner(scenario, rules.planner)
+        self._planner = RoundPlanner(scenario, rules.planner, STOPS_AHEAD)
         self._now = Tick(0)
         self._jobs: dict[str, JobRecord] = {}
         self._rounds: list[RoundRecord] = []
@@ -110,6 +113,7 @@ class _Shift:
         self._facts: list[tuple[Tick, Fact]] = []
         self._assigned = frozenset[str]()  # jobs in tours of the last round
         self._retry_at = 0  # when a round looks again at jobs without a tour
+        self._cut = set[int]()  # robots with more to do than their routes
         self._n_stood = 0  # rounds in a row after which the old plan stood
         self._is_due = True  # whether something has happened that a round should look at
         self._lost = set[int]()  # robots that do not go on
@@ -167,6 +171,7 @@ class _Shift:
         lost = {k for k, own in enumerate(self._floor.robots) if (own.lost or NEVER) <= self._now}
         self._is_due |= lost != self._lost
         self._lost = lost
+        self._is_due |= any(self._floor.robots[k].n_steps_left < STOPS_AHEAD for k in self._cut)
         for job in list(self._reveal.take(self._now)):
             self._jobs[job.name] = JobRecord(job=job, known=self._now)
             self._apply(PoolEvent(kind="job known", at=self._now, name=job.name, job=job))
@@ -237,9 +242,9 @@ class _Shift:
 
     def _note_unserved(self, planned: Round) -> None:
         """Note which jobs are in tours now, and why others are not."""
-        self._assigned = frozenset(
-            step.job for steps in planned.steps for step in steps if step.job is not None
-        )
+        ahead = {step.job for steps in planned.steps for step in steps if step.job is not None}
+        self._assigned = frozenset(ahead.union(*planned.later))
+        self._cut = {robot for robot, names in enumerate(planned.later) if names}
         for name, reason in planned.unserved:
             self._jobs[name].reason = reason
             if reason in FOR_GOOD:

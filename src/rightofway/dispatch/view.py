@@ -132,6 +132,9 @@ class Round:
         Names of the jobs that the round has tried and that no robot does in it, with reasons.
     postponed
         Names of the jobs that are left to later rounds.
+    later
+        For each robot the names of the jobs that it goes on with behind the end of its track: a
+        later round plans the routes, before the robot comes there. Empty: no robot does.
     stands
         Whether the old plan stands, because nothing better was found.
     facts
@@ -144,6 +147,7 @@ class Round:
     steps: tuple[tuple[PlannedStep, ...], ...]
     unserved: tuple[tuple[str, UnservedReason], ...] = ()
     postponed: tuple[str, ...] = ()
+    later: tuple[tuple[str, ...], ...] = ()
     stands: bool = False
     facts: tuple[Fact, ...] = ()
     seconds: float = 0.0
