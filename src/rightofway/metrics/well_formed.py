@@ -114,9 +114,11 @@ class _JobSearch:
         home, name = self.scenario.robots[robot].home, self._name(index)
         battery, bound = self.ways.get_battery(robot), self.work.robots[robot]
         legs = list(pairwise([home, *(stop.vertex for stop in job.stops), home]))
-        missing = self._find_missing_way(robot, legs)
+        stops, reach = [stop for _, stop in legs[:-1]], self.ways.find_reach(robot)
+        # Ways between stops need no search: one may lead by the robot's own home.
+        missing = next((stop for stop in stops if not reach[stop]), None)
         if missing is not None:
-            has_way = all(self.ways.has_way(robot, *leg, avoids_homes=False) for leg in legs)
+            has_way = bool(self.ways.find_reach(robot, avoids_homes=False)[stops].all())
             kind = "job through homes" if has_way else "job without way"
             fact = self._state(kind, job=name, robot=robot, place=missing)
             return int(has_way), fact, Fact("move the homes" if has_way else "add a way for it")
@@ -132,24 +134,6 @@ class _JobSearch:
             fact = self._state("home does not charge", job=name, robot=robot, place=home)
             return 2, fact, Fact("charge at home")
         return None
-
-    def _find_missing_way(
-        self, robot: int, legs: Sequence[tuple[VertexId, VertexId]]
-    ) -> VertexId | None:
-        """Return the first stop that a robot cannot reach from home, or return from; or None.
-
-        Ways between stops need no search: one may lead by the robot's own home.
-        """
-        home = legs[0][0]
-        return next(
-            (
-                stop
-                for _, stop in legs[:-1]
-                if not self.ways.has_way(robot, stop, home)
-                or not self.ways.has_way(robot, home, stop)
-            ),
-            None,
-        )
 
     def _add_energies(
         self,

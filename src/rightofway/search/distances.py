@@ -132,12 +132,7 @@ class Distances:
         return self._kernel.energies_of_quickest_ways(table, ticks, by_edge, most)
 
     def find_least_energies(
-        self,
-        targets: Iterable[VertexId],
-        energies: tuple[int, ...],
-        most: int,
-        *,
-        open_edges: NDArray[np.bool_] | None = None,
+        self, targets: Iterable[VertexId], energies: tuple[int, ...], most: int
     ) -> NDArray[np.int64]:
         """Return the least energy from every vertex to one of the targets.
 
@@ -149,8 +144,6 @@ class Distances:
             Energy of an edge of each class, -1 for one that is barred.
         most
             What is returned where the way takes more, or none exists.
-        open_edges
-            Whether each edge may be driven; bool, shape (E,). None for all.
 
         Returns
         -------
@@ -158,8 +151,6 @@ class Distances:
             Energies.
         """
         by_edge = np.array(energies, np.int64)[self.roadmap.class_of_edge]
-        if open_edges is not None:
-            by_edge[~open_edges] = -1
         return self._kernel.least_energies(np.fromiter(targets, np.int32), by_edge, most)
 
     def is_symmetric(self, edge_ticks: tuple[Tick, ...]) -> bool:

@@ -7,11 +7,11 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway import _core
 from rightofway.model import Scenario
 from rightofway.model.units import NEVER
 from rightofway.model.work import BoundBattery
 from rightofway.native import list_excluded
-from rightofway.search.distances import Distances
 from rightofway.site import VertexId
 
 MOST_TABLES = 4096
@@ -33,7 +33,6 @@ class LoneWays:
 
     def __init__(self, scenario: Scenario) -> None:
         self.scenario = scenario
-        self._distances = Distances(scenario.roadmap)
         self._resources = scenario.problem.resources
         self._rows = [
             list_excluded(self._resources, self._resources.get_vertex_row(index, robot.home))
@@ -45,7 +44,17 @@ class LoneWays:
         closures = scenario.problem.closures
         if closures is not None:
             self._closed[closures.row[closures.end >= NEVER]] = True
-        self._measure = lru_cache(maxsize=MOST_TABLES)(self._measure_ways)
+        roadmap = scenario.roadmap
+        self._tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
+        # The edges by their heads: a search along them leads against the edges of the roadmap.
+        self._by_head = np.argsort(roadmap.heads, kind="stable")
+        counts = np.bincount(roadmap.heads, minlength=roadmap.n_vertices)
+        starts = np.concatenate(([0], np.cumsum(counts))).astype(np.int32)
+        tails = self._tails[self._by_head].astype(np.int32)
+        self._along = _core.DistanceTables(roadmap.indptr, roadmap.heads)
+        self._against = _core.DistanceTables(starts, tails)
+        self.find_reach = lru_cache(maxsize=MOST_TABLES)(self._find_reach)
+        self._measure = lru_cache(maxsize=MOST_TABLES)(self._measure_energies)
 
     def get_battery(self, robot: int) -> BoundBattery | None:
         """Return the battery of a robot, or None for no limit."""
@@ -53,43 +62,46 @@ class LoneWays:
         assert work is not None, "the scenario has jobs"
         return work.robots[robot].battery
 
-    def has_way(
-        self, robot: int, tail: VertexId, head: VertexId, *, avoids_homes: bool = True
-    ) -> bool:
-        """Return whether a robot has a way, which may avoid the homes of others."""
-        table = self._measure(robot, head, avoids_homes=avoids_homes, has_battery=False)
-        return bool(table[tail] == 0)
+    def _find_reach(self, robot: int, *, avoids_homes: bool = True) -> NDArray[np.bool_]:
+        """Return where a robot can drive to from home, and back; bool, shape (V,).
+
+        The ways may avoid the homes of others.
+        """
+        home = np.array([self.scenario.robots[robot].home], np.int32)
+        energy = np.where(self._find_open_edges(robot, avoids_homes=avoids_homes), 0, -1)
+        energy = energy.astype(np.int64)
+        back = self._along.least_energies(home, energy, 1)
+        there = self._against.least_energies(home, energy[self._by_head], 1)
+        reach: NDArray[np.bool_] = (back == 0) & (there == 0)
+        return reach
 
     def compute_energy(self, robot: int, tail: VertexId, head: VertexId) -> int:
         """Return the least energy of a drive, with `on`; more than a full battery is full + 1.
 
-        The robot has a battery, and turns between edges take nothing.
+        The robot has a battery, avoids the homes of others, and turns between edges take nothing.
         """
-        return int(self._measure(robot, head, avoids_homes=True, has_battery=True)[tail])
+        return int(self._measure(robot, head)[tail])
 
-    def _measure_ways(
-        self, robot: int, target: VertexId, *, avoids_homes: bool, has_battery: bool
-    ) -> NDArray[np.int64]:
-        """Return the least energy from each vertex to a target; int64, shape (V,).
-
-        Without a battery a way takes 0, and it is 1 where there is none.
-        """
-        roadmap, battery = self.scenario.roadmap, self.get_battery(robot) if has_battery else None
+    def _measure_energies(self, robot: int, target: VertexId) -> NDArray[np.int64]:
+        """Return the least energy of a robot from each vertex to a target; int64, shape (V,)."""
+        battery = self.get_battery(robot)
+        assert battery is not None, "the robot has a battery"
+        most = battery.full + 1
         ticks = self.scenario.problem.itineraries[robot].edge_ticks
-        most, drive, on = 1, [0] * len(ticks), 0
-        if battery is not None:
-            most, drive, on = battery.full + 1, [*battery.drive], battery.on
-        free = self._find_free(robot, avoids_homes=avoids_homes)
-        tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
-        return self._distances.find_least_energies(
-            [target],
-            tuple(
-                -1 if own < 0 else min(energy + on * own, most)
-                for own, energy in zip(ticks, drive, strict=True)
-            ),
-            most,
-            open_edges=free[roadmap.n_vertices :] & free[tails] & free[roadmap.heads],
-        )
+        by_class = [
+            min(energy + battery.on * own, most)
+            for own, energy in zip(ticks, battery.drive, strict=True)
+        ]
+        energy = np.array(by_class, np.int64)[self.scenario.roadmap.class_of_edge]
+        energy[~self._find_open_edges(robot, avoids_homes=True)] = -1
+        return self._along.least_energies(np.array([target], np.int32), energy, most)
+
+    def _find_open_edges(self, robot: int, *, avoids_homes: bool) -> NDArray[np.bool_]:
+        """Return which edges a robot may drive along; bool, shape (E,)."""
+        roadmap, free = self.scenario.roadmap, self._find_free(robot, avoids_homes=avoids_homes)
+        ticks = np.array(self.scenario.problem.itineraries[robot].edge_ticks)
+        is_open: NDArray[np.bool_] = ticks[roadmap.class_of_edge] >= 0
+        return is_open & free[roadmap.n_vertices :] & free[self._tails] & free[roadmap.heads]
 
     def _find_free(self, robot: int, *, avoids_homes: bool) -> NDArray[np.bool_]:
         """Return where a robot may be: vertices, then edges."""
