@@ -491,3 +491,36 @@ def test_a_workbook_of_a_floor_says_that_names_of_obstacles_are_left_out(cli: Cl
     assert ended.code == 0
     assert "floor.xlsx: the names of obstacles are left out" in ended.err
     assert "names of obstacles" not in cli("convert", "floor.yaml", "-o", "floor.json").err
+
+
+def test_the_jobs_of_a_file_are_planned(cli: Cli) -> None:
+    site = "format: rightofway-scenario/1\nmap: {grid: [...]}\nrobots: [{name: R1, home: N0}]\n"
+    Path("site.yaml").write_text(site, encoding="utf-8")
+    orders = '{"T1": {"destinations": [{"locationName": "N2", "operation": "NOP"}]}}'
+    Path("orders.json").write_text(orders, encoding="utf-8")
+    ended = cli("plan", "site.yaml", "--jobs", "orders.json", "-o", "plan.json")
+    assert (ended.code, ended.err) == (0, "wrote plan.json\n")
+    assert "1 of 1 done" in ended.out
+    assert cli("check", "plan.json").code == 0
+    wrong = cli("plan", "site.yaml", "--jobs", "nothing.csv")
+    assert wrong.code == 2
+    assert "nothing.csv: there is no such file (check the path)" in wrong.err
+
+
+def test_stops_that_the_league_does_not_count_are_counted_when_a_plan_is_written_for_it(
+    cli: Cli,
+) -> None:
+    """Both jobs are at N2, where the robot stays for an instant only; a step counts one errand."""
+    site = (
+        "format: rightofway-scenario/1\nmap: {grid: [....]}\n"
+        "robots: [{name: R1, home: N0, start: {at: N0, heading: 0}}]\n"
+        "jobs: [{name: J1, at: N2}, {name: J2, at: N2, after: [J1]}, {name: J3, at: N3}]\n"
+        "rules: {turn: 0, turn_rate: 90, return: none}\n"
+    )
+    Path("site.yaml").write_text(site, encoding="utf-8")
+    assert cli("plan", "site.yaml", "-o", "plan.json").code == 0
+    ended = cli("convert", "plan.json", "--to", "planviz", "-o", "result.json")
+    assert ended.code == 0
+    words = "stops that are not finished there: 2, because the League counts one errand of an"
+    assert words in ended.err
+    assert "work, turning and ways back are left out" not in ended.err

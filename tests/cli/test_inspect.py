@@ -189,3 +189,41 @@ def test_outputs_that_do_not_fit_are_refused(cli: Cli, options: list[str], messa
     ended = cli("inspect", LAYOUTS / "plant.xml", *options)
     assert ended.code == 2
     assert message in ended.err
+
+
+SITE = """format: rightofway-scenario/1
+map: {grid: [".....", "@@.@@"]}
+robots:
+- {name: R1, home: N0}
+- {name: R2, home: N2}
+"""
+
+
+def test_jobs_of_a_file_are_inspected(cli: Cli) -> None:
+    """R1 does not pass R2, which stays at home in the middle of the row."""
+    Path("site.yaml").write_text(SITE, encoding="utf-8")
+    Path("jobs.csv").write_text("name,at,robot\nJ1,N4,R1\nJ2,N1,R1\n", encoding="utf-8")
+    ended = cli("inspect", "site.yaml", "--jobs", "jobs.csv")
+    words = " ".join(ended.out.split())
+    assert "R1 has a way to N4 (stop of J1) for J1 and back home only through homes" in words
+    assert "for J2" not in words
+    data = json.loads(cli("inspect", "site.yaml", "--jobs", "jobs.csv", "--json").out)
+    (level,) = data["levels"]
+    assert level["well_formed"] is False
+    (finding,) = [each for each in level["findings"] if each["kind"] == "job"]
+    values = {"job": "J1", "robot": "R1", "place": "N4"}
+    assert finding["fact"] == {"kind": "job through homes", "values": values}
+    Path("near.csv").write_text("name,at\nJ1,N1\n", encoding="utf-8")
+    assert "The fleet is well formed" in cli("inspect", "site.yaml", "--jobs", "near.csv").out
+
+
+def test_jobs_are_inspected_on_a_layout_with_the_robots_of_a_file(cli: Cli) -> None:
+    fleet = "robots:\n- {name: R1, home: P1}\njobs:\n- {name: J1, at: A, robot: R1}\n"
+    Path("fleet.yaml").write_text(fleet, encoding="utf-8")
+    Path("jobs.json").write_text('[{"name": "J2", "at": "A", "load": 2}]', encoding="utf-8")
+    layout = LAYOUTS / "hall.lif.json"
+    assert cli("inspect", layout, "--robots", "fleet.yaml").code == 0
+    wrong = cli("inspect", layout, "--robots", "fleet.yaml", "--jobs", "jobs.json")
+    assert "jobs.json" in wrong.err
+    alone = cli("inspect", layout, "--jobs", "jobs.json")
+    assert "jobs: has no robots to do them (give --robots, too)" in alone.err

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from rightofway.cli.completion import SCENARIOS, complete_files
+from rightofway.cli.inputs import jobs_option
 from rightofway.cli.options import Whole, as_json_option, require_writable
 from rightofway.cli.outputs import PAGE_SUFFIXES, put_text, refuse_outputs
 from rightofway.cli.terminal import (
@@ -48,6 +49,7 @@ Examples:
     shell_complete=complete_files(".yaml", ".yml", ".json", ".csv"),
     help="Judge the robots of this file: a scenario, a list of robots, or a CSV.",
 )
+@jobs_option
 @click.option("--level", metavar="NAME", help="Inspect only this level of a layout.")
 @click.option("--vehicle-type", metavar="NAME", help="Inspect the lanes of this vehicle type.")
 @click.option(
@@ -73,6 +75,7 @@ def inspect(
     *,
     source: str,
     fleet: str | None,
+    jobs: str | None,
     level: str | None,
     vehicle_type: str | None,
     cell_size: Fraction | None,
@@ -86,7 +89,8 @@ def inspect(
     FILE is a layout of another program in any format that is known, a map or a scenario. Each
     finding has a place and a remedy: places that cannot be reached or left, vertices and lanes that
     are too near for the robots, lanes that cross without a vertex, places on the only way to
-    others, corridors without a passing place, and bottlenecks. Nothing is planned.
+    others, corridors without a passing place, bottlenecks, and jobs that no robot can do alone.
+    Nothing is planned.
     """
     from rightofway.io.sites import Choice, read_sites
     from rightofway.metrics import inspect as inspected
@@ -94,7 +98,7 @@ def inspect(
 
     refuse_outputs(source, output, as_json=as_json)
     choice = Choice(level=level, vehicle_type=vehicle_type, cell_size=cell_size)
-    sites = read_sites(source, choice, fleet)
+    sites = read_sites(source, choice, fleet, jobs)
     results = [(name, site, inspected(site)) for name, site in sites.sites]
     data = _make_data(source, sites, results)
     if page is not None:

@@ -64,8 +64,13 @@ class Choice:
         return {key: value for key, value in level_of.items() if value is not None}
 
 
-def read_sites(path: Path | str, choice: Choice, robots: Path | str | None = None) -> Sites:
-    """Return the sites of a layout, a map or a scenario.
+def read_sites(
+    path: Path | str,
+    choice: Choice,
+    robots: Path | str | None = None,
+    jobs: Path | str | None = None,
+) -> Sites:
+    """Return the sites of a layout, a map or a scenario, with the jobs of a file if one is given.
 
     Raises
     ------
@@ -77,8 +82,10 @@ def read_sites(path: Path | str, choice: Choice, robots: Path | str | None = Non
         if given := choice.list_keys():
             message = f"{next(iter(given))} is for layouts, and this is none (leave it out)"
             raise InputError.at("", message, str(path))
-        return _read_scenario_site(path, robots)
+        return _read_scenario_site(path, robots, jobs)
     layout = read_layout(path)
+    if robots is None and jobs is not None:
+        raise InputError.at("jobs", "has no robots to do them (give --robots, too)", str(path))
     if robots is not None:
         keys = choice.list_keys()
         if isinstance(layout, Layout):
@@ -86,7 +93,8 @@ def read_sites(path: Path | str, choice: Choice, robots: Path | str | None = Non
             keys["spacing"] = "whole"  # what is drawn is inspected, not pieces of it
             if choice.vehicle_type is None and (name := _find_usual_type(level)):
                 keys["vehicle_type"] = name
-        loaded = _add_fleet({"layout": str(path.resolve()), **keys}, Path(), Path(robots))
+        drawn = {"layout": str(path.resolve()), **keys}
+        loaded = _add_fleet(drawn, Path(), Path(robots), jobs)
         return Sites(description=describe_layout(layout), notes=loaded.notes, sites=loaded.sites)
     if isinstance(layout, Layout):
         return _read_layout(path, layout, choice)
@@ -160,9 +168,9 @@ def _read_cells(path: Path, cells: Any, choice: Choice) -> Sites:
     return Sites(description=describe_layout(cells), notes=loaded.notes, sites=(("", site),))
 
 
-def _read_scenario_site(path: Path, robots: Path | str | None) -> Sites:
+def _read_scenario_site(path: Path, robots: Path | str | None, jobs: Path | str | None) -> Sites:
     if robots is None:
-        loaded = load_with_notes(path)
+        loaded = load_with_notes(path, jobs=jobs)
         return make_sites(loaded.scenario, loaded.notes)
     if path.suffix.lower() in {".xlsx", ".xlsm", ".scen"}:
         message = (
@@ -173,15 +181,20 @@ def _read_scenario_site(path: Path, robots: Path | str | None) -> Sites:
         drawn = document.get("map") if isinstance(document, dict) else None
         if drawn is None:
             raise InputError.at("", "this is neither a layout nor a scenario with a map")
-    return _add_fleet(drawn, path.parent, Path(robots))
+    return _add_fleet(drawn, path.parent, Path(robots), jobs)
 
 
-def _add_fleet(drawn: Any, base: Path, robots: Path) -> Sites:
+OF_FLEET = ("homes", "robots", "rules", "units", "jobs", "batteries", "charging", "closures")
+"""The keys of a scenario that are about its fleet."""
+
+
+def _add_fleet(drawn: Any, base: Path, robots: Path, jobs: Path | str | None) -> Sites:
     """Return the site of a map document with the fleet of another file."""
     document: dict[str, Any] = {"format": SCENARIO_FORMAT, "map": drawn}
+    of_jobs = {} if jobs is None else {"jobs": {"table": str(Path(jobs).resolve())}}
     if robots.suffix.lower() == ".csv":
         document["robots"] = {"table": str(robots.resolve())}
-        loaded = read_scenario(document, base)
+        loaded = read_scenario({**document, **of_jobs}, base)
         return make_sites(loaded.scenario, loaded.notes)
     with open_document(robots, read_text(robots)) as robots_document:
         fleet = (
@@ -189,8 +202,8 @@ def _add_fleet(drawn: Any, base: Path, robots: Path) -> Sites:
         )
         if not isinstance(fleet, dict) or "robots" not in fleet:
             raise InputError.at("", "no robots are in it (give robots: [{name: R1, home: …}, …])")
-        parts = {key: fleet[key] for key in ("homes", "robots", "rules", "units") if key in fleet}
-        loaded = read_scenario({**document, **parts}, base)
+        parts = {key: fleet[key] for key in OF_FLEET if key in fleet}
+        loaded = read_scenario({**document, **parts, **of_jobs}, base)
     return make_sites(loaded.scenario, loaded.notes)
 
 
