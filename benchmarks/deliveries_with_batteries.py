@@ -168,7 +168,7 @@ def main() -> None:
     here = measure_cost(solve(make_scenario(), time_limit=given.seconds))
     rows = [
         ("assigned in sequence, without paths", f"{find_least_cost():,} s"),
-        ("here, with paths", f"{here:,} s"),
+        ("here, with paths", f"{float(here):,.0f} s"),
     ]
     sys.stdout.write(table(["deliveries", "sum of finish - earliest start"], rows))
 

@@ -87,17 +87,23 @@ class Travel:
         """Return the place at which a robot starts."""
         return len(self.vertices) - len(self.kind_of) + robot
 
-    def delay(self, delays: NDArray[np.int32]) -> Travel:
-        """Return the same travel, with later arrivals.
+    def delay(self, delays: NDArray[np.int32], drains: Sequence[NDArray[np.int64]]) -> Travel:
+        """Return the same travel, with later arrivals and drives that take more charge.
 
         Parameters
         ----------
         delays
             Ticks that are added to those of ``ticks``; int32, shape (K, P, P). Entries without a
             way stay so.
+        drains
+            For each kind of battery, what is added to `BatteryKind.drives`.
         """
         later = np.where(self.ticks < 0, self.ticks, self.ticks + delays)
-        return replace(self, ticks=later.astype(np.int32))
+        batteries = tuple(
+            replace(kind, drives=kind.drives + more)
+            for kind, more in zip(self.batteries, drains, strict=True)
+        )
+        return replace(self, ticks=later.astype(np.int32), batteries=batteries)
 
 
 def measure_travel(problem: Problem, distances: Distances) -> Travel:

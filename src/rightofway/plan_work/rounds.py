@@ -98,6 +98,7 @@ class _Rounds:
         self._plan_tours, self._deadline, self._seed = plan_tours, deadline, seed
         self._travel = measure_travel(scenario.problem, Distances(scenario.roadmap))
         self._delays = np.zeros(self._travel.ticks.shape)
+        self._drains = [np.zeros_like(kind.drives) for kind in self._travel.batteries]
         self._start: Assignment | None = None  # from which the next search for tours starts
         self._fewer: Assignment | None = None  # the next assignment, after one without a plan
         self._n_refused = 0  # plans that the judge has refused since the last good one
@@ -153,7 +154,7 @@ class _Rounds:
         return near.plan
 
     def _delay_travel(self) -> Travel:
-        return self._travel.delay(np.rint(self._delays).astype(np.int32))
+        return self._travel.delay(np.rint(self._delays).astype(np.int32), self._drains)
 
     def _assign(self, number: int) -> Assignment:
         """Return tours for the travel times and delays that are known."""
@@ -175,6 +176,8 @@ class _Rounds:
 
         ``whole``: keep nothing of what was known, and no delay becomes less.
         """
+        if whole:
+            self._learn_drains(plan, assignment)
         seen: dict[tuple[int, int, int], list[int]] = {}
         for leg, ticks in self._list_delays(plan, assignment):
             seen.setdefault(leg, []).append(ticks)
@@ -184,6 +187,30 @@ class _Rounds:
             else:
                 mean = sum(delays) / len(delays)
                 self._delays[leg] = MEMORY * self._delays[leg] + (1 - MEMORY) * mean
+
+    def _learn_drains(self, plan: Plan, assignment: Assignment) -> None:
+        """Count the charge that legs took with their detours."""
+        travel, edge_class = self._travel, plan.scenario.roadmap.class_of_edge
+        for robot, tour in enumerate(plan.tours or ()):
+            battery = self._work.robots[robot].battery
+            if battery is None:
+                continue
+            kind, at, visit = travel.battery_of[robot], travel.get_start(robot), 0
+            scale = travel.batteries[kind].battery.full // battery.full
+            vertices = plan.tracks[robot].vertices
+            edges = plan.scenario.roadmap.find_edges(vertices[:-1], vertices[1:])
+            drains = np.array(battery.drive, np.int64)[edge_class[edges]] * scale
+            ends = [
+                (item.visit, travel.place_of[wanted.vertex])
+                for item, wanted in zip(tour, assignment.tours[robot], strict=False)
+            ]
+            home = self._work.robots[robot].home
+            if home is not None:
+                ends.append((len(vertices) - 1, travel.place_of[home]))
+            for end, to in ends:
+                more = int(drains[visit:end].sum()) - int(travel.batteries[kind].drives[at, to])
+                self._drains[kind][at, to] = max(self._drains[kind][at, to], more)
+                at, visit = to, end
 
     def _list_delays(
         self, plan: Plan, assignment: Assignment
