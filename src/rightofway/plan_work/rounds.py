@@ -13,6 +13,7 @@ last job.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
+from dataclasses import replace
 from itertools import count
 
 import numpy as np
@@ -22,8 +23,8 @@ from rightofway.check import Report
 from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.facts import Fact
-from rightofway.model import Plan, Scenario
-from rightofway.model.work import Assignment, UnservedReason
+from rightofway.model import Plan, Scenario, Tick
+from rightofway.model.work import Assignment, TourItem, UnservedReason
 from rightofway.plan_work.cost import WorkCost, measure_work
 from rightofway.plan_work.neighbourhoods import Neighbourhoods
 from rightofway.search import Distances
@@ -130,9 +131,9 @@ class _Rounds:
         if not judged.ok:
             self._n_refused += 1
             if self._n_refused > 1:  # the delays that were seen did not help
-                self._fewer = self._drop_last_jobs(assignment, judged)
+                self._fewer = self._relieve(assignment, judged)
                 if self._fewer is None and self.best is None:
-                    raise GaveUp(Fact("plan with faults", faults=judged.total))
+                    raise GaveUp(Fact("batteries do not last"))
             return None
         self._start, self._n_refused = assignment, 0
         cost = measure_work(plan)
@@ -241,14 +242,41 @@ class _Rounds:
         )
         return self._drop_jobs(assignment, free[: -(-len(free) // 2)]) if free else None
 
-    def _drop_last_jobs(self, assignment: Assignment, judged: Report) -> Assignment | None:
-        """Return an assignment in which robots with faults lose their last job; None if none do."""
-        last = dict[int, int]()
+    def _relieve(self, assignment: Assignment, judged: Report) -> Assignment | None:
+        """Return an assignment in which robots with faults need less charge; None if none is left.
+
+        They lose their last job, or charge if they have none. Where neither is possible, others
+        have fewer jobs, so that robots need not make room for them.
+        """
+        last, charges = dict[int, int](), dict[int, TourItem]()
         for robot in {robot for fault in judged.faults for robot in fault.robots}:
             for item in assignment.tours[robot]:
                 if item.job is not None and self._work.jobs[item.job].begun_by is None:
                     last[robot] = item.job
-        return self._drop_jobs(assignment, last.values()) if last else None
+            charge = None if assignment.tours[robot] else self._make_charge(robot)
+            if charge is not None:
+                charges[robot] = charge
+        if not last and not charges:
+            return self._keep_half(assignment)
+        tours = tuple(
+            (charges[robot],) if robot in charges else tour
+            for robot, tour in enumerate(assignment.tours)
+        )
+        return self._drop_jobs(replace(assignment, tours=tours), last.values())
+
+    def _make_charge(self, robot: int) -> TourItem | None:
+        """Return a full charge of a robot, at the place that it reaches first; None without one."""
+        travel, own = self._travel, self._work.robots[robot]
+        if own.battery is None or not own.battery.charge:
+            return None
+        start, ticks = travel.get_start(robot), travel.ticks[travel.kind_of[robot]]
+        places = [travel.place_of[vertex] for vertex in own.charging]
+        reached = [place for place in places if ticks[start, place] >= 0]
+        if not reached:
+            return None
+        nearest = min(reached, key=lambda place: (int(ticks[start, place]), place))
+        lasts = -(-(own.battery.full - own.battery.soc) // own.battery.charge)
+        return TourItem(job=None, stop=None, vertex=travel.vertices[nearest], duration=Tick(lasts))
 
     def _drop_jobs(self, assignment: Assignment, jobs: Collection[int]) -> Assignment:
         """Return an assignment without some jobs, and without those after them."""
