@@ -100,7 +100,7 @@ def test_delays_of_legs_change_the_assignment() -> None:
     for slow in (0, 1):
         delays = np.zeros_like(travel.ticks)
         delays[slow] = 99
-        late = find(work, travel.delay(delays), [1, 1])
+        late = find(work, travel.delay(delays, []), [1, 1])
         assert not late.assignment.tours[slow]
 
 

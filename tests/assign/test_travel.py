@@ -89,7 +89,8 @@ def test_robots_with_other_states_of_charge_share_a_kind_of_battery() -> None:
 
 def test_delays_are_added_where_a_way_is() -> None:
     travel = measure(make_work())
-    later = travel.delay(np.full_like(travel.ticks, 3))
+    drains = [np.full_like(kind.drives, 2) for kind in travel.batteries]
+    later = travel.delay(np.full_like(travel.ticks, 3), drains)
     assert find_ticks(later, 2, 8) == 9
 
 
