@@ -39,7 +39,7 @@ class BatteryKind:
         Indices of the places at which it may be charged.
     drives
         The charge that drives between places take on the quickest way, without `on`; int64, shape
-        (P, P).
+        (P, P). More than full where there is no way, and to starts.
     to_charging
         The least that is needed from each place to a charging place, with `on`; int64, shape (P,).
         More than full where there is no way.
@@ -213,10 +213,9 @@ def _measure_battery(
     assert robot.battery is not None, "the robot has a battery"
     battery = scale_battery(robot.battery, full)
     at, most = np.array(travel.vertices, np.int32), full + 1
-    by_target = {
-        vertex: distances.measure_energies(vertex, edge_ticks, battery.drive, most)[at]
-        for vertex in set(travel.vertices)
-    }
+    drives = np.full((len(at), len(at)), most, np.int64)  # nobody drives to a start
+    for vertex, place in travel.place_of.items():
+        drives[:, place] = distances.measure_energies(vertex, edge_ticks, battery.drive, most)[at]
     moving = tuple(
         -1 if ticks < 0 else min(drive + battery.on * ticks, most)
         for drive, ticks in zip(battery.drive, edge_ticks, strict=True)
@@ -224,7 +223,7 @@ def _measure_battery(
     return BatteryKind(
         battery=battery,
         charging=tuple(travel.place_of[vertex] for vertex in robot.charging),
-        drives=np.stack([by_target[vertex] for vertex in travel.vertices], axis=1),
+        drives=drives,
         to_charging=distances.find_least_energies(robot.charging, moving, most)[at],
     )
 

@@ -23,6 +23,9 @@ Path = tuple[VertexId, ...]
 MOST_ENTRIES = 2**27
 """Entries of all tables that are kept: half a gigabyte."""
 
+MOST_ENERGIES = 2**25
+"""Entries of all tables of energies that are kept: a quarter of a gigabyte."""
+
 ENTRIES_OF_PATHS = 32
 """Entries for each vertex of a search for single paths, with its graph and its landmarks."""
 
@@ -49,6 +52,7 @@ class Distances:
         self._lock = Lock()
         self._edges: dict[tuple[Tick, ...], NDArray[np.int32]] = {}
         self._symmetric: dict[tuple[Tick, ...], bool] = {}
+        self._energies: dict[object, NDArray[np.int64]] = {}
         self._paths: dict[tuple[int, ...], _core.ShortestPaths] = {}
 
     @cached_property
@@ -127,9 +131,16 @@ class Distances:
         ndarray of int64, shape (V,)
             The least energy of all quickest ways.
         """
-        table, ticks = self.to(target, edge_ticks), self.compute_edge_ticks(edge_ticks)
-        by_edge = np.array(energies, np.int64)[self.roadmap.class_of_edge]
-        return self._kernel.energies_of_quickest_ways(table, ticks, by_edge, most)
+        key = target, edge_ticks, energies, most
+        known = self._energies.get(key)
+        if known is None:
+            table, ticks = self.to(target, edge_ticks), self.compute_edge_ticks(edge_ticks)
+            by_edge = np.array(energies, np.int64)[self.roadmap.class_of_edge]
+            known = self._kernel.energies_of_quickest_ways(table, ticks, by_edge, most)
+            while self._energies and (len(self._energies) + 1) * len(table) > MOST_ENERGIES:
+                del self._energies[next(iter(self._energies))]
+            self._energies[key] = known
+        return known
 
     def find_least_energies(
         self, targets: Iterable[VertexId], energies: tuple[int, ...], most: int
