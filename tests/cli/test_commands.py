@@ -524,3 +524,19 @@ def test_stops_that_the_league_does_not_count_are_counted_when_a_plan_is_written
     words = "stops that are not finished there: 2, because the League counts one errand of an"
     assert words in ended.err
     assert "work, turning and ways back are left out" not in ended.err
+
+
+def test_what_robots_have_done_in_a_shift_is_written_for_other_programs(cli: Cli) -> None:
+    site = (
+        "format: rightofway-scenario/1\nmap: {grid: [....]}\n"
+        "robots: [{name: R1, home: N0, start: {at: N0, heading: 0}}]\n"
+        "jobs: [{name: J1, at: N2}]\nrules: {turn: 0, turn_rate: 90, return: none}\n"
+    )
+    Path("site.yaml").write_text(site, encoding="utf-8")
+    assert cli("shift", "site.yaml", "--lead", "0", "--round-time", "0.1", "-o", "s.json").code == 0
+    ended = cli("convert", "s.json", "--to", "planviz", "-o", "result.json")
+    assert (ended.code, ended.err) == (0, "wrote result.json\n")
+    result = json.loads(Path("result.json").read_text("utf-8"))
+    assert (result["actualPaths"], result["numTaskFinished"]) == (["F,F"], 1)
+    assert cli("convert", "s.json", "plan.json").code == 0
+    assert cli("check", "plan.json").code == 0

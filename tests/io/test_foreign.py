@@ -311,7 +311,7 @@ def test_jobs_of_robots_that_turn_are_tasks_and_actions_of_the_league(tmp_path: 
     document = json.loads(format_foreign(plan, "planviz"))
     assert document["actualPaths"] == ["F,R,R,F", "R,R,F,W"]
     assert document["start"] == [[0, 0, "E"], [1, 3, "E"]]
-    assert document["tasks"] == [[0, 0, [0, 1, 0, 0]], [1, 0, [1, 2]]]
+    assert document["tasks"] == [[0, 1, [0, 1, 0, 0]], [1, 1, [1, 2]]]
     assert document["events"] == [[1, 0, 0, 1], [3, 1, 1, 1], [4, 0, 0, 2]]
     assert document["actualSchedule"] == ["1:0", "1:1"]
     assert (document["makespan"], document["numTaskFinished"]) == (4, 2)

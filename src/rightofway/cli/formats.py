@@ -27,6 +27,7 @@ Examples:
   rightofway convert paths.txt --map hall.map -o plan.json
   rightofway convert plan.json --to lns2 -o paths.txt
   rightofway convert plan.json --to nav2 -o paths.json
+  rightofway convert shift.json --to planviz -o result.json
   rightofway convert hall.lif.json -o hall.yaml
   rightofway convert room.yaml --radius 0.3 -o hall.yaml
   rightofway convert hall.lif.json -o hall.geojson
@@ -34,6 +35,9 @@ Examples:
 
 ENDINGS = {".geojson": "nav2", ".graphml": "graphml", ".lif.json": "lif"}
 """Endings of files that say in which format a layout is written, without ``--to``."""
+
+BEGIN = 200
+"""Characters of a file in which its format is looked for."""
 
 SUFFIXES = (".yaml", ".yml", ".json", ".xlsx", ".scen")
 
@@ -96,13 +100,14 @@ def convert(
 ) -> None:
     """Write the scenario, plan or layout SOURCE in another format.
 
-    A scenario is written as .yaml, .json, .xlsx, or .scen with its .map. A .yaml, .json or .xlsx
-    file contains the map. A .scen file has no speeds, work times, turning times and ways home; the
-    command reports which of these it left out. A plan is written as .json, or with --to for a
-    program on the site or another planner. A layout of another program (LIF, Nav2, Open-RMF, ROS
-    map, openTCS, GraphML, CSV) becomes a scenario, .yaml or .json, that has the layout as its map
-    and a few robots to begin with. With --to, or to a file that ends in .geojson (Nav2), .graphml
-    or .lif.json, it is written for another program, and a message names what its format cannot say.
+    A scenario is written as .yaml, .json, .xlsx, or .scen with its .map. A .yaml, .json or
+    .xlsx file contains the map. A .scen file has no speeds, work times, turning times and ways
+    home; the command reports which of these it left out. A plan is written as .json, or with
+    --to for a program on the site or another planner; a shift, as what its robots have done. A
+    layout of another program (LIF, Nav2, Open-RMF, ROS map, openTCS, GraphML, CSV) becomes a
+    scenario, .yaml or .json, that has the layout as its map and a few robots to begin with.
+    With --to, or to a file that ends in .geojson (Nav2), .graphml or .lif.json, it is written
+    for another program, and a message names what its format cannot say.
     """
     from rightofway.model import Plan
 
@@ -121,13 +126,29 @@ def convert(
     if radius is not None:
         raise click.UsageError(f"--radius is for layouts, and {source} is none")
     _refuse_layout_format(source, name)
-    opened = read_either(source, count)
+    opened = _read_shift(source) or read_either(source, count)
     if isinstance(opened, Plan):
         _write_plan(opened, path, name)
     elif name:
         raise click.UsageError(f"--to is for plans, and {source} is a scenario (plan it first)")
     else:
         _write_scenario(opened, path)
+
+
+def _read_shift(source: str) -> Plan | None:
+    """Return what robots have done in a shift as a plan, or None for any other file."""
+    from rightofway.dispatch.record_file import SHIFT_FORMAT, parse_shift
+    from rightofway.errors import name_file
+    from rightofway.io.content import read_text
+    from rightofway.io.json_text import parse_json
+
+    if not source.lower().endswith(".json"):
+        return None
+    with name_file(source):
+        text = read_text(Path(source))
+        if f'"{SHIFT_FORMAT}"' not in text[:BEGIN]:
+            return None
+        return parse_shift(parse_json(text)).make_plan()
 
 
 def _check_format(name: str | None) -> None:

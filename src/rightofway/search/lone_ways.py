@@ -71,8 +71,8 @@ class LoneWays:
         energy = np.where(self._find_open_edges(robot, avoids_homes=avoids_homes), 0, -1)
         energy = energy.astype(np.int64)
         back = self._along.least_energies(home, energy, 1)
-        there = self._against.least_energies(home, energy[self._by_head], 1)
-        reach: NDArray[np.bool_] = (back == 0) & (there == 0)
+        out = self._against.least_energies(home, energy[self._by_head], 1)
+        reach: NDArray[np.bool_] = (back == 0) & (out == 0)
         return reach
 
     def compute_energy(self, robot: int, tail: VertexId, head: VertexId) -> int:

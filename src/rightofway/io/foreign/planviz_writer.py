@@ -186,6 +186,8 @@ def _log_jobs(plan: Plan, finished: Sequence[Sequence[int]]) -> dict[str, Any]:
     """Return the tasks that robots do, when each is assigned, and when its errands are finished."""
     assert plan.tours is not None, "the plan has jobs"
     jobs, grid = plan.scenario.jobs or (), require_grid(plan)
+    work = plan.scenario.problem.work
+    assert work is not None, "the plan has jobs"
     events, schedules, used = list[tuple[int, int, int, int]](), list[str](), set[int]()
     for robot, (tour, steps) in enumerate(zip(plan.tours, finished, strict=True)):
         errands, begin, current, schedule = list(list_errands(tour)), 1, -1, list[str]()
@@ -206,7 +208,11 @@ def _log_jobs(plan: Plan, finished: Sequence[Sequence[int]]) -> dict[str, Any]:
         "scheduleErrors": [],
         "events": sorted(events),
         "tasks": [
-            [job, 0, [part for stop in jobs[job].stops for part in grid.get_cell(stop.at)]]
+            [
+                job,
+                work.jobs[job].earliest,
+                [part for stop in jobs[job].stops for part in grid.get_cell(stop.at)],
+            ]
             for job in sorted(used)
         ],
     }
