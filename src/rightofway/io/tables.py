@@ -239,19 +239,30 @@ def read_csv(path: Path, names_it: Steps) -> tuple[Iterator[Row], CellOf]:
         If it cannot be read.
     """
     with name_file(str(path)):
-        lines = read_text(path).splitlines()
-        delimiter = max(",;\t", key=lines[0].count) if lines else ","
-        try:
-            rows = list(csv.reader(lines, delimiter=delimiter, strict=True))
-        except csv.Error as error:
-            raise InputError.at("", f"{error} (check the quotes)") from None
+        return split_rows(read_text(path), names_it, str(path))
+
+
+def split_rows(text: str, names_it: Steps, file: str = "") -> tuple[Iterator[Row], CellOf]:
+    """Return the rows of a text with columns between commas, semicolons or tabs.
+
+    Cells have places at the key of the document that names the file.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read.
+    """
+    lines = text.splitlines()
+    delimiter = max(",;\t", key=lines[0].count) if lines else ","
+    try:
+        rows = list(csv.reader(lines, delimiter=delimiter, strict=True))
+    except csv.Error as error:
+        raise InputError.at("", f"{error} (check the quotes)") from None
     filled = (
         (number, {at: text.strip() for at, text in enumerate(row, 1) if text.strip()})
         for number, row in enumerate(rows, 1)
     )
     headings = [find_heading_key(text) for text in rows[0]] if rows else []
-
-    file = str(path)
 
     def cell(row: int, column: int) -> Location:
         is_named = row > 1 and 1 < column <= len(headings)

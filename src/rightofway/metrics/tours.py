@@ -122,10 +122,10 @@ def _list_drives(
 
 def _drop_straight(charges: Sequence[Charge]) -> Iterator[Charge]:
     """Yield charges without those between two others on a straight line."""
-    kept = list(charges[:1])
-    for here, after in pairwise(charges[1:]):
-        before = kept[-1]
-        rise = (here[1] - before[1]) * (after[0] - here[0])
-        if rise != (after[1] - here[1]) * (here[0] - before[0]):
-            kept.append(here)
-    yield from (*kept, *charges[1:][-1:])
+    corners = list(charges[:1])
+    for charge, after in pairwise(charges[1:]):
+        before = corners[-1]
+        rise = (charge[1] - before[1]) * (after[0] - charge[0])
+        if rise != (after[1] - charge[1]) * (charge[0] - before[0]):
+            corners.append(charge)
+    yield from (*corners, *charges[1:][-1:])

@@ -10,15 +10,18 @@ import {
   pasted,
   rowsOfText,
 } from "../../../src/rightofway/studio/assets/robots/block.js";
-import { COLUMNS, columnOf } from "../../../src/rightofway/studio/assets/robots/columns.js";
+import {
+  COLUMNS,
+  ROBOT_TABLE,
+  columnOf,
+} from "../../../src/rightofway/studio/assets/robots/columns.js";
 import {
   addRobots,
-  freeName,
-  sortRobots,
   stopsOf,
   withStops,
   writtenIn,
 } from "../../../src/rightofway/studio/assets/robots/fleet.js";
+import { freeName, sortRows } from "../../../src/rightofway/studio/assets/robots/rows.js";
 
 const DOCUMENT = {
   map: { grid: ["..."] },
@@ -30,8 +33,8 @@ const DOCUMENT = {
 const [NAME, HOME, STOPS, WORK] = COLUMNS;
 
 test("a new robot gets the first name that no other robot has", () => {
-  assert.equal(freeName(DOCUMENT.robots), "R3");
-  assert.equal(freeName([{ name: "R2" }]), "R3"); // R2, the second one, is taken
+  assert.equal(freeName(DOCUMENT.robots, "robots"), "R3");
+  assert.equal(freeName([{ name: "R2" }], "robots"), "R3"); // R2, the second one, is taken
   assert.deepEqual(writtenIn(addRobots(DOCUMENT, [{ home: "N1" }])).at(-1), {
     name: "R3",
     home: "N1",
@@ -55,7 +58,7 @@ test("cells say stops and work, and are read as they are written", () => {
 
 test("a pasted block adds robots and leaves its headings out", () => {
   const rows = rowsOfText("name\thome\r\nA\tN1\r\nB\t[0, 2]\r\n");
-  const grown = pasted(DOCUMENT, COLUMNS, rows, { row: 2, column: 0 });
+  const grown = pasted(DOCUMENT, ROBOT_TABLE, COLUMNS, rows, { row: 2, column: 0 });
   assert.deepEqual(writtenIn(grown).slice(2), [
     { name: "A", home: "N1" },
     { name: "B", home: [0, 2] },
@@ -66,16 +69,16 @@ test("a block is cleared and filled, but names and homes stay", () => {
   const block = blockOf({ row: 1, column: 3 }, { row: 0, column: 0 });
   assert.deepEqual(block, { top: 0, bottom: 1, left: 0, right: 3 });
   assert.equal(blockText(DOCUMENT.robots, [NAME, HOME], block), "R1\tN0\nR2\tN2");
-  assert.deepEqual(cleared(DOCUMENT, COLUMNS, block).robots, [
+  assert.deepEqual(cleared(DOCUMENT, ROBOT_TABLE, COLUMNS, block).robots, [
     { name: "R1", home: "N0" },
     { name: "R2", home: "N2" },
   ]);
   const column = { top: 0, bottom: 1, left: 2, right: 3 };
-  assert.deepEqual(writtenIn(filled(DOCUMENT, COLUMNS, column))[1].target, "N1");
+  assert.deepEqual(writtenIn(filled(DOCUMENT, ROBOT_TABLE, COLUMNS, column))[1].target, "N1");
 });
 
 test("robots are sorted by numbers in their names", () => {
   const robots = [{ name: "R10" }, { name: "R9" }, { name: "R1" }];
-  const sorted = sortRobots({ ...DOCUMENT, robots }, ({ name }) => name ?? "", false);
+  const sorted = sortRows({ ...DOCUMENT, robots }, "robots", ({ name }) => name ?? "", false);
   assert.deepEqual(sorted.robots, [{ name: "R1" }, { name: "R9" }, { name: "R10" }]);
 });

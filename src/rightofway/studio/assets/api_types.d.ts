@@ -486,6 +486,11 @@ export interface OtherLaps {
   time_limit?: number;
 }
 
+/** Jobs of rows of a table, as a document has them. */
+export interface PastedJobs {
+  jobs: Array<Record<string, unknown>>;
+}
+
 /** A document, and where it stands. */
 export interface Placed {
   document: ScenarioDocument;
@@ -589,6 +594,11 @@ export interface RobotLatenessData {
   p95: number;
   own: number;
   waiting: Record<string, number>;
+}
+
+/** Rows of a table, as they are copied from a spreadsheet. */
+export interface Rows {
+  text: string;
 }
 
 /** A run. */
@@ -775,6 +785,7 @@ export type PostAnswer<Path extends string> =
   Path extends `/runs/${number}/stop` | `/runs/${number}/stop?${string}` ? RunData :
   Path extends `/deal` | `/deal?${string}` ? Dealt :
   Path extends `/inline` | `/inline?${string}` ? Inlined :
+  Path extends `/jobs` | `/jobs?${string}` ? PastedJobs :
   Path extends `/runs` | `/runs?${string}` ? RunData :
   Path extends `/survey` | `/survey?${string}` ? SurveyData :
   Path extends `/validate` | `/validate?${string}` ? Validation :
@@ -790,7 +801,7 @@ export type PutAnswer<Path extends string> =
 /** What a request may hold, by method. */
 export interface Bodies {
   PATCH: Rename;
-  POST: Placed | Survey | Deal | NewPlan | NewImprovement | NewLaps | NewSimulation | OtherLaps | Flip | NewDrive;
+  POST: Placed | Survey | Deal | Rows | NewPlan | NewImprovement | NewLaps | NewSimulation | OtherLaps | Flip | NewDrive;
   PUT: Save | DraftBody;
 }
 

@@ -18,6 +18,7 @@ export const TOOL_KEYS = {
   lane: "l",
   mark: "s",
   robot: "a",
+  job: "j",
   measure: "m",
 };
 

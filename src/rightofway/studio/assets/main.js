@@ -11,6 +11,7 @@ import { ContextMenu } from "./draw/context_menu.js";
 import { MapPanel } from "./draw/panel.js";
 import { PlanPanel } from "./runs/panel.js";
 import { Rail } from "./draw/rail.js";
+import { JobPanel } from "./jobs/panel.js";
 import { RobotPanel } from "./robots/panel.js";
 import { droppedFiles } from "./shelf.js";
 import { SideEdge } from "./side_width.js";
@@ -23,7 +24,7 @@ import { words } from "./words.js";
 /** @type {Record<string, number>} */
 const STEPS = { ArrowRight: 1, ArrowLeft: -1 };
 
-const PANELS = { map: MapPanel, robots: RobotPanel, plan: PlanPanel };
+const PANELS = { map: MapPanel, robots: RobotPanel, jobs: JobPanel, plan: PlanPanel };
 
 function App() {
   const [studio, setStudio] = useState(/** @type {Studio | null} */ (null));
@@ -75,13 +76,14 @@ function App() {
  */
 function Tabs({ studio }) {
   const { store, runs } = studio;
-  const robots = store.document?.robots;
+  const { robots, jobs } = store.document ?? {};
   const isShown = runs.payload !== null;
   const counts = {
     map:
       store.faults.length +
         store.survey.findings.filter(({ severity }) => severity !== "note").length || "",
     robots: Array.isArray(robots) ? robots.length : "",
+    jobs: Array.isArray(jobs) ? jobs.length : "",
     plan: isShown ? `${words.number} ${runs.shown}` : "",
   };
   /**

@@ -9,6 +9,7 @@ import { fitCanvas } from "../../viz/page/assets/drawing/canvas.js";
 import { Choice } from "../../viz/page/assets/player/choice.js";
 import { Clock } from "../../viz/page/assets/player/clock.js";
 import { FrameLoop } from "../../viz/page/assets/player/frame_loop.js";
+import { JobMarks } from "../../viz/page/assets/jobs/job_marks.js";
 import { MapView } from "../../viz/page/assets/map/map_view.js";
 import { LEGENDS } from "../../viz/page/assets/player/markup.js";
 import { Motion } from "../../viz/page/assets/plan/motion.js";
@@ -114,6 +115,7 @@ export class Stage extends Observable {
       use: this.player?.use,
       bottleneck: this.player?.bottleneck ?? null,
       tools: this.player ? this.root : null,
+      jobs: this.isPlan && plan.tours.length ? new JobMarks(plan, this.theme, choice) : null,
     });
     this.view = view;
     this.player?.begin(view);

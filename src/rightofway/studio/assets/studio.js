@@ -23,7 +23,13 @@ import { present } from "./given.js";
 /** @import { Complaint, Edit, Found, ScenarioDocument, SearchForm, SearchSettings, StageElements, Tab } from "./types.js" */
 
 /** @type {Tab[]} */
-export const TABS = ["map", "robots", "plan"];
+export const TABS = ["map", "robots", "jobs", "plan"];
+
+/**
+ * The tool that a tab begins with.
+ * @type {Partial<Record<Tab, string>>}
+ */
+const TOOL_OF = { robots: "robot", jobs: "job" };
 
 /** Event: `change` when the page is to be drawn again. */
 export class Studio extends Observable {
@@ -183,12 +189,12 @@ export class Studio extends Observable {
    * @returns {void}
    */
   goTo(fault) {
-    const robot = itemOf(fault, "robots");
-    if (robot < 0) return;
-    this.showTab("robots");
-    this.editor.select([{ kind: "robot", id: robot }]);
+    const [robot, job] = [itemOf(fault, "robots"), itemOf(fault, "jobs")];
+    if (robot < 0 && job < 0) return;
+    this.showTab(robot < 0 ? "jobs" : "robots");
+    this.editor.select([robot < 0 ? { kind: "job", id: job } : { kind: "robot", id: robot }]);
     requestAnimationFrame(() => {
-      const row = document.querySelector(`table.robots tr[data-row="${robot}"]`); // once it is drawn
+      const row = document.querySelector(`table.robots tr[data-row="${Math.max(robot, job)}"]`); // once it is drawn
       /** @type {HTMLElement | null | undefined} */
       const wrong = row?.querySelector("[aria-invalid=true]");
       (wrong ?? row?.querySelector("input"))?.focus();
@@ -210,10 +216,12 @@ export class Studio extends Observable {
     if (!isPlan && this.stage.isPlan) this.stage.choice.chooseNothing();
     this.editor.isOn = !isPlan;
     this.editor.tool.cancel();
-    if (tab === "robots" && this.editor.tool !== this.editor.tools.get("robot"))
-      this.editor.take("robot");
-    if (tab === "map" && this.editor.tool === this.editor.tools.get("robot"))
-      this.editor.take("select");
+    const { [tab]: own } = TOOL_OF;
+    const isOfTab = Object.values(TOOL_OF).some(
+      (name) => this.editor.tool === this.editor.tools.get(name),
+    );
+    if (own) this.editor.take(own);
+    else if (tab === "map" && isOfTab) this.editor.take("select");
     if (isPlan) this.stage.show(payload, { keeps: true });
     else if (this.store.site && this.stage.isPlan)
       this.stage.show(this.store.site, { keeps: true });

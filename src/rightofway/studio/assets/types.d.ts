@@ -75,8 +75,54 @@ type Attributes = {
   [K in keyof typeof ATTRIBUTES]?: (typeof ATTRIBUTES)[K]["isText"] extends true ? string : Numeral;
 };
 
+/** Where a robot begins, and what it has done. */
+export interface StartData {
+  at?: Place;
+  ready?: Numeral;
+  heading?: Numeral;
+  soc?: Numeral;
+  begun?: Record<string, number>;
+}
+
+export interface JobStop extends Stop {
+  load?: Numeral;
+  earliest?: Numeral;
+  latest?: Numeral;
+}
+
+export interface JobData {
+  name?: string;
+  at?: Place;
+  work?: Numeral;
+  pickup?: Place;
+  dropoff?: Place;
+  pickup_work?: Numeral;
+  dropoff_work?: Numeral;
+  load?: Numeral;
+  stops?: JobStop[];
+  earliest?: Numeral;
+  latest?: Numeral;
+  due?: Numeral;
+  weight?: Numeral;
+  types?: string[];
+  robot?: string;
+  after?: string[];
+}
+
+export interface BatteryData {
+  drive?: Numeral;
+  on?: Numeral;
+  work?: Numeral;
+  charge?: Numeral;
+  reserve?: Numeral;
+}
+
 export interface RobotData extends Attributes {
   name?: string;
+  capacity?: Numeral;
+  battery?: string;
+  charging?: Place[];
+  start?: StartData;
   home?: Place;
   target?: Place;
   work?: Numeral;
@@ -166,7 +212,14 @@ export interface ScenarioDocument {
   units?: { length?: string; time?: string };
   rules?: string | RulesData;
   closures?: ClosureData[];
+  jobs?: JobData[] | { table: string };
+  batteries?: Record<string, BatteryData>;
+  charging?: Place[];
 }
+
+/** A list of a document whose items are rows of a table, and one of them. */
+export type ListName = "robots" | "jobs";
+export type RowData = any;
 
 export type Edit = (document: ScenarioDocument) => ScenarioDocument;
 
@@ -182,6 +235,7 @@ export type ComparisonPayload = ComparisonData;
 export interface LiveRun extends RunData {
   bound?: number;
   since?: number;
+  round?: PhraseData; // the latest round of planning jobs
 }
 
 /** A point of the drawing; where it comes from a pointer, with keys that were held. */
@@ -203,6 +257,7 @@ export interface PointedAt extends DrawingPoint {
 /** Identifiers by kind: a robot, obstacle or lane has its index, others have a name. */
 export interface Ids {
   robot: number;
+  job: number;
   obstacle: number;
   lane: number;
   stop: string;
@@ -218,6 +273,13 @@ export interface RobotHit {
   index: number;
   robot: RobotData;
   home: number;
+  stops: number[];
+}
+
+/** A job of the document, with the vertices of its stops; -1 for none. */
+export interface JobHit {
+  index: number;
+  job: JobData;
   stops: number[];
 }
 
@@ -274,6 +336,18 @@ export interface Piece {
   charging?: string[];
 }
 
+/** A table of items of the document: its list, its columns, how its rows are read. */
+export interface SheetTable {
+  list: ListName;
+  kind: "robot" | "job";
+  columns: Column[];
+  columnOf(fault: Pick<DocumentFault, "path">): string;
+  unitOf(column: Pick<Column, "key">, units: { length?: string; time?: string }): string;
+  newRow(texts: { newRow: string; newJob: string }): string;
+  /** Reads rows with headings, and returns the edit that adds them. */
+  read?: (text: string) => Promise<Edit>;
+}
+
 /** A cell of the table of robots, and several from one to another. */
 export interface SheetCell {
   row: number;
@@ -290,10 +364,13 @@ export interface Block {
 export interface Column {
   key: string;
   /** Title, hint, and what holds where a cell is empty. */
-  words(texts: { columns: Record<string, string[]> }): readonly string[];
-  text(robot: RobotData): string;
-  value?: (robot: RobotData) => number;
-  set(robot: RobotData, text: string): RobotData;
+  words(texts: {
+    columns: Record<string, string[]>;
+    jobColumns: Record<string, string[]>;
+  }): readonly string[];
+  text(item: RowData): string;
+  value?: (item: RowData) => number;
+  set(item: RowData, text: string): RowData;
 }
 
 /** A cause of delay: its kind, and what its fields hold. */
@@ -328,7 +405,7 @@ export interface Found {
 /** A file that was dropped or chosen; one of a folder has its path. */
 export type DroppedFile = File & { path?: string };
 
-export type Tab = "map" | "robots" | "plan";
+export type Tab = "map" | "robots" | "jobs" | "plan";
 
 /** What is refused, and the place in the document that it is about. */
 export type Complaint = Pick<DocumentFault, "place" | "message"> & Partial<DocumentFault>;

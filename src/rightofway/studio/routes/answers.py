@@ -21,6 +21,7 @@ from rightofway.studio.routes.models import (
     OtherLaps,
     Placed,
     Rename,
+    Rows,
     Save,
     Survey,
 )
@@ -385,6 +386,12 @@ class Dealt(TypedDict):
     robots: list[DealtRobot]
 
 
+class PastedJobs(TypedDict):
+    """Jobs of rows of a table, as a document has them."""
+
+    jobs: list[dict[str, Any]]
+
+
 class PlannerOption(TypedDict):
     """An option of a planner."""
 
@@ -707,6 +714,7 @@ ANSWERS: dict[tuple[str, str], Any] = {
     ("POST", "/survey"): SurveyData,
     ("POST", "/inline"): Inlined,
     ("POST", "/deal"): Dealt,
+    ("POST", "/jobs"): PastedJobs,
     ("GET", "/drafts"): DraftList,
     ("GET", "/drafts/{name}"): DraftData,
     ("PUT", "/drafts/{name}"): KeptDraft,
@@ -745,6 +753,7 @@ BODIES: dict[tuple[str, str], Any] = {
     ("POST", "/survey"): Survey,
     ("POST", "/inline"): Placed,
     ("POST", "/deal"): Deal,
+    ("POST", "/jobs"): Rows,
     ("PUT", "/drafts/{name}"): DraftBody,
     ("POST", "/runs"): NewRun,
     ("PATCH", "/runs/{number}"): Rename,

@@ -20,6 +20,7 @@ from rightofway.studio.routes.models import (
     FilePath,
     InStudio,
     Placed,
+    Rows,
     Save,
     Survey,
     ToText,
@@ -176,6 +177,13 @@ async def deal(studio: InStudio, deal: Deal) -> dict[str, Any]:
         raise InputError.at("work", message)
     arguments = deal.model_dump() | {"folder": studio.place(deal.folder)}
     result, _ = await studio.ask("deal", **arguments)
+    return dict(result)
+
+
+@router.post("/jobs", tags=["documents"])
+async def read_jobs(studio: InStudio, rows: Rows) -> dict[str, Any]:
+    """Return the jobs of rows that were copied from a spreadsheet; headings are keys of a job."""
+    result, _ = await studio.ask("paste", text=rows.text)
     return dict(result)
 
 

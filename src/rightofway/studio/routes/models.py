@@ -113,6 +113,14 @@ class Deal(Placed):
     )
 
 
+class Rows(Model):
+    """Rows of a table, as they are copied from a spreadsheet."""
+
+    text: str = Field(
+        max_length=2_000_000, description="headings, then one row each, with tabs between columns"
+    )
+
+
 class Search(Model):
     """How to search for a plan; None for the defaults of the library."""
 

@@ -31,6 +31,7 @@ TASKS: dict[str, Task] = {
     "example": glancing.read_example,
     "survey": editing.survey_document,
     "inline": editing.inline_document,
+    "paste": editing.read_pasted_jobs,
     "write": documents.write_document,
     "deal": dealing.deal_robots,
     "plan": planning.plan,

@@ -13,11 +13,12 @@ from typing import Any
 from rightofway.errors import InputError, InputFault
 from rightofway.facts import Fact
 from rightofway.io import Loaded, dump_scenario
-from rightofway.io.faults import validate
+from rightofway.io.faults import list_keys, validate
 from rightofway.io.scenario.loaded_map import FleetTraits
 from rightofway.io.scenario.maps import map_of
 from rightofway.io.scenario.picture import add_picture
 from rightofway.io.sites import make_sites
+from rightofway.io.tables import read_jobs_of_rows, split_rows
 from rightofway.metrics import Inspection, Site, inspect
 from rightofway.metrics.site import Finding
 from rightofway.report.facts import write_notes
@@ -29,6 +30,7 @@ from rightofway.units import Units
 from rightofway.viz import make_site_data
 from rightofway.viz.page.background import find_background, place_background
 from rightofway.viz.page.document import as_compact_json
+from rightofway.viz.page.map_data import mark_charging_places
 from rightofway.viz.page.payload import make_closure_data
 from rightofway.viz.page.schema import ClosureData, SiteData
 from rightofway.viz.palette import choose_colours
@@ -81,6 +83,9 @@ def survey_document(
         answer["scenario"] = None if loaded is None or faults else compute_digest(loaded.scenario)
     if site is not None:
         drawn = _draw_site(site)
+        work = None if loaded is None else loaded.scenario.problem.work
+        if work is not None:
+            mark_charging_places(drawn["map"], work)
         colours = choose_colours(1 + max(kept_robots, default=0))
         for robot, index in zip(drawn["robots"], kept_robots, strict=False):
             robot |= {"index": index, "colour": colours[index]}
@@ -155,12 +160,14 @@ def _read_without(
         section, index, key = (*fault.path, "", "", "")[:3]
         if section == "robots" and isinstance(index, int):
             wrong.setdefault(index, set()).add(str(key))
-    rest = dict(document)
-    for key in ("closures", "rules"):
-        if any(fault.path[:1] == (key,) for fault in faults):
-            rest.pop(key, None)
+    sections = {str(fault.path[0]) for fault in faults if fault.path}
+    if "batteries" in sections:
+        for at in _list_robots(document):
+            wrong.setdefault(at, set()).add("battery")
+    rest = _leave_out(document, sections)
     drawn = [
-        _make_mended(document["robots"][at], wrong.get(at, set())) for at in _list_robots(document)
+        _make_mended(document["robots"][at], wrong.get(at, set()), has_trips="jobs" not in document)
+        for at in _list_robots(document)
     ]
     whole = [None if at in wrong else document["robots"][at] for at in _list_robots(document)]
     for robots in (drawn, whole):
@@ -175,14 +182,24 @@ def _read_without(
     return None, []
 
 
-def _make_mended(robot: Any, wrong: set[str]) -> Any:
+def _leave_out(document: dict[str, Any], sections: set[str]) -> dict[str, Any]:
+    """Return a document without sections that have faults; robots without trips keep no jobs."""
+    rest = {
+        key: value
+        for key, value in document.items()
+        if key not in sections or key not in {"closures", "rules", "batteries", "charging"}
+    }
+    return {**rest, "jobs": []} if sections & {"jobs", "batteries", "charging"} else rest
+
+
+def _make_mended(robot: Any, wrong: set[str], *, has_trips: bool) -> Any:
     """Return a robot without the keys that are wrong; it stays at home without a stop."""
     if not isinstance(robot, dict) or wrong & {"name", "home"}:
         return robot if not wrong else None
     read_values = {key: value for key, value in robot.items() if key not in wrong}
     if "" in wrong:  # the keys do not fit each other
         read_values = {key: value for key, value in read_values.items() if key in {"name", "home"}}
-    if wrong and not read_values.keys() & {"target", "stops"}:
+    if has_trips and wrong and not read_values.keys() & {"target", "stops"}:
         read_values = {key: value for key, value in read_values.items() if key != "work"}
         read_values["target"] = read_values.get("home")
     return read_values
@@ -223,3 +240,19 @@ def inline_document(_emit: Emit, _blobs: Blobs, *, document: dict[str, Any], fol
     stands = {**document, "robots": [{"name": "R1", "home": place, "target": place}]}
     whole = as_plain(dump_scenario(load_document(stands, folder).scenario))
     return ({"document": {**whole, "robots": []}},)
+
+
+def read_pasted_jobs(_emit: Emit, _blobs: Blobs, *, text: str) -> Result:
+    """Return the jobs of rows that were copied from a spreadsheet, as the reader of files does.
+
+    Raises
+    ------
+    InputError
+        With every fault of the rows.
+    """
+    from rightofway.io.scenario.work_shape import JobDocument
+
+    rows, cell = split_rows(text, ("jobs",))
+    table = read_jobs_of_rows(rows, cell, list_keys(JobDocument))
+    with table.locate():
+        return ({"jobs": table.part},)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.model.resources import close_pairs
+from rightofway.model.work import Work
 from rightofway.site import Grid, Point, Roadmap
 from rightofway.viz.page.background import Background, find_background, make_background_data
 from rightofway.viz.page.schema import CloseData, FrameData, MapData, ObstacleRow
@@ -86,6 +87,12 @@ def map_data(
     if background:
         data["background"] = make_background_data(roadmap, background)
     return cast("MapData", data)
+
+
+def mark_charging_places(data: MapData, work: Work) -> None:
+    """Add the charging places of the robots of a scenario with jobs to those of its map."""
+    own = {int(place) for robot in work.robots for place in robot.charging}
+    data["charging"] = sorted({*data.get("charging", []), *own})
 
 
 def compute_differences(numbers: Iterable[int]) -> list[int]:

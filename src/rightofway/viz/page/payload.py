@@ -60,7 +60,7 @@ from rightofway.report.sentences import (
 from rightofway.site import Roadmap
 from rightofway.viz.motion import Trip, end_of, make_trips
 from rightofway.viz.page.background import Background
-from rightofway.viz.page.map_data import compute_differences, map_data
+from rightofway.viz.page.map_data import compute_differences, map_data, mark_charging_places
 from rightofway.viz.page.schema import (
     ClosureData,
     ComparisonData,
@@ -182,8 +182,7 @@ def _add_work(plan: Plan, payload: Payload, book: PhraseBook) -> None:
     """Add jobs and tours of a plan with jobs, and its own charging places."""
     work = plan.scenario.problem.work
     if work is not None:
-        own = {int(place) for state in work.robots for place in state.charging}
-        payload["map"]["charging"] = sorted({*payload["map"].get("charging", []), *own})
+        mark_charging_places(payload["map"], work)
         payload["work"] = make_work_data(plan, book)
 
 

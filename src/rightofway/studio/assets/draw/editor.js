@@ -2,6 +2,7 @@
 
 import { figure, texts } from "../../../viz/page/assets/language/language.js";
 import { Observable } from "../../../viz/page/assets/common/observable.js";
+import { JobTool } from "../jobs/tool.js";
 import { RobotTool } from "../robots/tool.js";
 import { PickTool } from "./backdrop.js";
 import { groundOf } from "./ground.js";
@@ -9,7 +10,7 @@ import { Hits } from "./hits.js";
 import { MeasureTool } from "./measure_tool.js";
 import { LaneTool, MarkTool, VertexTool } from "./network_tools.js";
 import { isNetwork } from "./network.js";
-import { paintFaults, paintSelection } from "./overlay.js";
+import { paintFaults, paintJobs, paintSelection } from "./overlay.js";
 import { paintReadout, paintRulers } from "./readout.js";
 import { Selection } from "./selection.js";
 import { SelectTool } from "./select_tool.js";
@@ -56,6 +57,7 @@ export class Editor extends Observable {
       LaneTool,
       MarkTool,
       RobotTool,
+      JobTool,
       MeasureTool,
       PickTool,
     ];
@@ -105,7 +107,7 @@ export class Editor extends Observable {
     const cells =
       document.map.grid || document.map.floor ? ["line", "brush", "box", "door", "erase"] : [];
     const lanes = isNetwork(document) ? ["vertex", "lane", "mark"] : [];
-    return ["select", ...cells, ...lanes, "robot", "measure"];
+    return ["select", ...cells, ...lanes, "robot", "job", "measure"];
   }
 
   /**
@@ -174,11 +176,14 @@ export class Editor extends Observable {
 
   /** A document that was undone may lack what was selected. */
   #forget() {
-    const { robots } = this.document;
+    const { robots, jobs } = this.document;
+    const counts = { robot: robots, job: jobs };
     this.selection.set(
-      this.selection.items.filter(
-        ({ kind, id }) => kind !== "robot" || id < (Array.isArray(robots) ? robots.length : 0),
-      ),
+      this.selection.items.filter(({ kind, id }) => {
+        if (kind !== "robot" && kind !== "job") return true;
+        const { [kind]: list } = counts;
+        return id < (Array.isArray(list) ? list.length : 0);
+      }),
     );
     this.changed();
   }
@@ -511,6 +516,7 @@ export class Editor extends Observable {
     if (!this.isReady) return;
     const { context, theme, view } = this.stage;
     const { scale } = view.viewport;
+    paintJobs(context, this, scale);
     paintFaults(context, this, scale);
     this.done?.(context, scale);
     paintSelection(context, this, scale);

@@ -1,5 +1,6 @@
 /** What is where on the map, by the document: robots' homes and stops, obstacles, vertices, lanes. */
 
+import { jobsOf, stopsOfJob } from "../jobs/jobs.js";
 import { robotsOf, stopsOf } from "../robots/fleet.js";
 import { nearest } from "../../../viz/page/assets/common/arrays.js";
 import { GridGround, cellsOfBox } from "./ground.js";
@@ -14,7 +15,7 @@ import {
 } from "./network.js";
 import { numberOf, toDrawing, vertexOf } from "./places.js";
 /** @import { Roadmap } from "../../../viz/page/assets/plan/roadmap.js" */
-/** @import { Cell, Item, LaneData, LaneLine, Numeral, Point, Rect, RobotHit, ScenarioDocument } from "../types.js" */
+/** @import { Cell, Item, JobHit, LaneData, LaneLine, Numeral, Point, Rect, RobotHit, ScenarioDocument } from "../types.js" */
 
 const REACH = 12; // pixels round a point that is small
 
@@ -33,6 +34,12 @@ export class Hits {
       robot,
       home: vertexOf(robot.home, roadmap),
       stops: stopsOf(robot).map(({ at }) => vertexOf(at, roadmap)),
+    }));
+    /** @type {JobHit[]} */
+    this.jobs = (jobsOf(document) ?? []).map((job, index) => ({
+      index,
+      job,
+      stops: stopsOfJob(job).map(({ at }) => vertexOf(at, roadmap)),
     }));
     this.obstacles = (document.map.floor?.obstacles ?? []).map(({ rect }) => boxOf(rect, roadmap));
     this.lanes = isNetwork(document)
@@ -66,6 +73,8 @@ export class Hits {
       if (standing) return { kind: "robot", id: standing.index };
       const going = this.robots.find(({ stops }) => stops.includes(vertex));
       if (going) return { kind: "stop", id: `${going.index}/${going.stops.indexOf(vertex)}` };
+      const wanted = this.jobs.find(({ stops }) => stops.includes(vertex));
+      if (wanted) return { kind: "job", id: wanted.index };
       if (this.isWritten(vertex)) return { kind: "vertex", id: this.roadmap.name(vertex) };
     }
     const lane = this.laneAt({ x, y }, scale);
@@ -158,6 +167,7 @@ export class Hits {
    */
   vertexOf({ kind, id }) {
     if (kind === "robot") return this.robots[id]?.home ?? -1;
+    if (kind === "job") return this.jobs[id]?.stops[0] ?? -1;
     if (kind === "vertex") return this.roadmap.vertexNamed(id);
     if (kind !== "stop") return -1;
     const [robot, stop] = id.split("/").map(Number);
@@ -171,7 +181,8 @@ export class Hits {
   namesAt(vertex) {
     return this.robots
       .filter(({ home, stops }) => home === vertex || stops.includes(vertex))
-      .map(({ robot }) => robot.name);
+      .map(({ robot }) => robot.name)
+      .concat(this.jobs.filter(({ stops }) => stops.includes(vertex)).map(({ job }) => job.name));
   }
 
   /**

@@ -1,12 +1,13 @@
 /** What an editor shows above the map: what is selected, and what the library says about places. */
 
 import { ring } from "../../../viz/page/assets/drawing/shapes.js";
+import { arrow, paintStops } from "../../../viz/page/assets/jobs/job_marks.js";
 import { itemOf } from "../fault_place.js";
 import { cellOf } from "./ground.js";
 import { present } from "../given.js";
 /** @import { Roadmap } from "../../../viz/page/assets/plan/roadmap.js" */
 /** @import { Theme } from "../../../viz/page/assets/drawing/theme.js" */
-/** @import { Point, RobotHit } from "../types.js" */
+/** @import { JobHit, Point, RobotHit } from "../types.js" */
 /** @import { Editor } from "./editor.js" */
 
 const MOST_SIGNS = 300;
@@ -35,9 +36,42 @@ export function paintSelection(context, editor, scale) {
       context.strokeRect(...hits.obstacles[item.id]);
     else if (item.kind === "lane" && hits.lanes[item.id])
       band(context, hits.lanes[item.id].points, 5 / scale);
+    if (item.kind === "job" && hits.jobs[item.id])
+      paintStops(context, stage.theme, placesOf(hits.jobs[item.id], roadmap), scale);
     if (item.kind === "robot" && vertex >= 0) route(context, roadmap, hits.robots[item.id], scale);
   }
 }
+
+const MOST_JOBS = 200; // whose ways are drawn; those of more cover the map
+
+/**
+ * The ways of all jobs, thin.
+ * @param {CanvasRenderingContext2D} context
+ * @param {Editor} editor
+ * @param {number} scale
+ * @returns {void}
+ */
+export function paintJobs(context, { hits, roadmap, stage }, scale) {
+  if (hits.jobs.length > MOST_JOBS) return;
+  context.strokeStyle = stage.theme.muted;
+  context.lineWidth = 1.25 / scale;
+  for (const job of hits.jobs) {
+    const places = placesOf(job, roadmap);
+    places.slice(1).forEach((to, i) => arrow(context, places[i], to, scale));
+    for (const { x, y } of places) {
+      ring(context, x, y, 4 / scale);
+      context.stroke();
+    }
+  }
+}
+
+/**
+ * Where the stops of a job are in the drawing, as far as the map has them.
+ * @param {JobHit} job
+ * @param {Roadmap} roadmap
+ */
+const placesOf = ({ stops }, { x, y }) =>
+  stops.filter((vertex) => vertex >= 0).map((vertex) => ({ x: x[vertex], y: y[vertex] }));
 
 /**
  * Signs at the places of faults and findings; a tip says which, and the list has the words.

@@ -19,7 +19,7 @@ export function Rail({ studio }) {
    * @returns {void}
    */
   const take = (name) => {
-    if (!editor.isOn) studio.showTab(name === "robot" ? "robots" : "map");
+    if (!editor.isOn) studio.showTab(name === "robot" ? "robots" : name === "job" ? "jobs" : "map");
     editor.take(name);
   };
   /**

@@ -1,6 +1,7 @@
 /** Select, move, copy and delete what is on the map: one thing, several with Shift, all in a box. */
 
 import { changeRobots, removeRobots, robotsOf, stopsOf, withStops } from "../robots/fleet.js";
+import { removeRows } from "../robots/rows.js";
 import { ring } from "../../../viz/page/assets/drawing/shapes.js";
 import { words } from "../words.js";
 import { arranged, boundsOf, movedCells, turnOf } from "./arrange.js";
@@ -110,13 +111,14 @@ export class SelectTool {
     if (!selection.size) return;
     const [robots, stops] = [selection.of("robot"), selection.of("stop")];
     const [vertices, lanes] = [selection.of("vertex"), selection.of("lane")];
-    const obstacles = selection.of("obstacle");
+    const [obstacles, jobs] = [selection.of("obstacle"), selection.of("job")];
     const cells = selection.of("cell").map(cellOf);
     selection.clear();
     editor.store.change((document) => {
       let next = document;
       if (stops.length) next = withoutStops(next, stops);
       if (robots.length) next = removeRobots(next, robots);
+      if (jobs.length) next = removeRows(next, "jobs", jobs);
       if (lanes.length) next = removeLanes(next, lanes);
       if (vertices.length) next = removeVertices(next, vertices);
       if (cells.length) next = present(editor.ground).free(next, cells);

@@ -1,8 +1,7 @@
-/** A block of cells of the table of robots: copied, pasted, cleared, filled, as edits of the document. */
+/** A block of cells of a table of robots or jobs: copied, pasted, cleared, filled, as edits of the document. */
 
-import { COLUMNS } from "./columns.js";
-import { addRobots, changeRobots, writtenIn } from "./fleet.js";
-/** @import { Block, Column, RobotData, ScenarioDocument, SheetCell } from "../types.js" */
+import { addRows, changeRows, rowsIn } from "./rows.js";
+/** @import { Block, Column, RowData, ScenarioDocument, SheetCell, SheetTable } from "../types.js" */
 
 /**
  * The rows and columns from one cell to another: `{ row, column }`, the ends included.
@@ -39,18 +38,18 @@ export const isSingle = ({ top, bottom, left, right }) => top === bottom && left
 
 /**
  * The text of a block for a spreadsheet.
- * @param {RobotData[]} robots
+ * @param {RowData[]} items
  * @param {Column[]} columns
  * @param {Block} block
  * @returns {string}
  */
-export const blockText = (robots, columns, { top, bottom, left, right }) =>
-  robots
+export const blockText = (items, columns, { top, bottom, left, right }) =>
+  items
     .slice(top, bottom + 1)
-    .map((robot) =>
+    .map((item) =>
       columns
         .slice(left, right + 1)
-        .map(({ text }) => text(robot))
+        .map(({ text }) => text(item))
         .join("\t"),
     )
     .join("\n");
@@ -67,73 +66,87 @@ export const rowsOfText = (text) =>
     .map((line) => line.split("\t"));
 
 /**
- * Write rows from a cell on; robots that are not there yet are added; headings are left out.
+ * The columns that the first of some rows names; null where that is no row of headings.
+ * @param {SheetTable} table
+ * @param {string[][]} rows
+ * @returns {(Column | undefined)[] | null}
+ */
+export function headingsOf({ columns }, rows) {
+  const heads = rows[0].map((text) => text.trim().toLowerCase());
+  const found = heads.map((head) =>
+    columns.find(({ key }) => key === (head === "target" ? "stops" : head)),
+  );
+  return found.filter(Boolean).length > heads.length / 2 ? found : null;
+}
+
+/**
+ * Write rows from a cell on; items that are not there yet are added; headings are left out.
  * @param {ScenarioDocument} document
+ * @param {SheetTable} table
  * @param {Column[]} columns
  * @param {string[][]} rows
  * @param {SheetCell} at
  * @returns {ScenarioDocument}
  */
-export function pasted(document, columns, rows, { row, column }) {
-  const heads = rows[0].map((text) => text.trim().toLowerCase());
-  const keys = heads.map((head) => (head === "target" ? "stops" : head));
-  const known = keys.filter((key) => COLUMNS.some((each) => each.key === key));
-  const isHead = known.length > rows[0].length / 2;
-  /** @type {(Column | undefined)[]} */
-  const written = isHead
-    ? keys.map((key) => COLUMNS.find((each) => each.key === key))
-    : columns.slice(column);
-  const lines = isHead ? rows.slice(1) : rows;
-  const missing = Math.max(row + lines.length - writtenIn(document).length, 0);
+export function pasted(document, table, columns, rows, { row, column }) {
+  const { list } = table;
+  const named = headingsOf(table, rows);
+  const written = named ?? columns.slice(column);
+  const lines = named ? rows.slice(1) : rows;
+  const missing = Math.max(row + lines.length - rowsIn(document, list).length, 0);
   const news = Array.from({ length: missing }, () => ({}));
-  return changeRobots(
-    addRobots(document, news),
+  return changeRows(
+    addRows(document, list, news),
+    list,
     lines.map((_, line) => row + line),
-    (robot, index) =>
-      lines[index - row].reduce((done, text, at) => written[at]?.set(done, text) ?? done, robot),
+    (item, index) =>
+      lines[index - row].reduce((done, text, at) => written[at]?.set(done, text) ?? done, item),
   );
 }
 
 /**
  * Write one text into every cell of a block that may be without it.
  * @param {ScenarioDocument} document
+ * @param {SheetTable} table
  * @param {Column[]} columns
  * @param {Block} block
  * @returns {ScenarioDocument}
  */
-export const cleared = (document, columns, block) =>
-  filledWith(document, columns, block, (column, robot) =>
-    ["name", "home"].includes(column.key) ? column.text(robot) : "",
+export const cleared = (document, table, columns, block) =>
+  filledWith(document, table, columns, block, (column, item) =>
+    ["name", "home"].includes(column.key) ? column.text(item) : "",
   );
 
 /**
- * Write the first row of a block into its other rows; names stay, for no two robots share one.
+ * Write the first row of a block into its other rows; names stay, for no two items share one.
  * @param {ScenarioDocument} document
+ * @param {SheetTable} table
  * @param {Column[]} columns
  * @param {Block} block
  * @returns {ScenarioDocument}
  */
-export function filled(document, columns, block) {
-  const first = writtenIn(document)[block.top];
-  return filledWith(document, columns, block, (column, robot) =>
-    column.key === "name" ? column.text(robot) : column.text(first),
+export function filled(document, table, columns, block) {
+  const first = rowsIn(document, table.list)[block.top];
+  return filledWith(document, table, columns, block, (column, item) =>
+    column.key === "name" ? column.text(item) : column.text(first),
   );
 }
 
 /**
  * @param {ScenarioDocument} document
+ * @param {SheetTable} table
  * @param {Column[]} columns
  * @param {Block} block
- * @param {(column: Column, robot: RobotData) => string} textFor
+ * @param {(column: Column, item: RowData) => string} textFor
  * @returns {ScenarioDocument}
  */
-function filledWith(document, columns, { top, bottom, left, right }, textFor) {
-  const last = Math.min(bottom, writtenIn(document).length - 1);
+function filledWith(document, { list }, columns, { top, bottom, left, right }, textFor) {
+  const last = Math.min(bottom, rowsIn(document, list).length - 1);
   const rows = Array.from({ length: last - top + 1 }, (_, line) => top + line);
-  return changeRobots(document, rows, (robot) =>
+  return changeRows(document, list, rows, (item) =>
     columns.slice(left, right + 1).reduce((done, column) => {
-      const text = textFor(column, robot);
+      const text = textFor(column, item);
       return column.text(done) === text ? done : column.set(done, text);
-    }, robot),
+    }, item),
   );
 }

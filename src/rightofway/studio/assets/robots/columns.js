@@ -5,7 +5,7 @@ import { numberOf, placeOfText, textOfPlace } from "../draw/places.js";
 import { ATTRIBUTES } from "./attributes.js";
 import { stopsOf, textOfStops, withKey, withStops } from "./fleet.js";
 /** @import { DocumentFault } from "../api_types.js" */
-/** @import { Column, Numeral, RobotData, Stop } from "../types.js" */
+/** @import { Column, Numeral, Place, RobotData, SheetTable, StartData, Stop } from "../types.js" */
 
 /**
  * A number that somebody has typed: with a comma too; as text where it is none, so that the library says why.
@@ -114,7 +114,62 @@ export const COLUMNS = [
       ),
   },
   ...Object.keys(ATTRIBUTES).map(attribute),
+  {
+    key: "capacity",
+    words: ({ columns }) => columns.capacity,
+    text: ({ capacity }) => figure(String(capacity ?? "")),
+    value: ({ capacity }) => numberOf(capacity, -1),
+    set: (robot, text) => withKey(robot, "capacity", written(text)),
+  },
+  {
+    key: "battery",
+    words: ({ columns }) => columns.battery,
+    text: ({ battery }) => battery ?? "",
+    set: (robot, text) => withKey(robot, "battery", text.trim() || undefined),
+  },
+  {
+    key: "charging",
+    words: ({ columns }) => columns.charging,
+    text: ({ charging }) => (charging ?? []).map(textOfPlace).join("; "),
+    set: (robot, text) => {
+      const places = placesOfText(text);
+      return withKey(robot, "charging", places.length ? places : undefined);
+    },
+  },
+  {
+    key: "start",
+    words: ({ columns }) => columns.start,
+    text: ({ start }) => textOfPlace(start?.at),
+    set: (robot, text) => withStart(robot, { at: placeOfText(text) }),
+  },
+  {
+    key: "soc",
+    words: ({ columns }) => columns.soc,
+    text: ({ start }) => figure(String(start?.soc ?? "")),
+    value: ({ start }) => numberOf(start?.soc, -1),
+    set: (robot, text) => withStart(robot, { soc: written(text) }),
+  },
 ];
+
+/**
+ * A robot with other parts of its start; without one where nothing of it is left.
+ * @param {RobotData} robot
+ * @param {Partial<StartData>} parts
+ * @returns {RobotData}
+ */
+function withStart(robot, parts) {
+  const given = Object.entries({ ...robot.start, ...parts }).filter(
+    ([, value]) => value !== undefined,
+  );
+  return withKey(robot, "start", given.length ? Object.fromEntries(given) : undefined);
+}
+
+/**
+ * Places with ; between.
+ * @param {string} text
+ * @returns {Place[]}
+ */
+export const placesOfText = (text) => text.split(";").flatMap((part) => placeOfText(part) ?? []);
 
 /**
  * The unit of the numbers in a column; empty for text, and where the document has none.
@@ -122,7 +177,7 @@ export const COLUMNS = [
  * @param {{length?: string, time?: string}} units
  * @returns {string}
  */
-export function unitOf({ key }, { length, time }) {
+function unitOf({ key }, { length, time }) {
   if (key === "work" || key === "turn") return time ?? "";
   if (key === "radius") return length ?? "";
   if (key === "speed") return length && time ? `${length}/${time}` : "";
@@ -135,6 +190,16 @@ export function unitOf({ key }, { length, time }) {
  * @returns {string}
  */
 export function columnOf({ path }) {
-  const key = String(path[2] ?? "name");
+  const key = String((path[3] === "soc" ? path[3] : path[2]) ?? "name");
   return { target: "stops", size: "radius" }[key] ?? key;
 }
+
+/** @type {SheetTable} */
+export const ROBOT_TABLE = {
+  list: "robots",
+  kind: "robot",
+  columns: COLUMNS,
+  columnOf,
+  unitOf,
+  newRow: ({ newRow }) => newRow,
+};

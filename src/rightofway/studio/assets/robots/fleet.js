@@ -2,42 +2,22 @@
 
 import { figure } from "../../../viz/page/assets/language/language.js";
 import { textOfPlace } from "../draw/places.js";
-import { present } from "../given.js";
-/** @import { Column, Place, RobotData, ScenarioDocument, Stop } from "../types.js" */
+import { addRows, changeRows, removeRows, rowsIn, rowsOf } from "./rows.js";
+/** @import { Place, RobotData, ScenarioDocument, Stop } from "../types.js" */
 
 /**
  * The robots that are written in the document; null where they are in another file.
  * @param {Pick<ScenarioDocument, "robots">} document
  * @returns {RobotData[] | null}
  */
-export const robotsOf = ({ robots }) => (Array.isArray(robots) ? robots : null);
+export const robotsOf = (document) => rowsOf(document, "robots");
 
 /**
  * The robots of a document that has them.
  * @param {Pick<ScenarioDocument, "robots">} document
  * @returns {RobotData[]}
  */
-export const writtenIn = (document) => present(robotsOf(document));
-
-/**
- * @param {ScenarioDocument} document
- * @param {RobotData[]} robots
- * @returns {ScenarioDocument}
- */
-const withRobots = (document, robots) => ({ ...document, robots });
-
-/**
- * A name that no robot has: R1, R2, ...
- * @param {RobotData[]} robots
- * @param {string} [prefix]
- * @returns {string}
- */
-export function freeName(robots, prefix = "R") {
-  const taken = new Set(robots.map(({ name }) => name));
-  let number = robots.length + 1;
-  while (taken.has(`${prefix}${number}`)) number++;
-  return `${prefix}${number}`;
-}
+export const writtenIn = (document) => rowsIn(document, "robots");
 
 /**
  * The stops of a robot: `{ at, work }`, however they are written.
@@ -80,41 +60,23 @@ export const withStopAt = (robot, number, at) =>
  * Add robots; each gets a name if it has none.
  * @param {ScenarioDocument} document
  * @param {RobotData[]} news
- * @returns {ScenarioDocument}
  */
-export function addRobots(document, news) {
-  const robots = [...writtenIn(document)];
-  for (const robot of news) robots.push({ name: freeName(robots), ...robot });
-  return withRobots(document, robots);
-}
+export const addRobots = (document, news) => addRows(document, "robots", news);
 
 /**
  * Change some robots by a function of robot and index.
  * @param {ScenarioDocument} document
  * @param {number[]} indices
  * @param {(robot: RobotData, index: number) => RobotData} change
- * @returns {ScenarioDocument}
  */
-export function changeRobots(document, indices, change) {
-  const chosen = new Set(indices);
-  return withRobots(
-    document,
-    writtenIn(document).map((robot, index) => (chosen.has(index) ? change(robot, index) : robot)),
-  );
-}
+export const changeRobots = (document, indices, change) =>
+  changeRows(document, "robots", indices, change);
 
 /**
  * @param {ScenarioDocument} document
  * @param {number[]} indices
- * @returns {ScenarioDocument}
  */
-export function removeRobots(document, indices) {
-  const chosen = new Set(indices);
-  return withRobots(
-    document,
-    writtenIn(document).filter((_, index) => !chosen.has(index)),
-  );
-}
+export const removeRobots = (document, indices) => removeRows(document, "robots", indices);
 
 /**
  * Set a key of a robot; undefined takes it away.
@@ -128,42 +90,6 @@ export function withKey(robot, key, value) {
   const { [key]: before, ...rest } = robot;
   return value === undefined ? /** @type {T} */ (rest) : { ...robot, [key]: value };
 }
-
-/**
- * Put robots into the order of what a function says of them.
- * @param {ScenarioDocument} document
- * @param {(robot: RobotData) => string | number} valueOf
- * @param {boolean} isDown
- * @returns {ScenarioDocument}
- */
-export function sortRobots(document, valueOf, isDown) {
-  /** @type {[string | number, number, RobotData][]} */
-  const order = writtenIn(document).map((robot, index) => [valueOf(robot), index, robot]);
-  order.sort(([a, i], [b, j]) => (isDown ? -1 : 1) * compared(a, b) || i - j);
-  return withRobots(
-    document,
-    order.map(([, , robot]) => robot),
-  );
-}
-
-/**
- * @param {string | number} one
- * @param {string | number} other
- * @returns {number}
- */
-function compared(one, other) {
-  if (typeof one === "number" && typeof other === "number") return one - other;
-  return String(one).localeCompare(String(other), undefined, { numeric: true });
-}
-
-/**
- * Robots as text for a spreadsheet; `columns` have `key` and `text`.
- * @param {RobotData[]} robots
- * @param {Pick<Column, "text">[]} columns
- * @returns {string}
- */
-export const tableText = (robots, columns) =>
-  robots.map((robot) => columns.map(({ text }) => text(robot)).join("\t")).join("\n");
 
 /**
  * Stops as one cell of a table: "N6 (3); N8".

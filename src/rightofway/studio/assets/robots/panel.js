@@ -4,13 +4,16 @@ import { liesAt } from "../fault_place.js";
 import { PlanButton } from "../header.js";
 import { html, useState } from "../vendor/htm-preact.js";
 import { words } from "../words.js";
-import { COLUMNS } from "./columns.js";
-import { robotsOf, tableText } from "./fleet.js";
+import { COLUMNS, ROBOT_TABLE } from "./columns.js";
+import { robotsOf } from "./fleet.js";
 import { FewRobots, RandomFleet } from "./random.js";
+import { tableText } from "./rows.js";
 import { Sheet } from "./sheet.js";
 /** @import { Column, Props } from "../types.js" */
 
 const USUAL = ["name", "home", "stops", "work", "speed"]; // columns of every table
+const OF_TRIPS = ["stops", "work", "laps"]; // of robots that do no jobs
+const OF_JOBS = ["capacity", "battery", "charging", "start", "soc"]; // of robots that do
 const MANY = 30; // robots from which on a name is looked for
 
 /** @param {Props} props */
@@ -30,8 +33,12 @@ export function RobotPanel({ studio }) {
     USUAL.includes(column.key) ||
     asked.includes(column.key) ||
     robots.some((robot) => column.text(robot));
-  const columns = COLUMNS.filter(isShown);
-  const others = COLUMNS.filter((column) => !isShown(column));
+  const unfit = store.document.jobs ? OF_TRIPS : OF_JOBS;
+  const fitting = COLUMNS.filter(
+    (column) => !unfit.includes(column.key) || robots.some((robot) => column.text(robot)),
+  );
+  const columns = fitting.filter(isShown);
+  const others = fitting.filter((column) => !isShown(column));
   const faults = store.faults.filter((fault) => liesAt(fault, "robots"));
   const isPlacing = editor.tool === editor.tools.get("robot");
   return html`
@@ -43,7 +50,7 @@ export function RobotPanel({ studio }) {
       </div>
       ${faults.map(({ message }) => html`<p class="wrong" role="alert" lang="en">${message}</p>`)}
       ${!robots.length && html`<p class="hint">${words.noRobots}</p>`}
-      <${Sheet} studio=${studio} columns=${columns} wanted=${wanted.trim().toLowerCase()} />
+      <${Sheet} studio=${studio} table=${ROBOT_TABLE} columns=${columns} wanted=${wanted.trim().toLowerCase()} />
       <div class="buttons under">
         ${others.map((column) => html`<button type="button" class="quiet" title=${column.words(words)[1]} onClick=${() => setAsked([...asked, column.key])}>+ ${column.words(words)[0]}</button>`)}
         <button type="button" class="quiet" disabled=${!robots.length} onClick=${() => navigator.clipboard.writeText(tableText(robots, COLUMNS))}>${words.copyTable}</button>

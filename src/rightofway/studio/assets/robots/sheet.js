@@ -1,4 +1,4 @@
-/** The robots as a spreadsheet: typed, pasted, filled, sorted with the keyboard; faults stand at their cells and below. */
+/** Robots or jobs as a spreadsheet: typed, pasted, filled, sorted with the keyboard; faults stand at their cells and below. */
 
 import { itemOf, nameOf } from "../fault_place.js";
 import { html, useEffect, useRef, useState } from "../vendor/htm-preact.js";
@@ -9,27 +9,28 @@ import {
   blockText,
   cleared,
   filled,
+  headingsOf,
   holds,
   isSingle,
   pasted,
   rowsOfText,
 } from "./block.js";
-import { columnOf, unitOf } from "./columns.js";
-import { freeName, removeRobots, sortRobots, writtenIn } from "./fleet.js";
+import { freeName, removeRows, rowsIn, sortRows } from "./rows.js";
 /** @import { DocumentFault } from "../api_types.js" */
-/** @import { Block, Column, Edit, Props, RobotData, SheetCell } from "../types.js" */
+/** @import { Block, Column, Edit, Props, RowData, SheetCell, SheetTable } from "../types.js" */
 /** @import { PageEvent } from "../vendor/htm-preact.js" */
 
 const MOST_ROWS = 100; // that are written at once; the others on request
 const MOST_FAULTS = 5; // that are listed below the table
 
 /**
- * The table; `columns` are those that are shown, `wanted` is what a robot has to say somewhere.
- * @param {Props & {columns: Column[], wanted: string}} props
+ * The table; `columns` are those that are shown, `wanted` is what an item has to say somewhere.
+ * @param {Props & {table: SheetTable, columns: Column[], wanted: string}} props
  */
-export function Sheet({ studio, columns, wanted }) {
+export function Sheet({ studio, table, columns, wanted }) {
   const { store, editor } = studio;
-  const robots = writtenIn(store.document);
+  const { list, kind, columnOf, unitOf } = table;
+  const items = rowsIn(store.document, list);
   const [sorted, setSorted] = useState({ key: "", isDown: false });
   const [most, setMost] = useState(MOST_ROWS);
   const [cells, setCells] = useState(/** @type {{from: SheetCell, to: SheetCell} | null} */ (null)); // the block
@@ -40,14 +41,16 @@ export function Sheet({ studio, columns, wanted }) {
   useEffect(() => setCells(null), [columns.length]);
 
   /**
-   * @param {RobotData} robot
+   * @param {RowData} item
    * @returns {boolean}
    */
-  const isWanted = (robot) =>
-    !wanted || columns.some(({ text }) => text(robot).toLowerCase().includes(wanted));
-  const rows = robots.map((robot, row) => ({ robot, row })).filter(({ robot }) => isWanted(robot));
-  const colours = new Map(store.site?.robots.map(({ index, colour }) => [index, colour]));
-  const faults = faultsByRow(store.faults);
+  const isWanted = (item) =>
+    !wanted || columns.some(({ text }) => text(item).toLowerCase().includes(wanted));
+  const rows = items.map((item, row) => ({ item, row })).filter(({ item }) => isWanted(item));
+  const colours = new Map(
+    kind === "robot" ? store.site?.robots.map(({ index, colour }) => [index, colour]) : [],
+  );
+  const faults = faultsByRow(store.faults, list);
 
   /**
    * @param {Edit} edit
@@ -60,9 +63,9 @@ export function Sheet({ studio, columns, wanted }) {
    * @returns {void}
    */
   const write = (at, text) => {
-    const robot = robots[at.row];
-    if (robot ? columns[at.column].text(robot) === text : !text.trim()) return;
-    change((document) => pasted(document, columns, [[text]], at));
+    const item = items[at.row];
+    if (item ? columns[at.column].text(item) === text : !text.trim()) return;
+    change((document) => pasted(document, table, columns, [[text]], at));
   };
   /**
    * @param {Column} column
@@ -71,7 +74,7 @@ export function Sheet({ studio, columns, wanted }) {
   const sort = (column) => {
     const isDown = sorted.key === column.key && !sorted.isDown;
     setSorted({ key: column.key, isDown });
-    change((document) => sortRobots(document, column.value ?? column.text, isDown));
+    change((document) => sortRows(document, list, column.value ?? column.text, isDown));
   };
   /**
    * @param {SheetCell} at
@@ -82,7 +85,7 @@ export function Sheet({ studio, columns, wanted }) {
     edited.current = null;
     field.select();
     setCells({ from: at, to: at });
-    if (robots[at.row]) editor.select([{ kind: "robot", id: at.row }]);
+    if (items[at.row]) editor.select([{ kind, id: at.row }]);
   };
   /**
    * @param {HTMLInputElement} field
@@ -135,7 +138,10 @@ export function Sheet({ studio, columns, wanted }) {
     const lines = rowsOfText(text);
     if (lines.length === 1 && lines[0].length === 1) return;
     event.preventDefault();
-    change((document) => pasted(document, columns, lines, at));
+    if (table.read && headingsOf(table, lines)) {
+      const { read } = table;
+      studio.attempt(async () => store.change(await read(text)));
+    } else change((document) => pasted(document, table, columns, lines, at));
   };
   /**
    * @param {PageEvent} event
@@ -144,8 +150,8 @@ export function Sheet({ studio, columns, wanted }) {
   const copy = (event) => {
     if (!block || isSingle(block)) return;
     event.preventDefault();
-    event.clipboardData?.setData("text/plain", blockText(robots, columns, block));
-    if (event.type === "cut") change((document) => cleared(document, columns, block));
+    event.clipboardData?.setData("text/plain", blockText(items, columns, block));
+    if (event.type === "cut") change((document) => cleared(document, table, columns, block));
   };
   /**
    * @param {number} until
@@ -154,7 +160,7 @@ export function Sheet({ studio, columns, wanted }) {
   const fill = (until) => {
     if (!block || !cells) return;
     const whole = { ...block, bottom: Math.max(until, block.bottom) };
-    change((document) => filled(document, columns, whole));
+    change((document) => filled(document, table, columns, whole));
     setCells({ from: cells.from, to: { row: whole.bottom, column: whole.right } });
   };
   /**
@@ -167,23 +173,23 @@ export function Sheet({ studio, columns, wanted }) {
     if ((event.ctrlKey || event.metaKey) && event.key === "Enter")
       return write(at, event.target.value); // the page plans it
     if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "d")
-      fill(isMany ? block.bottom : robots.length - 1);
+      fill(isMany ? block.bottom : items.length - 1);
     else if (isMany && ["Delete", "Backspace"].includes(event.key))
-      change((document) => cleared(document, columns, block));
+      change((document) => cleared(document, table, columns, block));
     else if (event.key === "Escape") enter(at, event.target);
     else if (event.key === "F2" || (isPlainEnter(event) && edited.current !== event.target))
       edit(event.target);
     else if (cells && event.shiftKey && ARROWS[event.key] && stepFrom(event)) {
       const [down, right] = ARROWS[event.key];
       extend({
-        row: clamped(cells.to.row + down, robots.length - 1),
+        row: clamped(cells.to.row + down, items.length - 1),
         column: clamped(cells.to.column + right, columns.length - 1),
       });
     } else {
       const next = stepFrom(event);
       if (!next) return;
       const place = rows.findIndex(({ row }) => row === at.row);
-      const shown = [...rows.map(({ row }) => row), robots.length];
+      const shown = [...rows.map(({ row }) => row), items.length];
       const row = shown[clamped((place < 0 ? rows.length : place) + next[0], rows.length)];
       goTo({ row, column: clamped(at.column + next[1], columns.length - 1) }, event.target);
     }
@@ -192,23 +198,23 @@ export function Sheet({ studio, columns, wanted }) {
   };
 
   /**
-   * @param {RobotData | null} robot
+   * @param {RowData | null} item
    * @param {number} row
    * @param {Column} column
    * @param {number} at
    */
-  const cell = (robot, row, column, at) => {
+  const cell = (item, row, column, at) => {
     const place = { row, column: at };
     const fault = faults.get(row)?.find((each) => columnOf(each) === column.key);
     const [title, , usual = ""] = column.words(words);
     return html`<td key=${column.key} class=${`${column.key} ${holds(block, row, at) && !isSingle(/** @type {Block} */ (block)) ? "in" : ""}`}>
-      <${Field} value=${robot ? column.text(robot) : ""} data-cell=${`${row} ${at}`} spellcheck="false"
-        aria-label=${robot ? `${title}, ${robot.name}` : `${title}, ${words.newRow}`} aria-invalid=${String(Boolean(fault))} title=${fault?.message ?? (robot ? column.text(robot) : "")}
-        placeholder=${robot ? usual : column.key === "name" ? freeName(robots) : ""}
+      <${Field} value=${item ? column.text(item) : ""} data-cell=${`${row} ${at}`} spellcheck="false"
+        aria-label=${item ? `${title}, ${item.name}` : `${title}, ${table.newRow(words)}`} aria-invalid=${String(Boolean(fault))} title=${fault?.message ?? (item ? column.text(item) : "")}
+        placeholder=${item ? usual : column.key === "name" ? freeName(items, list) : ""}
         onFocus=${({ target }) => enter(place, target)} onInput=${({ target }) => (edited.current = target)} onDblClick=${({ target }) => edit(target)} onChange=${({ target }) => write(place, target.value)}
         onMouseDown=${(event) => press(event, place)}
         onPaste=${(event) => paste(event, place)} onCopy=${copy} onCut=${copy} onKeyDown=${(event) => key(event, place)} />
-      ${robot && block && row === block.bottom && at === block.right && html`<${Handle} fill=${fill} />`}
+      ${item && block && row === block.bottom && at === block.right && html`<${Handle} fill=${fill} />`}
     </td>`;
   };
   /**
@@ -218,8 +224,8 @@ export function Sheet({ studio, columns, wanted }) {
    */
   const select = (event, row) => {
     if (event.target.matches("input, button")) return;
-    if (event.shiftKey || event.ctrlKey) editor.selection.toggle({ kind: "robot", id: row });
-    else editor.select([{ kind: "robot", id: row }]);
+    if (event.shiftKey || event.ctrlKey) editor.selection.toggle({ kind, id: row });
+    else editor.select([{ kind, id: row }]);
     editor.changed();
   };
   /**
@@ -232,20 +238,20 @@ export function Sheet({ studio, columns, wanted }) {
     return unit ? `${column.words(words)[0]} [${unit}]` : column.words(words)[0];
   };
   return html`
-    <div class="sheet" ref=${sheet}><table class="robots">
+    <div class="sheet" ref=${sheet}><table class=${kind === "robot" ? "robots" : "robots jobs"}>
       <thead><tr>${columns.map(
         (column) => html`
         <th scope="col" class=${column.key} aria-sort=${sorted.key === column.key ? (sorted.isDown ? "descending" : "ascending") : "none"}>
           <button type="button" title=${column.words(words)[1]} onClick=${() => sort(column)}>${headOf(column)}</button></th>`,
       )}<th class="do"><span class="unseen">${words.remove}</span></th></tr></thead>
       <tbody>${rows.slice(0, most).map(
-        ({ robot, row }) => html`
-        <tr key=${row} data-row=${row} aria-selected=${String(editor.selection.has({ kind: "robot", id: row }))} onClick=${(event) => select(event, row)} style=${{ "--robot": colours.get(row) ?? "transparent" }}>
-          ${columns.map((column, at) => cell(robot, row, column, at))}
-          <td class="do"><button type="button" class="quiet" tabindex="-1" aria-label=${`${words.remove} ${robot.name}`} title=${words.remove} onClick=${() => change((document) => removeRobots(document, [row]))}>✕</button></td>
+        ({ item, row }) => html`
+        <tr key=${row} data-row=${row} aria-selected=${String(editor.selection.has({ kind, id: row }))} onClick=${(event) => select(event, row)} style=${{ "--robot": colours.get(row) ?? "transparent" }}>
+          ${columns.map((column, at) => cell(item, row, column, at))}
+          <td class="do"><button type="button" class="quiet" tabindex="-1" aria-label=${`${words.remove} ${item.name}`} title=${words.remove} onClick=${() => change((document) => removeRows(document, list, [row]))}>✕</button></td>
         </tr>`,
       )}
-      ${!wanted && html`<tr key="new" class="new">${columns.map((column, at) => cell(null, robots.length, column, at))}<td></td></tr>`}
+      ${!wanted && html`<tr key="new" class="new">${columns.map((column, at) => cell(null, items.length, column, at))}<td></td></tr>`}
       </tbody>
     </table></div>
     ${
@@ -295,12 +301,13 @@ function stepFrom({ key, shiftKey, target }) {
 
 /**
  * @param {DocumentFault[]} faults
+ * @param {string} list
  * @returns {Map<number, DocumentFault[]>}
  */
-function faultsByRow(faults) {
+function faultsByRow(faults, list) {
   const found = new Map();
   for (const fault of faults) {
-    const row = itemOf(fault, "robots");
+    const row = itemOf(fault, list);
     if (row < 0) continue;
     if (!found.has(row)) found.set(row, []);
     found.get(row).push(fault);

@@ -27,7 +27,7 @@ export function Curve({ run, others = [], quantities = null }) {
     ({ points }) => points.length,
   );
   const { figures } = run;
-  const bound = figures?.lower_bound ?? run.bound;
+  const bound = (figures?.lower_bound ?? run.bound) || undefined; // 0 says nothing
   const limit = run.request?.time_limit ?? 1;
   const isLive = !isOver(run);
   const last = Math.max(
@@ -88,15 +88,16 @@ export function Curve({ run, others = [], quantities = null }) {
  * What has been reached, in figures; those of a plan with faults are worth nothing.
  * @param {{run: LiveRun, isFaulty: boolean, bound: number | undefined, seconds: number}} props
  */
-function Caption({ run: { state, figures, status }, isFaulty, bound, seconds }) {
+function Caption({ run: { state, figures, status, round }, isFaulty, bound, seconds }) {
   const isLive = !isOver({ state });
   const said = !isFaulty && figures?.tick && new Quantities(figures.units, figures.tick);
   return html`<figcaption>
     ${isLive && html`<span role="status">${stateOf({ state })}</span> `}
     ${state === "running" && !connection.isLost && `${figure(seconds.toFixed(1))} s `}
     ${said && html`<${Term} of="flowtime" /> <b>${said.duration(figures.flowtime)}</b>, `}
-    ${said && html`<${Term} of="bound" /> ${said.duration(figures.lower_bound)}`}
-    ${said && figures.flowtime > (bound ?? Infinity) && ` (+${phraseText(figures.text.gap)})`}
+    ${said && figures.lower_bound > 0 && html`<${Term} of="bound" /> ${said.duration(figures.lower_bound)}`}
+    ${said && bound && figures.flowtime > bound && ` (+${phraseText(figures.text.gap)})`}
+    ${isLive && round && html` <span class="hint">${phraseText(round)}</span>`}
     ${!isLive && status && html` <span class="hint">${phraseText(status)}</span>`}
   </figcaption>`;
 }

@@ -8,6 +8,7 @@ import { Comparison } from "./comparison.js";
 import { Curve, quantitiesOf } from "./curve.js";
 import { Exports } from "./exports.js";
 import { PlanFaults } from "./faults.js";
+import { Jobs } from "./jobs.js";
 import { RunList } from "./list.js";
 import { Settings } from "./settings.js";
 import { Report, Studies } from "./studies.js";
@@ -33,6 +34,7 @@ export function PlanPanel({ studio }) {
       ${!isChosen && change}
       ${runs.payload && html`<${Exports} studio=${studio} />`}
       ${isChosen && questions}
+      <${Jobs} studio=${studio} />
       <${RunList} studio=${studio} />
       <${Comparison} studio=${studio} />
       <${Report} studio=${studio} />

@@ -1,6 +1,7 @@
 /** Everything below a map on which a plan is played: signs, buttons, slider, diagram; and the card beside it. */
 
 import { Bottleneck } from "../../../viz/page/assets/timetable/bottleneck.js";
+import { JobCards } from "../../../viz/page/assets/jobs/job_cards.js";
 import { Card } from "../../../viz/page/assets/lists/card.js";
 import { Diagram } from "../../../viz/page/assets/timetable/diagram.js";
 import { writeMarkup } from "../../../viz/page/assets/language/language.js";
@@ -62,7 +63,9 @@ export class Player {
     this.transport = new Transport(root, plan, clock, said);
     this.states = new States(root, motion, choice);
     this.observer.observe(this.diagram.canvas);
-    new Card(root, plan, clock, choice, said, null, view.space);
+    const jobs = plan.tours.length ? new JobCards(plan, clock, choice, said) : null;
+    this.diagram.jobs = view.jobs;
+    new Card(root, plan, clock, choice, said, null, view.space, null, jobs);
     this.card.hidden = true;
   }
 

@@ -12,6 +12,8 @@ import { later, present } from "../given.js";
 /** @import { ScenarioStore } from "../document.js" */
 /** @import { Hearer, LiveRun, ScenarioDocument, SearchSettings, SitePayload } from "../types.js" */
 
+const ROUND = "round of jobs"; // the kind of a fact on the progress of planning that is shown
+
 /**
  * @param {{state: string}} run
  * @returns {boolean}
@@ -540,13 +542,14 @@ export class RunStore extends Observable {
         if (!isOver(run)) return;
         if (run.error) this.#refuse(run.error);
       },
-      progress: ({ seconds, flowtime, lower_bound: bound }) => {
+      progress: ({ seconds, flowtime, lower_bound: bound, progress }) => {
         const run = this.find(number);
         if (!run) return;
         /** @type {[number, number][]} */
         const reached = flowtime === undefined ? [] : [[seconds ?? 0, flowtime]];
         const points = [...run.points, ...reached];
-        this.#keep({ ...run, points, bound: bound ?? run.bound });
+        const round = progress?.[0] === ROUND ? progress : run.round;
+        this.#keep({ ...run, points, bound: bound ?? run.bound, round });
       },
       plan: ({ figures }) => {
         const run = this.find(number);

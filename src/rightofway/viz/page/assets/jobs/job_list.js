@@ -8,6 +8,7 @@ import { upperFirst } from "../language/words.js";
 /** @import { Clock } from "../player/clock.js" */
 /** @import { JobData } from "../payload.d.ts" */
 /** @import { Plan } from "../plan/plan.js" */
+/** @import { TwoLines } from "../lists/two_line_list.js" */
 /** @import { Words } from "../language/words.js" */
 
 export const JOBS_TAB = `<button type="button" role="tab" id="tab-jobs" aria-controls="jobs" aria-selected="false" tabindex="-1"><span data-text="jobs"></span> <b></b></button>`;
@@ -17,19 +18,17 @@ export const JOBS_PANEL = `<div class="panel" id="jobs" role="tabpanel" aria-lab
 </div>`;
 
 /**
- * The list of all jobs: those that nobody does, then by their begin; choosing one goes there.
+ * All jobs, those that nobody does first, then by their begin; choosing one goes there.
  *
- * @param {Root} root
  * @param {Plan} plan
- * @param {Clock} clock
+ * @param {Pick<Clock, "pause" | "seek">} clock
  * @param {Choice} choice
  * @param {Words} words
+ * @returns {TwoLines[]}
  */
-export function makeJobList(root, plan, clock, choice, words) {
-  const order = plan.jobs
-    .map((_, index) => index)
-    .sort((a, b) => beginOf(plan, a) - beginOf(plan, b));
-  const items = order.map((index) => {
+export function linesOf(plan, clock, choice, words) {
+  const order = [...plan.jobs.keys()].sort((a, b) => beginOf(plan, a) - beginOf(plan, b));
+  return order.map((index) => {
     const job = plan.jobs[index];
     const choose = () => choice.chooseJob(index);
     return {
@@ -40,6 +39,19 @@ export function makeJobList(root, plan, clock, choice, words) {
       choose: job.times ? () => chooseAt(clock, beginOf(plan, index), choose) : choose,
     };
   });
+}
+
+/**
+ * The list of all jobs.
+ *
+ * @param {Root} root
+ * @param {Plan} plan
+ * @param {Clock} clock
+ * @param {Choice} choice
+ * @param {Words} words
+ */
+export function makeJobList(root, plan, clock, choice, words) {
+  const items = linesOf(plan, clock, choice, words);
   return new TwoLineList(root, "job", choice, items, {
     none: items.length ? texts.jobs.noneFits : texts.jobs.none,
     isLong: false,

@@ -48,21 +48,7 @@ export class JobMarks {
     if (!job) return;
     const { x, y } = this.plan.roadmap;
     const places = job.stops.map(([vertex]) => ({ x: x[vertex], y: y[vertex] }));
-    context.lineCap = context.lineJoin = "round";
-    for (const { colour, width } of [
-      { colour: this.theme.paper, width: 7 },
-      { colour: this.theme.ink, width: 2.5 },
-    ]) {
-      context.strokeStyle = context.fillStyle = colour;
-      context.lineWidth = width / scale;
-      places.slice(1).forEach((to, i) => arrow(context, places[i], to, scale));
-      for (const place of places) {
-        ring(context, place.x, place.y, 7 / scale);
-        context.stroke();
-      }
-      disc(context, places[0].x, places[0].y, 4 / scale);
-    }
-    context.lineCap = "butt";
+    paintStops(context, this.theme, places, scale);
   }
 
   /**
@@ -143,6 +129,32 @@ export class JobMarks {
 }
 
 /**
+ * Stops in their order, with arrows between them, in units of the map; the first one has a dot.
+ *
+ * @param {CanvasRenderingContext2D} context
+ * @param {Theme} theme
+ * @param {{ x: number, y: number }[]} places
+ * @param {number} scale
+ */
+export function paintStops(context, theme, places, scale) {
+  context.lineCap = context.lineJoin = "round";
+  for (const { colour, width } of [
+    { colour: theme.paper, width: 7 },
+    { colour: theme.ink, width: 2.5 },
+  ]) {
+    context.strokeStyle = context.fillStyle = colour;
+    context.lineWidth = width / scale;
+    places.slice(1).forEach((to, i) => arrow(context, places[i], to, scale));
+    for (const place of places) {
+      ring(context, place.x, place.y, 7 / scale);
+      context.stroke();
+    }
+    if (places.length) disc(context, places[0].x, places[0].y, 4 / scale);
+  }
+  context.lineCap = "butt";
+}
+
+/**
  * A dashed line with a head in its middle, so that the place it leads to stays in sight.
  *
  * @param {CanvasRenderingContext2D} context
@@ -150,7 +162,7 @@ export class JobMarks {
  * @param {{ x: number, y: number }} to
  * @param {number} scale
  */
-function arrow(context, from, to, scale) {
+export function arrow(context, from, to, scale) {
   const [across, down] = [to.x - from.x, to.y - from.y];
   const length = Math.hypot(across, down);
   if (length * scale < 16) return;

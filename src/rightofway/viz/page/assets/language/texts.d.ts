@@ -435,6 +435,7 @@ export interface StudioTexts {
   tabs: {
     map: string;
     robots: string;
+    jobs: string;
     plan: string;
     [key: string]: string;
   };
@@ -516,6 +517,7 @@ export interface StudioTexts {
     lane: string;
     mark: string;
     robot: string;
+    job: string;
     [key: string]: string;
   };
   tools: {
@@ -530,6 +532,7 @@ export interface StudioTexts {
     lane: string[];
     mark: string[];
     robot: string[];
+    job: string[];
     measure: string[];
     [key: string]: string[];
   };
@@ -615,8 +618,55 @@ export interface StudioTexts {
     home: string[];
     stops: string[];
     work: string[];
+    capacity: string[];
+    battery: string[];
+    charging: string[];
+    start: string[];
+    soc: string[];
     [key: string]: string[];
   };
+  jobColumns: {
+    name: string[];
+    pickup: string[];
+    dropoff: string[];
+    at: string[];
+    stops: string[];
+    load: string[];
+    work: string[];
+    pickup_work: string[];
+    dropoff_work: string[];
+    earliest: string[];
+    latest: string[];
+    due: string[];
+    weight: string[];
+    types: string[];
+    robot: string[];
+    after: string[];
+    [key: string]: string[];
+  };
+  newJob: string;
+  drawJob: string;
+  dragJob: string;
+  pressJob: string;
+  noJobs: string;
+  noJobsYet: string;
+  beginJobs: string;
+  jobsElsewhere: string;
+  pasteJobs: Text<"example">;
+  batteries: string;
+  battery: string;
+  newBattery: string;
+  batteryShares: {
+    drive: string[];
+    on: string[];
+    work: string[];
+    charge: string[];
+    reserve: string[];
+    [key: string]: string[];
+  };
+  batteryHint: string;
+  chargingPlaces: string;
+  chargingHint: string;
   placeRobot: string;
   fillDown: string;
   copyTable: string;

@@ -54,7 +54,7 @@ export class TwoLineList {
 /**
  * Choose something that happens at a moment, and go there.
  *
- * @param {Clock} clock
+ * @param {Pick<Clock, "pause" | "seek">} clock
  * @param {number} tick
  * @param {() => void} choose
  */
