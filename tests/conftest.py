@@ -48,6 +48,7 @@ SLOW = (
     "studio/test_editing.py",  # a browser
     "studio/test_faulty_plans.py",  # a browser
     "studio/test_guard.py",  # bodies of 100 MB
+    "studio/test_jobs.py",  # a browser
     "studio/test_languages.py",  # a browser
     "studio/test_page.py",  # a browser
     "studio/test_plans_page.py",  # a browser

@@ -147,7 +147,7 @@ export class Summary {
       ],
       [
         texts.latest,
-        latest ? this.#robot(latest) : "",
+        latest && !this.jobs ? this.#robot(latest) : "", // jobs have figures of their own
         texts.latestAtLength({ isHome: endsAtHome }),
       ],
       [texts.timeLost, this.#timeLost(robots), texts.timeLostAtLength],
