@@ -785,7 +785,7 @@ export type PostAnswer<Path extends string> =
   Path extends `/runs/${number}/stop` | `/runs/${number}/stop?${string}` ? RunData :
   Path extends `/deal` | `/deal?${string}` ? Dealt :
   Path extends `/inline` | `/inline?${string}` ? Inlined :
-  Path extends `/jobs` | `/jobs?${string}` ? PastedJobs :
+  Path extends `/rows` | `/rows?${string}` ? PastedJobs :
   Path extends `/runs` | `/runs?${string}` ? RunData :
   Path extends `/survey` | `/survey?${string}` ? SurveyData :
   Path extends `/validate` | `/validate?${string}` ? Validation :

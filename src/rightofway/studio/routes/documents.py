@@ -180,7 +180,7 @@ async def deal(studio: InStudio, deal: Deal) -> dict[str, Any]:
     return dict(result)
 
 
-@router.post("/jobs", tags=["documents"])
+@router.post("/rows", tags=["documents"])
 async def read_jobs(studio: InStudio, rows: Rows) -> dict[str, Any]:
     """Return the jobs of rows that were copied from a spreadsheet; headings are keys of a job."""
     result, _ = await studio.ask("paste", text=rows.text)

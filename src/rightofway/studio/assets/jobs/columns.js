@@ -142,7 +142,7 @@ export const JOB_TABLE = {
   unitOf: ({ key }, { time }) => (TIMES.includes(key) ? (time ?? "") : ""),
   newRow: ({ newJob }) => newJob,
   read: async (text) => {
-    const { jobs } = await post("/jobs", { text });
+    const { jobs } = await post("/rows", { text });
     return (document) => addJobs(document, jobs);
   },
 };
