@@ -1,6 +1,7 @@
 """Problems of the League of Robot Runners, read as scenarios with jobs."""
 
 import json
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -211,3 +212,10 @@ def test_a_value_that_does_not_fit_is_refused(
 def test_rows_that_differ_from_their_count_are_refused(hall: Path, tasks: str, fault: str) -> None:
     (found,) = read_faults(write(hall, PROBLEM, tasks=tasks))
     assert fault in found
+
+
+@pytest.mark.parametrize("value", [None, -1, 0, "x", [], {}, True, 1e300, "../tasks/few.tasks"])
+@pytest.mark.parametrize("key", sorted({*PROBLEM, *OLD}))
+def test_each_value_of_another_kind_is_read_or_a_fault(hall: Path, key: str, value: object) -> None:
+    with suppress(InputError):
+        load(write(hall, PROBLEM | {key: value}))

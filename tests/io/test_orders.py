@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+from contextlib import suppress
 from fractions import Fraction
 from pathlib import Path
+from random import Random
 from typing import Any
 
 import pytest
@@ -275,3 +277,66 @@ def test_times_of_orders_are_refused_for_jobs_of_ours(site: Path) -> None:
 def test_a_file_of_jobs_is_refused_for_a_scen_file(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="jobs: is for a scenario as YAML or JSON"):
         load(tmp_path / "hall.scen", jobs=tmp_path / "jobs.csv")
+
+
+ORDERS = json.dumps(
+    [
+        go("Gate:Load cargo", "D:Unload cargo", name="T1", creationTime="2026-11-28T06:00:00Z",
+           deadline="2026-11-28T07:00:00Z", intendedVehicle="R1", type="fork", state="RAW",
+           wrappingSequence="S", dependencies=["T2"], properties={"key": "value"}),
+        {"name": "T2", "driveOrders": [{"state": "PRISTINE", "destination": {"destination": "B"}}]},
+    ],
+    indent=1,
+)  # fmt: skip
+TASKS = json.dumps(
+    [
+        ask("delivery", {"pickup": {"place": "Gate"}, "dropoff": {"place": {"waypoint": "D"}}},
+            unix_millis_earliest_start_time=60_000, priority={"type": "binary", "value": 1}),
+        do(("go_to_place", {"one_of": ["B"]}), ("perform_action", {"category": "x"})),
+    ],
+    indent=1,
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("text", "name"), [(ORDERS, "orders.json"), (TASKS, "tasks.json"), (XML, "orders.xml")]
+)
+def test_a_text_with_random_changes_is_orders_or_a_fault(site: Path, text: str, name: str) -> None:
+    draw = Random(7)  # noqa: S311
+    for _ in range(60):
+        spoiled = list(text)
+        for _ in range(draw.randint(1, 4)):
+            place = draw.randrange(len(spoiled))
+            match draw.randrange(3):
+                case 0:
+                    spoiled[place] = draw.choice("(){}[]:,->\n 019Tx\"'é")
+                case 1:
+                    del spoiled[place]
+                case _:
+                    spoiled.insert(place, draw.choice(text))
+        with suppress(InputError):
+            read(site, "".join(spoiled), name)
+
+
+@pytest.mark.parametrize("text", [ORDERS, TASKS])
+@pytest.mark.parametrize("value", [None, 3, "A", [], {}, [[]], True, 1e300])
+def test_each_value_of_another_kind_is_read_or_a_fault(site: Path, text: str, value: Any) -> None:
+    data = json.loads(text)
+    for path in list_paths(data):
+        changed = json.loads(text)
+        inner = changed
+        for step in path[:-1]:
+            inner = inner[step]
+        inner[path[-1]] = value
+        with suppress(InputError):
+            read(site, changed)
+
+
+def list_paths(data: Any) -> list[tuple[Any, ...]]:
+    """Return the keys and indices that lead to each value of JSON data."""
+    paths: list[tuple[Any, ...]] = []
+    if not isinstance(data, dict | list):
+        return paths
+    for step, value in data.items() if isinstance(data, dict) else enumerate(data):
+        paths += [(step,), *((step, *path) for path in list_paths(value))]
+    return paths
