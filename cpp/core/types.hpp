@@ -38,6 +38,7 @@ struct Booking {
     Tick end = never;
 
     bool is_empty() const { return start >= end; }
+    bool operator==(const Booking&) const = default;
 };
 
 // A booking that overlaps nothing, not even one without end.

@@ -1,10 +1,17 @@
 #include "lns/adaptive_choice.hpp"
 
+#include <algorithm>
+
 namespace rightofway {
 namespace {
 
 constexpr double memory = 0.97;    // of a record, from use to use
 constexpr double curiosity = 0.3;  // the share of draws that is even
+
+constexpr double memory_of_groups = 0.99;
+constexpr double least_of_group = 0.1;  // of the effort of a group
+
+double draw_share(Random& random) { return static_cast<double>(random.next() >> 11) * 0x1.0p-53; }
 
 }  // namespace
 
@@ -12,7 +19,7 @@ AdaptiveChoice::AdaptiveChoice(std::size_t n_options)
     : records_(n_options), weights_(n_options, 1.0 / static_cast<double>(n_options)) {}
 
 std::size_t AdaptiveChoice::draw(Random& random) const {
-    double left = static_cast<double>(random.next() >> 11) * 0x1.0p-53;
+    double left = draw_share(random);
     std::size_t option = 0;
     while (option + 1 < weights_.size() && (left -= weights_[option]) >= 0) {
         ++option;
@@ -44,6 +51,28 @@ void AdaptiveChoice::settle() {
     for (double& weight : weights_) {
         weight = (1 - curiosity) * weight / sum + curiosity / n;
     }
+}
+
+bool EffortShares::draw(Random& random) const { return draw_share(random) < second_; }
+
+void EffortShares::learn(bool is_second, double gain, double effort) {
+    Record& record = records_[is_second ? 1 : 0];
+    record.gain = memory_of_groups * record.gain + gain;
+    record.effort = memory_of_groups * record.effort + effort;
+    record.n_uses = memory_of_groups * record.n_uses + 1;
+}
+
+void EffortShares::settle() {
+    const auto& [first, second] = records_;
+    const double rate = first.gain / first.effort;
+    const double rate_of_second = second.gain / second.effort;
+    const double sum = rate + rate_of_second;
+    const bool has_gain = first.gain + second.gain >= 1;
+    const double share =
+        has_gain ? std::clamp(rate_of_second / sum, least_of_group, 1 - least_of_group) : 0.5;
+    const double uses = (1 - share) * first.n_uses / first.effort;
+    const double uses_of_second = share * second.n_uses / second.effort;
+    second_ = uses_of_second / (uses + uses_of_second);
 }
 
 }  // namespace rightofway

@@ -5,6 +5,7 @@
 // problem with time windows", Transportation Science 2006 (weights).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -30,6 +31,27 @@ class AdaptiveChoice {
 
     std::vector<Record> records_;
     std::vector<double> weights_;
+};
+
+// A choice between two groups of options whose uses need unlike effort. Each group gets a share of
+// all effort in the ratio of what the groups bring for their effort, and at least a tenth.
+class EffortShares {
+  public:
+    // True for the second group.
+    bool draw(Random& random) const;
+
+    void learn(bool is_second, double gain, double effort);
+    void settle();
+
+  private:
+    struct Record {
+        double gain = 0;
+        double effort = 1;
+        double n_uses = 1;
+    };
+
+    std::array<Record, 2> records_{};
+    double second_ = 0.5;  // the probability of the second group
 };
 
 }  // namespace rightofway

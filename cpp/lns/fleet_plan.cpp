@@ -16,6 +16,7 @@ FleetPlan::FleetPlan(const Problem& problem, Objective objective)
       bookings_(problem.n_rows()),
       tracks_(static_cast<std::size_t>(problem.n_robots())),
       held_(tracks_.size(), 0),
+      windows_(tracks_.size()),
       ends_(problem.has_arcs() ? problem.n_stages() : 0, 0) {
     const Closures& closed = problem.closures();
     for (std::size_t k = 0; k < closed.row.size(); ++k) {
@@ -172,23 +173,93 @@ Tracks FleetPlan::tracks() const {
     return tracks;
 }
 
-void FleetPlan::exchange(RobotId robot, TimedTrack& track) {
-    TimedTrack& own = tracks_[index(robot)];
-    for (std::size_t k = 0; k < own.visits.size(); ++k) {
-        for_each_row(robot, own, k, [&](std::int32_t row, const Booking& time) {
+void FleetPlan::book(RobotId robot, const TimedTrack& track, std::size_t first, std::size_t end) {
+    for (std::size_t k = first; k < end; ++k) {
+        for_each_row(robot, track, k, [&](std::int32_t row, const Booking& time) {
+            for_each_mark(row, [&](std::int32_t mark) { bookings_.insert(mark, time, robot); });
+        });
+    }
+}
+
+void FleetPlan::erase(RobotId robot, const TimedTrack& track, std::size_t first, std::size_t end) {
+    for (std::size_t k = first; k < end; ++k) {
+        for_each_row(robot, track, k, [&](std::int32_t row, const Booking& time) {
             for_each_mark(row,
                           [&](std::int32_t mark) { bookings_.erase(mark, time.start, robot); });
         });
+    }
+}
+
+// Where robots are points, the visits at the begin and at the end that both tracks have stay
+// booked.
+void FleetPlan::exchange(RobotId robot, TimedTrack& track) {
+    release_window(robot);
+    TimedTrack& own = tracks_[index(robot)];
+    const Window window = std::exchange(windows_[index(robot)], Window{});
+    const std::size_t n = own.visits.size();
+    const std::size_t m = track.visits.size();
+    std::size_t n_first = 0;
+    std::size_t n_last = 0;
+    if (!problem_->books_edges()) {
+        const auto are_same = [&](std::size_t k, std::size_t j) {
+            return own.visits[k].vertex == track.visits[j].vertex &&
+                   booking(own, k) == booking(track, j);
+        };
+        const std::size_t most_first = window.is_open ? window.first : n;
+        const std::size_t most_last = window.is_open ? n - window.last - 1 : n;
+        while (n_first < std::min({n, m, most_first}) && are_same(n_first, n_first)) {
+            ++n_first;
+        }
+        while (n_last < std::min({n - n_first, m - n_first, most_last}) &&
+               are_same(n - n_last - 1, m - n_last - 1)) {
+            ++n_last;
+        }
+    }
+    if (window.is_open) {
+        erase(robot, own, n_first, window.first);
+        erase(robot, own, window.last + 1, n - n_last);
+    } else {
+        erase(robot, own, n_first, n - n_last);
     }
     cost_ += problem_->weight(robot) * (track.cost - own.cost);
     std::swap(own, track);
     if (problem_->has_arcs() && !own.visits.empty()) {
         std::copy(own.ends.begin(), own.ends.end(), ends_.begin() + problem_->first_stage(robot));
     }
-    for (std::size_t k = 0; k < own.visits.size(); ++k) {
-        for_each_row(robot, own, k, [&](std::int32_t row, const Booking& time) {
-            for_each_mark(row, [&](std::int32_t mark) { bookings_.insert(mark, time, robot); });
-        });
+    book(robot, own, n_first, m - n_last);
+}
+
+void FleetPlan::open_window(RobotId robot, std::size_t first, std::size_t last, Tick until) {
+    const TimedTrack& own = tracks_[index(robot)];
+    erase(robot, own, first, last + 1);
+    windows_[index(robot)] = {first, last, true, true};
+    Booking stay = booking(own, first);
+    stay.end = until + problem_->rules().headway + 1;
+    bookings_.insert(problem_->vertex_row(robot, own.visits[first].vertex), stay, robot);
+    book(robot, own, last, last + 1);
+}
+
+void FleetPlan::release_window(RobotId robot, Tick until) {
+    Window& window = windows_[index(robot)];
+    if (!window.is_held) {
+        return;
+    }
+    const TimedTrack& own = tracks_[index(robot)];
+    erase(robot, own, window.first, window.first + 1);
+    erase(robot, own, window.last, window.last + 1);
+    window.is_held = false;
+    while (window.last + 1 < own.visits.size() && own.visits[window.last + 1].enter < until) {
+        ++window.last;
+        erase(robot, own, window.last, window.last + 1);
+    }
+}
+
+void FleetPlan::close_window(RobotId robot) {
+    const Window window = windows_[index(robot)];
+    if (window.is_open) {
+        release_window(robot);
+        book(robot, tracks_[index(robot)], window.first, window.last + 1);
+        windows_[index(robot)] = {};
     }
 }
 

@@ -47,8 +47,17 @@ class FleetPlan {
 
     const Problem& problem() const { return *problem_; }
 
-    // Swaps a robot's track with `track` and updates the bookings; either track may be empty.
+    // Swaps a robot's track with `track` and updates the bookings that differ; either track may be
+    // empty. The robot has no window afterwards.
     void exchange(RobotId robot, TimedTrack& track);
+
+    // Opens a window in a robot's track: visits `first` to `last` are not booked any more, but that
+    // the robot is at the first one until a tick, and at the last one. `release_window` takes these
+    // bookings away, and those of visits after the window that begin before a tick; `close_window`
+    // books all visits again. Only where robots are points, and drives book no edges.
+    void open_window(RobotId robot, std::size_t first, std::size_t last, Tick until);
+    void release_window(RobotId robot, Tick until = 0);
+    void close_window(RobotId robot);
 
     // The surcharges of the edges of a track.
     Tick surcharges(std::span<const Visit> visits) const;
@@ -90,6 +99,15 @@ class FleetPlan {
     Booking booking(const TimedTrack& track, std::size_t k) const;
 
   private:
+    struct Window {
+        std::size_t first = 0;
+        std::size_t last = 0;
+        bool is_open = false;
+        bool is_held = false;
+    };
+
+    void book(RobotId robot, const TimedTrack& track, std::size_t first, std::size_t end);
+    void erase(RobotId robot, const TimedTrack& track, std::size_t first, std::size_t end);
     template <class Use>
     void for_each_row(RobotId robot, const TimedTrack& track, std::size_t k, const Use& use) const;
     template <class Use>
@@ -105,6 +123,7 @@ class FleetPlan {
     BookingTable bookings_;
     std::vector<TimedTrack> tracks_;
     std::vector<Tick> held_;
+    std::vector<Window> windows_;
     std::vector<Tick> ends_;  // the latest known ones of all stages, where some follow others
     Tick cost_ = 0;
 };

@@ -13,6 +13,10 @@ constexpr std::size_t most_in_round = 32;
 
 constexpr Tick unlimited = Tick{1} << 61;
 
+// A window extends by so many of the slowest edges of its robot to both sides of its middle.
+constexpr std::array<Tick, 3> edges_around{8, 16, 32};
+constexpr std::array<std::size_t, 3> sizes_of_windows{2, 4, 8};
+
 }  // namespace
 
 struct Lns::Worker {
@@ -20,12 +24,14 @@ struct Lns::Worker {
         : plan(own),
           search(distances.problem().roads(), distances.problem().rules()),
           reader(distances, true),
-          neighbourhoods(distances, own, alone) {}
+          neighbourhoods(distances, own, alone),
+          windows(distances, own) {}
 
     FleetPlan& plan;
     SafeIntervalSearch search;
     TripReader reader;
     Neighbourhoods neighbourhoods;
+    WindowSearch windows;
     TimedTrack found;
     StageLimits limits;
 };
@@ -38,6 +44,8 @@ Lns::Lns(SharedDistances& distances, FleetPlan& plan, std::span<const Tick> alon
       seed_(seed),
       is_touched_(alone.size(), 0),
       neighbourhood_(n_neighbourhood_kinds * sizes.size()),
+      has_windows_(may_have_windows(plan.problem())),
+      size_of_windows_(sizes_of_windows.size()),
       crew_(n_threads) {
     workers_.push_back(std::make_unique<Worker>(distances, plan_, alone));
     replicas_.reserve(n_threads);
@@ -53,7 +61,7 @@ Lns::~Lns() = default;
 std::int64_t Lns::n_expanded() const {
     std::int64_t sum = 0;
     for (const auto& worker : workers_) {
-        sum += worker->search.n_expanded();
+        sum += worker->search.n_expanded() + worker->windows.n_expanded();
     }
     return sum;
 }
@@ -86,18 +94,107 @@ void Lns::round(std::size_t n, const StopCondition& is_over) {
 }
 
 void Lns::attempt(Worker& worker, Task& task, Random& random, const StopCondition& is_over) {
-    task.neighbourhood = neighbourhood_.draw(random);
-    const auto kind = static_cast<NeighbourhoodKind>(task.neighbourhood / sizes.size());
-    const std::size_t size = sizes[task.neighbourhood % sizes.size()];
+    task.has_windows = has_windows_ && shares_.draw(random);
+    task.neighbourhood = (task.has_windows ? size_of_windows_ : neighbourhood_).draw(random);
+    const auto kind = task.has_windows
+                          ? NeighbourhoodKind::window
+                          : static_cast<NeighbourhoodKind>(task.neighbourhood / sizes.size());
+    const std::size_t size = task.has_windows ? sizes_of_windows[task.neighbourhood]
+                                              : sizes[task.neighbourhood % sizes.size()];
     task.robots = worker.neighbourhoods.choose(kind, size, random);
     const RobotId seed = task.robots.front();
     random.shuffle(task.robots);
     if (random.below(2) == 0) {  // the seed robot goes first
         std::swap(task.robots.front(), *std::find(task.robots.begin(), task.robots.end(), seed));
     }
+    if (task.has_windows) {
+        choose_windows(worker, task, random);
+        const std::int64_t before = worker.windows.n_expanded();
+        replan_windows(worker, task, is_over);
+        task.effort = worker.windows.n_expanded() - before + 1;
+        return;
+    }
     const std::int64_t before = worker.search.n_expanded();
     replan(worker, task, is_over);
     task.effort = worker.search.n_expanded() - before + 1;
+}
+
+// Chooses a window of each robot of a task; robots that are done by then leave it.
+void Lns::choose_windows(Worker& worker, Task& task, Random& random) const {
+    const Tick edges = edges_around[random.below(edges_around.size())];
+    const Tick middle = worker.neighbourhoods.middle();
+    std::vector<RobotId> robots;
+    task.windows.clear();
+    for (const RobotId robot : task.robots) {
+        const Tick around = edges * plan_.problem().slowest_edge(robot);
+        TrackWindow window;
+        if (worker.windows.choose(robot, middle, around, window)) {
+            robots.push_back(robot);
+            task.windows.push_back(window);
+        }
+    }
+    task.robots = std::move(robots);
+}
+
+// Replans the windows of a task, stores the tracks in the task, and restores the plan.
+void Lns::replan_windows(Worker& worker, Task& task, const StopCondition& is_over) {
+    const std::size_t n = task.robots.size();
+    if (task.tracks.size() < n) {
+        task.tracks.resize(n);
+    }
+    const Worth before = worker.plan.worth();
+    for (std::size_t k = 0; k < n; ++k) {
+        const TrackWindow& window = task.windows[k];
+        worker.plan.open_window(task.robots[k], window.first, window.last, window.until);
+    }
+    std::size_t n_found = 0;
+    const auto restore = [&] {
+        for (std::size_t k = n; k-- > n_found;) {
+            worker.plan.close_window(task.robots[k]);
+        }
+        for (std::size_t k = n_found; k-- > 0;) {
+            worker.plan.exchange(task.robots[k], task.tracks[k]);
+        }
+    };
+    task.gain = -1;
+    bool is_found = false;
+    try {
+        is_found = n > 0 && find_windows(worker, task, n_found, is_over);
+    } catch (...) {
+        restore();
+        throw;
+    }
+    if (is_found) {
+        const Worth after = worker.plan.worth();
+        task.gain = plan_.objective() == Objective::flowtime ? before.cost - after.cost
+                                                             : gain_of(before, after);
+    }
+    restore();
+}
+
+// Gives the robots of a task tracks with other windows, one after another, and stores their former
+// tracks in the task; counts them.
+bool Lns::find_windows(Worker& worker, Task& task, std::size_t& n_found,
+                       const StopCondition& is_over) {
+    Tick slack = 0;
+    for (std::size_t k = 0; k < task.robots.size(); ++k) {
+        const Tick weight = plan_.problem().weight(task.robots[k]);
+        slack += weight * (task.windows[k].value - task.windows[k].least);
+    }
+    for (std::size_t k = 0; k < task.robots.size(); ++k) {
+        const RobotId robot = task.robots[k];
+        const Tick weight = plan_.problem().weight(robot);
+        const Tick least = task.windows[k].least;
+        if (slack < 0 || !worker.windows.find(robot, task.windows[k], least + slack / weight,
+                                              is_over, worker.found)) {
+            return false;
+        }
+        slack -= weight * (worker.windows.value() - least);
+        worker.plan.exchange(robot, worker.found);
+        std::swap(task.tracks[k], worker.found);
+        ++n_found;
+    }
+    return true;
 }
 
 // Replans the robots of a task, stores the tracks in the task, and restores the plan.
@@ -213,12 +310,17 @@ void Lns::settle(std::size_t n) {
         Task& task = tasks_[k];
         const bool is_adopted = task.gain >= 0 && adopt(task, is_changed);
         is_changed |= is_adopted;
-        n_idle_ = is_adopted && task.gain > 0 ? 0 : n_idle_ + 1;
-        neighbourhood_.learn(task.neighbourhood, is_adopted ? static_cast<double>(task.gain) : 0.0,
-                             static_cast<double>(task.effort));
+        n_idle_ = is_adopted && task.gain > 0 ? 0 : n_idle_ + (task.has_windows ? 0 : 1);
+        const double gain = is_adopted ? static_cast<double>(task.gain) : 0.0;
+        const auto effort = static_cast<double>(task.effort);
+        (task.has_windows ? size_of_windows_ : neighbourhood_)
+            .learn(task.neighbourhood, gain, effort);
+        shares_.learn(task.has_windows, gain, effort);
         ++n_tasks_;
     }
     neighbourhood_.settle();
+    size_of_windows_.settle();
+    shares_.settle();
 }
 
 // Adopts a result in the plan and all replicas, unless it conflicts with results adopted before.

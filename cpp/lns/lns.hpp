@@ -7,6 +7,10 @@
 // (seed, round, task). After a round, results that still fit together are adopted in order of
 // tasks. So the outcome depends on the seed and the number of tasks, not on the threads.
 //
+// Where stages have times, a task may replan windows instead of whole tracks: of robots that meet
+// at about one time, each the part of its track around that time (window_search.hpp). A trip of
+// twenty stages has many windows, and each is replanned in a small part of the time.
+//
 // For the makespan, half of the neighbourhoods grow around a robot that completes last. Where one
 // of those is replanned, all robots of the task have to complete before the makespan, whatever the
 // flowtime; in other tasks none may complete at or after it, and the flowtime falls.
@@ -26,6 +30,7 @@
 #include "lns/adaptive_choice.hpp"
 #include "lns/fleet_plan.hpp"
 #include "lns/neighbourhoods.hpp"
+#include "lns/window_search.hpp"
 #include "search/sipp.hpp"
 
 namespace rightofway {
@@ -37,9 +42,10 @@ class Lns {
         std::uint64_t seed, std::size_t n_threads);
     ~Lns();
 
-    // Does `n_tasks` tasks. Stops early after `patience` tasks in a row without a gain, once
-    // `is_over` is true, or at the end of a round if `is_due` is true. Only the calling thread
-    // evaluates both. Rethrows an exception of `is_over` or of a task once the plan is complete.
+    // Does `n_tasks` tasks. Stops early after `patience` tasks of whole tracks in a row without a
+    // gain, once `is_over` is true, or at the end of a round if `is_due` is true. Only the calling
+    // thread evaluates both. Rethrows an exception of `is_over` or of a task once the plan is
+    // complete.
     void run(std::int64_t n_tasks, std::int64_t patience, const StopCondition& is_over,
              const StopCondition& is_due);
 
@@ -52,16 +58,22 @@ class Lns {
 
     struct Task {
         std::vector<RobotId> robots;
+        std::vector<TrackWindow> windows;  // one for each robot, unless tracks are whole
         std::vector<TimedTrack> tracks;
-        std::size_t neighbourhood = 0;  // index of kind and size
-        Tick gain = -1;                 // below 0: nothing found that is as good
+        std::size_t neighbourhood = 0;  // index of kind and size; of windows, of size
+        bool has_windows = false;
+        Tick gain = -1;  // below 0: nothing found that is as good
         std::int64_t effort = 0;
     };
     struct Worker;
 
     void round(std::size_t n, const StopCondition& is_over);
     void attempt(Worker& worker, Task& task, Random& random, const StopCondition& is_over);
+    void choose_windows(Worker& worker, Task& task, Random& random) const;
     void replan(Worker& worker, Task& task, const StopCondition& is_over);
+    void replan_windows(Worker& worker, Task& task, const StopCondition& is_over);
+    bool find_windows(Worker& worker, Task& task, std::size_t& n_found,
+                      const StopCondition& is_over);
     struct Limits {
         Tick slack = 0;  // allowed sum of weighted costs above `alone`
         Tick latest = never;
@@ -82,6 +94,9 @@ class Lns {
     std::vector<Task> tasks_;
     std::vector<std::uint8_t> is_touched_;
     AdaptiveChoice neighbourhood_;
+    bool has_windows_;     // the problem may have
+    EffortShares shares_;  // of tasks that replan whole tracks, and windows
+    AdaptiveChoice size_of_windows_;
     TaskCrew crew_;
     std::uint64_t n_rounds_ = 0;
     std::int64_t n_tasks_ = 0;

@@ -63,6 +63,9 @@ const std::vector<RobotId>& Neighbourhoods::choose(NeighbourhoodKind kind, std::
         case NeighbourhoodKind::segment:
             segment(size, random);
             break;
+        case NeighbourhoodKind::window:
+            window(size, random);
+            return chosen_;
         case NeighbourhoodKind::random:
             break;
     }
@@ -209,8 +212,11 @@ void Neighbourhoods::congestion(std::size_t size, Random& random) {
     const RobotId robot = static_cast<RobotId>(random.below(alone_.size()));
     add(robot);
     const auto& visits = plan_.track(robot).visits;
-    const Visit& middle = visits[random.below(visits.size())];
-    const Tick around = 3 * problem_.slowest_edge(robot);
+    add_around(visits[random.below(visits.size())], 3 * problem_.slowest_edge(robot), size);
+}
+
+// Adds the robots that pass near a visit, nearest vertices first.
+void Neighbourhoods::add_around(const Visit& middle, Tick around, std::size_t size) {
     const Graph& graph = problem_.graph();
     ring_.assign(1, middle.vertex);
     for (std::size_t k = 0; k < ring_.size() && k < places_around && chosen_.size() < size; ++k) {
@@ -261,6 +267,25 @@ void Neighbourhoods::segment(std::size_t size, Random& random) {
             add(other);
         }
     }
+}
+
+// Adds the robots that pass the route of a late robot around a random visit, nearest visits first,
+// then those near that visit.
+void Neighbourhoods::window(std::size_t size, Random& random) {
+    const RobotId robot = late_robot(random);
+    add(robot);
+    const auto& visits = plan_.track(robot).visits;
+    const std::size_t middle = random.below(visits.size());
+    const Tick around = 3 * problem_.slowest_edge(robot);
+    middle_ = visits[middle].enter;
+    for (std::size_t away = 0; away <= visits_around && chosen_.size() < size; ++away) {
+        for (const std::size_t k : {middle - std::min(away, middle), middle + away}) {
+            if (k < visits.size()) {
+                add_all(visits[k].vertex, visits[k].enter - around, visits[k].enter + around, size);
+            }
+        }
+    }
+    add_around(visits[middle], around, size);
 }
 
 }  // namespace rightofway

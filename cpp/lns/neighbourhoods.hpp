@@ -20,8 +20,9 @@ enum class NeighbourhoodKind : std::int32_t {
     congestion,  // robots near one vertex at about one time
     segment,     // a late robot, and the opposing robots of a segment
     random,
+    window,  // a late robot, and the robots that pass near it for some time around one visit
 };
-inline constexpr std::size_t n_neighbourhood_kinds = 5;
+inline constexpr std::size_t n_neighbourhood_kinds = 5;  // of whole tracks
 
 class Neighbourhoods {
   public:
@@ -30,6 +31,8 @@ class Neighbourhoods {
 
     // Chooses at most `size` robots, each once.
     const std::vector<RobotId>& choose(NeighbourhoodKind kind, std::size_t size, Random& random);
+    // The time around which the robots of the latest window meet.
+    Tick middle() const { return middle_; }
 
   private:
     RobotId late_robot(Random& random);
@@ -38,6 +41,8 @@ class Neighbourhoods {
     void delay(std::size_t size, Random& random);
     void congestion(std::size_t size, Random& random);
     void segment(std::size_t size, Random& random);
+    void window(std::size_t size, Random& random);
+    void add_around(const Visit& middle, Tick around, std::size_t size);
     void fill_up(std::size_t size, Random& random);
     void add(RobotId robot);
     void add_all(VertexId vertex, Tick start, Tick end, std::size_t size);
@@ -50,6 +55,7 @@ class Neighbourhoods {
     std::vector<std::uint8_t> is_chosen_;
     std::vector<std::int32_t> stage_of_;
     std::vector<VertexId> ring_;
+    Tick middle_ = 0;
 };
 
 }  // namespace rightofway

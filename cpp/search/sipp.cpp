@@ -23,6 +23,8 @@ void SafeIntervalSearch::begin(const SearchRequest& request) {
     rest_price_ = request.rest_price;
     stays_from_ = request.stays_from;
     ends_from_ = request.ends_from;
+    starts_at_ = request.starts_at;
+    last_gap_ = request.last_gap;
     goal_ = none;
     greed_ = request.greed;
     has_times_ = trip_->times.are_known();
@@ -57,7 +59,7 @@ SearchEnd SafeIntervalSearch::run(const SearchRequest& request, const StopCondit
     return search(never, is_over);
 }
 
-// A* from home at tick 0: lines 1 to 4, and line 13 for the states that `expand` reaches.
+// A* from home: lines 1 to 4, and line 13 for the states that `expand` reaches.
 SearchEnd SafeIntervalSearch::search(std::int64_t most_states, const StopCondition& is_over) {
     const std::size_t n_places =
         trip_->turns.take_time() ? roads_.graph.indices.size() + 1 : roads_.graph.indptr.size() - 1;
@@ -66,7 +68,8 @@ SearchEnd SafeIntervalSearch::search(std::int64_t most_states, const StopConditi
     const auto home = at(trip_->home);
     SearchNode first{};
     first.vertex = trip_->home;
-    first.gap = BookingTable::started(home, rules_.headway);
+    first.gap = BookingTable::started(home, starts_at_ + rules_.headway);
+    first.ready = starts_at_;
     first.parent = none;
     first.cost = price_of_entry(first, 0);
     if (first.cost >= never || !pay_until(first, trip_->times.ready)) {

@@ -77,8 +77,10 @@ struct SearchRequest {
     Tick latest = never;  // greatest completion time, whatever is paid [ticks]
     Tick rest_price =
         0;  // of ending at a vertex that other robots want, for one that ends anywhere
-    Tick stays_from = 0;  // earliest start of the last visit's booking
-    Tick ends_from = 0;   // least completion time
+    Tick stays_from = 0;           // earliest start of the last visit's booking
+    Tick ends_from = 0;            // least completion time
+    Tick starts_at = 0;            // from when on the robot is at its home
+    std::int32_t last_gap = none;  // the gap in which the last visit ends; none: that without end
 };
 
 class SafeIntervalSearch {
@@ -191,6 +193,8 @@ class SafeIntervalSearch {
     Tick rest_price_ = 0;
     Tick stays_from_ = 0;
     Tick ends_from_ = 0;
+    Tick starts_at_ = 0;
+    std::int32_t last_gap_ = none;
     bool has_times_ = false;             // stages have times
     bool completes_before_end_ = false;  // the robot ends anywhere
     bool costs_ends_ = false;            // ends of stages cost

@@ -78,7 +78,7 @@ Tick SafeIntervalSearch::value_in_time(const SearchNode& node, Tick way) const {
 // A lower bound of completion plus prices from the bookings of the last vertex: the robot enters
 // after the end of a booking, or pays for the booking.
 Tick SafeIntervalSearch::least_end() const {
-    if (trip_->ends_anywhere() || costs_ends_) {
+    if (trip_->ends_anywhere() || costs_ends_ || last_gap_ != none) {
         return 0;
     }
     const auto last = at(trip_->stage_vertex.back());
@@ -104,7 +104,7 @@ Tick SafeIntervalSearch::free_end(std::span<const BookedBy> before) const {
 // Whether bookings of the last vertex, or its earliest start, raise the bound above the completion
 // time alone, and the bound is to wait for all of them.
 bool SafeIntervalSearch::is_worth_aiming() const {
-    if (trip_->ends_anywhere() || costs_ends_) {
+    if (trip_->ends_anywhere() || costs_ends_ || last_gap_ != none) {
         return false;
     }
     const auto last = at(trip_->stage_vertex.back());
@@ -121,14 +121,18 @@ SearchEnd SafeIntervalSearch::aim(const StopCondition& is_over) {
     return search(states_per_drive * (least_f_ / least_drive_ + 1), is_over);
 }
 
-// Ends the track: the last visit needs a gap without end, or pays for later bookings.
+// Ends the track: the last visit needs the gap that is asked for, or one without end, or pays for
+// later bookings.
 void SafeIntervalSearch::finish(std::int32_t node) {
     SearchNode after = states_[node];
     const auto here = at(after.vertex);
     if (!is_at_end(after) || (!may_stay_at_once() && index(after.gap) <= here.size())) {
         return;
     }
-    for (auto k = index(after.gap); k < here.size(); ++k) {
+    if (last_gap_ != none && after.gap != last_gap_) {
+        return;
+    }
+    for (auto k = index(after.gap); k < here.size() && last_gap_ == none; ++k) {
         after.cost += price(here[k].robot);
         if (after.cost >= never) {
             return;

@@ -54,3 +54,21 @@ TEST_CASE("what an option brought long ago counts for little") {
     choice.settle();
     CHECK(drawn(choice)[1] > 2 * drawn(choice)[0]);
 }
+
+TEST_CASE("groups share the effort by what they bring for it, whatever a use needs") {
+    rightofway::EffortShares shares;
+    for (int k = 0; k < 500; ++k) {
+        shares.learn(false, 100, 1000);
+        shares.learn(true, 3, 10);
+    }
+    shares.settle();
+    // The second group brings three times as much for its effort, so it gets three quarters of all
+    // effort: 300 uses for each of the first one.
+    Random random(1);
+    int n_second = 0;
+    for (int k = 0; k < 30100; ++k) {
+        n_second += shares.draw(random) ? 1 : 0;
+    }
+    CHECK(n_second > 29800);
+    CHECK(n_second < 30100);
+}
