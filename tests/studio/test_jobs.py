@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +10,7 @@ import pytest
 from tests.builders.browsers import CHROMIUM, expect
 from tests.builders.drawing import StudioPage, studio_page
 from tests.builders.languages import english_on
+from tests.builders.suites import soon
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -86,10 +86,8 @@ def test_a_plan_with_jobs_is_made_and_told_with_its_reasons(empty: Client) -> No
     """The second plan of a search would tell progress in words that languages have."""
     body = {"kind": "plan", "document": HALL, "folder": "", "time_limit": 2}
     number = empty.post("runs", json=body).json()["number"]
-    ends = time.monotonic() + 30
-    while (run := empty.get(f"runs/{number}").json())["state"] in {"queued", "running"}:
-        assert time.monotonic() < ends
-        time.sleep(0.05)
+    assert soon(lambda: empty.get(f"runs/{number}").json()["ended"])
+    run = empty.get(f"runs/{number}").json()
     assert run["state"] == "done", run["error"]
     work = empty.get(f"runs/{number}/payload").json()["work"]
     assert [job.get("robot") for job in work["jobs"]][1:] == [1, None]

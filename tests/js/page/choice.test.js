@@ -6,7 +6,8 @@ import { Choice } from "../../../src/rightofway/viz/page/assets/player/choice.js
 import { Clock } from "../../../src/rightofway/viz/page/assets/player/clock.js";
 import { Motion } from "../../../src/rightofway/viz/page/assets/plan/motion.js";
 import { Use } from "../../../src/rightofway/viz/page/assets/plan/use.js";
-import { planOf } from "../made.js";
+import { Plan } from "../../../src/rightofway/viz/page/assets/plan/plan.js";
+import { made, planOf } from "../made.js";
 
 test("a choice shows the plan or the floor and writes nothing into the plan", () => {
   const plan = planOf("late");
@@ -82,3 +83,28 @@ test("a robot waits until the work of its job begins", () => {
     [3, 2],
   ]);
 });
+
+test("on the floor a robot begins its work when it comes, whenever the plan had it begin", () => {
+  const raw = made("jobs");
+  const robots = raw.robots.map(({ stages, enter }) => ({
+    stages,
+    enter,
+    drive: enter.map(() => 1),
+    still: /** @type {[number, number | null][]} */ ([]),
+    completion: 15,
+  }));
+  const { happened } = new Plan({ ...raw, floor: { end: 15, robots, losses: [] } });
+  const { phases } = present(happened)[0];
+  const first = phases.visit.indexOf(1); // at N1, where the plan has it wait from 1 to 3
+  assert.deepEqual([phases.begin[first], phases.activity[first]], [1, 2]);
+});
+
+/**
+ * @template T
+ * @param {T | null} value
+ * @returns {T}
+ */
+function present(value) {
+  assert.ok(value);
+  return value;
+}

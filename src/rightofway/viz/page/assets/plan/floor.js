@@ -110,6 +110,7 @@ function floorTrip(raw, run) {
   const ending = run.completion !== null ? DONE : isBroken ? BROKEN : WAIT;
   return {
     ...raw,
+    begins: [], // by plan: what it does there has other times
     vertices: raw.vertices.slice(0, run.enter.length),
     ...run,
     completion: run.completion ?? Infinity,
