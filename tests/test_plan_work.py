@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from typing import Any
 
@@ -13,7 +14,7 @@ from rightofway.check import Report
 from rightofway.deadline import NO_DEADLINE, Deadline
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.facts import Fact
-from rightofway.io import parse_scenario
+from rightofway.io import format_plan, parse_plan, parse_scenario
 from rightofway.metrics import (
     compute_lost_time,
     derive_outcome,
@@ -21,7 +22,7 @@ from rightofway.metrics import (
     measure,
     waits,
 )
-from rightofway.model import OutcomeKind, Plan, PlannerRun
+from rightofway.model import Objective, OutcomeKind, Plan, PlannerRun
 from rightofway.model.scenario import assign_tours
 from rightofway.model.work import Assignment
 from rightofway.plan_work import measure_work, plan_work
@@ -83,10 +84,39 @@ def test_times_and_orders_of_jobs_are_kept() -> None:
 
 
 def test_time_until_a_job_may_begin_is_not_lost() -> None:
-    """A robot that waits for `earliest` waits for nobody, and nothing is proven of its tour."""
+    """A robot that waits for `earliest` waits for nobody: its job ends as soon as it can."""
     plan = solve(parse_scenario(make_document([carry("J1", 1, 3, earliest=30)])))
     assert [lost.lost for lost in compute_lost_time(plan)] == [0, 0]
-    assert derive_outcome(plan).kind is OutcomeKind.BEST_FOUND
+    assert derive_outcome(plan).kind is OutcomeKind.OPTIMAL
+
+
+def test_a_job_that_no_robot_can_end_in_time_does_not_prevent_the_proof() -> None:
+    """J2 ends at tick 5 at the earliest; without it, J1 ends at tick 3 on R1: 1 + 2 drives."""
+    plan = solve(parse_scenario(make_document([carry("J1", 1, 3), carry("J2", 5, 0, latest=4)])))
+    outcome = derive_outcome(plan)
+    assert plan.unserved == ((1, "latest"),)
+    assert (outcome.kind, outcome.objective, outcome.bound) == (
+        OutcomeKind.OPTIMAL,
+        Objective.SERVICE,
+        3,
+    )
+
+
+@pytest.mark.parametrize(
+    ("objective", "kind"), [("flowtime", Objective.FLOWTIME), ("makespan", Objective.MAKESPAN)]
+)
+def test_bounds_are_of_the_objective_of_the_rules(objective: str, kind: Objective) -> None:
+    """R1 drives 3 edges to the drop-off and 3 home; the flowtime of R2, which stays, is 0."""
+    document = make_document([carry("J1", 1, 3)])
+    document["rules"]["objective"] = objective
+    outcome = derive_outcome(solve(parse_scenario(document)))
+    assert (outcome.kind, outcome.objective, outcome.bound) == (OutcomeKind.OPTIMAL, kind, 6)
+
+
+def test_a_plan_with_jobs_keeps_its_proof_in_a_file() -> None:
+    """The bound and the objective are those of the run."""
+    plan = solve(parse_scenario(make_document([carry("J1", 1, 3)])))
+    assert derive_outcome(parse_plan(json.loads(format_plan(plan)))) == plan.run.outcome
 
 
 def test_a_robot_that_waits_for_the_job_of_another_names_that_robot() -> None:

@@ -9,6 +9,7 @@ from typing import Any
 
 from hypothesis import strategies as st
 
+from rightofway.assign import WorkBound, measure_travel
 from rightofway.check import check
 from rightofway.model import (
     Battery,
@@ -24,6 +25,8 @@ from rightofway.model import (
     Tick,
     Track,
 )
+from rightofway.plan_work.rounds import OBJECTIVES
+from rightofway.search import Distances
 from rightofway.site import VertexId, make_grid_roadmap
 from tests.builders.laws import law, leave
 from tests.oracles.judge import Site
@@ -305,6 +308,27 @@ def test_robots_complete_when_they_rest_or_with_their_last_work(plan: Plan) -> N
     assert list(plan.completions) == completions
 
 
+def keeps_bounds(plan: Plan) -> bool:
+    """Return whether no bound is above a plan that keeps the rules, for any objective."""
+    problem = plan.scenario.problem
+    assert problem.work is not None, "the plan has jobs"
+    travel, weights = measure_travel(problem, Distances(plan.scenario.roadmap)), problem.weights
+    unserved = {job for job, _ in plan.unserved}
+    served = [job for job in range(len(problem.work.jobs)) if job not in unserved]
+    for name, objective in OBJECTIVES.items():
+        bound = WorkBound(replace(problem.work, objective=name), travel, weights)
+        if any(map(bound.is_impossible, served)):
+            return False
+        if bound.compute(served) > plan.compute_value(objective):
+            return False
+    return True
+
+
+@law(plans())
+def test_no_bound_of_jobs_is_above_a_plan(plan: Plan) -> None:
+    assert not check(plan).ok or keeps_bounds(plan)
+
+
 @law(plans(TINY, 2, is_plain=True))
 def test_no_plan_is_better_than_the_exhaustive_search(plan: Plan) -> None:
     try:
@@ -318,5 +342,6 @@ def test_no_plan_is_better_than_the_exhaustive_search(plan: Plan) -> None:
     report = check(best.plan)
     assert report.ok, str(report)
     assert measure(best.plan) == (best.weight, best.cost)
+    assert keeps_bounds(best.plan)
     if is_right:
         assert measure(plan) >= (best.weight, best.cost)

@@ -8,11 +8,13 @@ from rightofway.provision import import_later
 
 if TYPE_CHECKING:
     from rightofway.assign.alternatives import JobCost, list_job_costs
+    from rightofway.assign.bounds import WorkBound
     from rightofway.assign.homes import HOMELESS, deal_homes
     from rightofway.assign.tours import AssignmentCost, AssignmentSearch
     from rightofway.assign.travel import Travel, measure_travel
 
 _MODULES = {
+    "bounds": ("WorkBound",),
     "alternatives": (
         "JobCost",
         "list_job_costs",
@@ -37,6 +39,7 @@ __all__ = [
     "AssignmentSearch",
     "JobCost",
     "Travel",
+    "WorkBound",
     "deal_homes",
     "list_job_costs",
     "measure_travel",

@@ -111,6 +111,8 @@ def get_own_outcome(plan: Plan) -> Outcome | None:
     outcome = plan.run.outcome
     if outcome is None or outcome.bound is None or outcome.kind in WITHOUT_PLAN:
         return None
+    if outcome.objective is Objective.SERVICE and plan.tours is None:
+        return None
     cost = plan.compute_value(outcome.objective)
     proof = Proof(bound=outcome.bound, objective=outcome.objective, factor=outcome.factor)
     # A plan with swaps proves nothing, so it may be called best found where it is at its bound.

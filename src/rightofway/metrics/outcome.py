@@ -31,7 +31,7 @@ def derive_outcome(plan: Plan) -> Outcome:
     if own := get_own_outcome(plan):
         return own
     metrics = measure(plan)
-    if plan.scenario.jobs is not None:  # nothing is proven of jobs: other tours may be better
+    if plan.scenario.jobs is not None:  # other tours may be better
         kind, objective = OutcomeKind.BEST_FOUND, Objective.FLOWTIME
         return Outcome(kind=kind, objective=objective, bound=metrics.lower_bound)
     return classify_cost(metrics.flowtime, Proof(bound=metrics.flowtime_alone))

@@ -183,7 +183,7 @@ def _bind_jobs(scenario: Shift, clock: Clock) -> Iterator[BoundJob]:
             first=first,
             weight=weight,
             due=_round_down(job.due, clock),
-            robots=_list_able(scenario, job, robot, known),
+            robots=_list_able(scenario, job, (robot, first), known),
             after=() if robot is not None else tuple(index[name] for name in job.after),
             begun_by=robot,
             earliest=stops[0].earliest if robot is None else Tick(0),
@@ -205,12 +205,19 @@ def _round_down(time: Fraction | None, clock: Clock) -> Tick | None:
 
 
 def _list_able(
-    scenario: Shift, job: Job, begun_by: int | None, known: dict[Hashable, tuple[int, ...]]
+    scenario: Shift,
+    job: Job,
+    begun: tuple[int | None, int],
+    known: dict[Hashable, tuple[int, ...]],
 ) -> tuple[int, ...]:
-    """Return the robots that may do a job and can; those of jobs that are alike are known."""
-    load = max(accumulate(stop.load for stop in job.stops))
+    """Return the robots that may do a job and can; those of jobs that are alike are known.
+
+    ``begun`` is the robot that has begun it, and how many stops are done.
+    """
+    begun_by, first = begun
+    load = max([*accumulate(stop.load for stop in job.stops)][first:])
     barred = scenario.roadmap.barred_vertices
-    kept_out = frozenset(kind for stop in job.stops for kind in barred.get(stop.at, ()))
+    kept_out = frozenset(kind for stop in job.stops[first:] for kind in barred.get(stop.at, ()))
     alike = begun_by, job.robot, job.types, load, kept_out
     if alike not in known:
         known[alike] = tuple(

@@ -37,6 +37,9 @@ class Objective(StrEnum):
         The makespan and the completion time of each robot, by weights, summed over the robots: as
         much as the makespan by the weight of the fleet, and all that robots lose to each other,
         apart from what they need alone.
+    SERVICE
+        With jobs: service times and lateness by weights of jobs, in ticks times weights, of which
+        the denominator of `Work.late` are one.
     """
 
     FLOWTIME = "flowtime"
@@ -44,6 +47,7 @@ class Objective(StrEnum):
     WEIGHTED = "weighted flowtime"
     MAKESPAN = "makespan"
     BOTH = "makespan and flowtime"
+    SERVICE = "service"
 
     @checks_arguments
     def compute_cost(self, scenario: Scenario, tracks: Sequence[Track]) -> Tick:

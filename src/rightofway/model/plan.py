@@ -26,7 +26,12 @@ from rightofway.model.lost_time import LostTime, Wait
 from rightofway.model.outcome import ForcedLoss, Objective, Outcome
 from rightofway.model.passing import unfold_tracks
 from rightofway.model.planned_tour import PlannedItem, PlannedTour
-from rightofway.model.planned_work import assign_plan, refuse_wrong_tours, time_tours
+from rightofway.model.planned_work import (
+    assign_plan,
+    compute_service_cost,
+    refuse_wrong_tours,
+    time_tours,
+)
 from rightofway.model.robot import Robot
 from rightofway.model.route import Track
 from rightofway.model.scenario import Scenario
@@ -334,6 +339,9 @@ class Plan:
         """Return the value of this plan [ticks]; it is computed once for each objective."""
         if objective is Objective.FLOWTIME:
             return self.flowtime
+        work = self.scenario.problem.work
+        if objective is Objective.SERVICE and work is not None and self.tours is not None:
+            return compute_service_cost(work, self.tours)
         return self.compute_once(
             objective.value, lambda: objective.compute_cost(self.scenario, self.tracks)
         )

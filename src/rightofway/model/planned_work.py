@@ -160,3 +160,17 @@ def _lengthen_charges(
             end = following.begin
         grows = item.job is None and end < NEVER
         yield replace(item, end=Tick(end)) if grows else item
+
+
+def compute_service_cost(work: Work, tours: Sequence[PlannedTour]) -> Tick:
+    """Return the value of `Objective.SERVICE`: service times and lateness by weights."""
+    ends: dict[int, int] = {}
+    for item in (item for tour in tours for item in tour):
+        if item.job is not None:
+            ends[item.job] = max(ends.get(item.job, 0), item.end)
+    cost, (late, parts) = 0, work.late.as_integer_ratio()
+    for number, end in ends.items():
+        job = work.jobs[number]
+        delay = 0 if job.due is None else max(0, end - job.due)
+        cost += job.weight * (parts * (end - job.earliest) + late * delay)
+    return Tick(cost)

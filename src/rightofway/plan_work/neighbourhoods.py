@@ -68,8 +68,9 @@ class Neighbourhoods:
     def run(
         self, tries: int, patience: int, deadline: Deadline, better: Callable[[Plan], None]
     ) -> None:
-        """Try neighbours, at most so many, and so many in a row without a gain.
+        """Try neighbours.
 
+        ``tries`` and ``patience`` are the most neighbours, and the most in a row without a gain;
         ``better`` takes each better plan.
         """
         work = self.plan.scenario.problem.work

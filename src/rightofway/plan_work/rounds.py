@@ -12,19 +12,20 @@ last job.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import replace
 from itertools import count
 
 import numpy as np
 
-from rightofway.assign import AssignmentSearch, Travel, measure_travel
+from rightofway.assign import AssignmentSearch, Travel, WorkBound, measure_travel
 from rightofway.check import Report
 from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.facts import Fact
-from rightofway.model import Plan, Scenario, Tick
-from rightofway.model.work import Assignment, TourItem, UnservedReason
+from rightofway.model import Objective, OutcomeKind, Plan, Proof, Scenario, Tick
+from rightofway.model.outcome import classify_cost
+from rightofway.model.work import Assignment, TourItem, UnservedReason, WorkObjective
 from rightofway.plan_work.cost import WorkCost, measure_work
 from rightofway.plan_work.neighbourhoods import Neighbourhoods
 from rightofway.search import Distances
@@ -46,6 +47,13 @@ MOVES, MOVES_PER_JOB, PATIENCE, PATIENCE_PER_JOB = 2000, 500, 1000, 200
 
 MEMORY = 0.5
 """The part of the known delay of a leg that a round keeps, where its plan shows another one."""
+
+OBJECTIVES: Mapping[WorkObjective, Objective] = {
+    "service": Objective.SERVICE,
+    "flowtime": Objective.FLOWTIME,
+    "makespan": Objective.MAKESPAN,
+    "both": Objective.BOTH,
+}
 
 PlanTours = Callable[[Assignment, Deadline, int], tuple[Plan, Report]]
 """Plans an assignment with a seed, and has the plan judged.
@@ -152,7 +160,22 @@ class _Rounds:
         near.run(
             MOVES + MOVES_PER_JOB * n_jobs, PATIENCE + PATIENCE_PER_JOB * n_jobs, deadline, better
         )
-        return near.plan
+        return self._prove(near.plan)
+
+    def _prove(self, plan: Plan) -> Plan:
+        """Return a plan with its outcome: the bound of the jobs that it serves.
+
+        It is optimal if no plan serves one of the others, either.
+        """
+        bound = WorkBound(self._work, self._travel, self._weights)
+        unserved = {job for job, _ in plan.unserved}
+        served = [job for job in range(len(self._work.jobs)) if job not in unserved]
+        objective = OBJECTIVES[self._work.objective]
+        proof = Proof(bound=Tick(bound.compute(served)), objective=objective)
+        outcome = classify_cost(plan.compute_value(objective), proof)
+        if not all(map(bound.is_impossible, unserved)):
+            outcome = replace(outcome, kind=OutcomeKind.BEST_FOUND)
+        return replace(plan, run=replace(plan.run, outcome=outcome))
 
     def _delay_travel(self) -> Travel:
         return self._travel.delay(np.rint(self._delays).astype(np.int32), self._drains)

@@ -87,7 +87,7 @@ def describe_proof(plan: Plan) -> str:
     """Return the proof of a plan, apart from its lower bound; empty if there is none."""
     outcome, metrics = derive_outcome(plan), measure(plan)
     if outcome.kind is OutcomeKind.OPTIMAL:
-        if metrics.flowtime == metrics.flowtime_alone:
+        if metrics.flowtime == metrics.flowtime_alone and plan.tours is None:
             return Phrase("proof: as fast as alone")
         objective = Phrase(outcome.objective.value)
         return Phrase("proof: optimal", objective=objective)

@@ -80,6 +80,7 @@ class OutcomeDocument(Document):
         "weighted flowtime",
         "makespan",
         "makespan and flowtime",
+        "service",
     ] = Field(default="flowtime", description="what the planner minimized")
     bound: Ticks | None = Field(
         default=None,
