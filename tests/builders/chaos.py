@@ -48,8 +48,10 @@ __all__ = [
     "KINDS",
     "Chaos",
     "Fault",
+    "Killed",
     "MemoryJournal",
     "Observer",
+    "World",
     "another_plan",
     "chaotic_plan",
     "knows",
@@ -256,12 +258,20 @@ def run_chaos(
     Fault
         At the first booking held twice, contradiction, job done twice or lost, or stuck run.
     """
-    world = _World(plan, seed, chaos, control)
+    world = World(plan, seed, chaos, control)
     world.run()
     return world.counts
 
 
-class _World:
+class World:
+    """A control, its robots and their network.
+
+    Attributes
+    ----------
+    counts
+        How often everything has happened.
+    """
+
     def __init__(self, plan: Plan, seed: int, chaos: Chaos, control: type[FleetControl]) -> None:
         self.plan, self.chaos, self.kind = plan, chaos, control
         self.draw = random.Random(seed)  # noqa: S311
@@ -449,7 +459,7 @@ class _World:
 
     def _tell(self, robot: int) -> None:
         """Send the state of a robot."""
-        state = self.robots[robot].report_state(self.conditions[robot])
+        state = self._report(robot)
         for _ in range(self._copies()):
             sent = state
             if self._happens(self.chaos.wrong):
@@ -459,6 +469,9 @@ class _World:
                 len(self.states) if self._chance(0.6) else self.draw.randint(0, len(self.states))
             )
             self.states.insert(place, (robot, sent))
+
+    def _report(self, robot: int) -> StateReport:
+        return self.robots[robot].report_state(self.conditions[robot])
 
     def _with_wrong_field(self, robot: int, state: StateReport) -> StateReport:
         own, draw = self.control.ledger.robots[robot], self.draw

@@ -206,12 +206,12 @@ def test_nothing_beyond_the_kept_parts_is_released_while_a_round_is_under_way() 
     shift = Shift(rounds=rounds)
     shift.drive(2)
     shift.ask("add", name="A1", pickup="N12", dropoff="N0")
-    kept = shift.dispatcher.control.kept
-    assert kept is not None
+    kept_parts = shift.dispatcher.control.kept_parts
+    assert kept_parts is not None
     begun = {name for name, own in shift.pool.jobs.items() if own.is_begun}
     shift.drive(30)
     robots = shift.dispatcher.ledger.robots
-    assert all(own.released <= last for own, last in zip(robots, kept, strict=True))
+    assert all(own.released <= last for own, last in zip(robots, kept_parts, strict=True))
     assert {name for name, own in shift.pool.jobs.items() if own.is_begun} == begun
     assert len(rounds.requests) == 1
     rounds.is_ready = True

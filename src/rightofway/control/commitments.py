@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive
@@ -101,13 +101,6 @@ def make_robot_commitment(
     itinerary = scenario.problem.itineraries[robot]
     drives = compute_drives_along(roadmap, itinerary, vertices) if length > 1 else []
     return RobotCommitment(
-        route=replace(
-            route,
-            places=route.places[:length],
-            jobs=route.jobs[:length],
-            work=route.work[:length],
-            enter=route.enter[:length],
-            lap_ends=tuple(end for end in route.lap_ends if end <= released),
-        ),
+        route=route.cut_after(released),
         part=KeptPart(vertices, work, work + sum(drives)),
     )

@@ -33,6 +33,7 @@ from rightofway.model import Plan
 from rightofway.precedence import Part, ReleaseGraph
 from rightofway.resume.held import list_held
 from rightofway.resume.rest_of_fleet import StopToMake
+from rightofway.search import Distances
 
 __all__ = ["Dispatcher"]
 
@@ -290,35 +291,47 @@ class Dispatcher:
     def place(self, robot: int, place: str, notes: Sequence[Entry]) -> list[Message]:
         """Put a robot of a plan with jobs at a place; a round plans what it does from there.
 
-        Until then nobody may pass it.
+        Until then others drive to the ends of their released parts: it may be in their way.
 
         Raises
         ------
         GaveUp
-            If another robot holds the place, or what excludes it.
+            If another robot holds the place, or what excludes it, or no way leads home from there.
         """
         assert self.rounds is not None, "the plan has jobs"
         scenario, ledger = self.rounds.scenario, self.ledger
-        excluded = list_held(scenario, {robot: [int(scenario.roadmap.get_vertex(place))]})
+        vertex, home = scenario.roadmap.get_vertex(place), scenario.robots[robot].home
+        ticks = scenario.problem.itineraries[robot].edge_ticks
+        if Distances(scenario.roadmap).to(home, ticks)[vertex] < 0:
+            home_name = scenario.roadmap.name(home)
+            raise GaveUp(Fact("no way to home", place=place, home=home_name))
+        excluded = list_held(scenario, {robot: [int(vertex)]})
         near = {*map(int, excluded.vertices), *(int(head) for _, head in excluded.edges)}
         for name, own in zip(ledger.names, ledger.robots, strict=True):
             held = {int(scenario.roadmap.get_vertex(vertex)) for vertex in own.held}
             if not own.is_off and not held.isdisjoint(near):
                 raise GaveUp(Fact("place held", place=place, robot=name))
-        routes = [own.route.cut_before(own.arrived) for own in ledger.robots]
+        committed = self.control.list_committed()
+        routes = [
+            own.route.cut_before(own.arrived).cut_after(last)
+            for own, last in zip(ledger.robots, committed, strict=True)
+        ]
         before = ledger.robots[robot].route
         routes[robot] = replace(make_route_from(before, place), places=(place,), jobs=((),))
         routes[robot] = replace(routes[robot], work=((),), enter=(before.enter[-1],))
-        lost = sorted(before.all_jobs - ledger.robots[robot].finished)
+        lost = [
+            (number, item)
+            for number, (own, route) in enumerate(zip(ledger.robots, routes, strict=True))
+            for item in sorted(own.route.all_jobs - own.finished - route.all_jobs)
+        ]
         absent = [k for k, own in enumerate(ledger.robots) if own.is_off and k != robot]
-        committed = self.control.list_committed()
         committed[robot] = routes[robot].first
         graph = build_graph_behind_released(scenario, routes, committed, absent)
         self.rounds.want()
         messages = self.control.splice(
             routes,
             graph,
-            withdrawn=[(robot, item) for item in lost],
+            withdrawn=lost,
             notes=notes,
             placed=[robot],
         )
@@ -408,7 +421,7 @@ class Dispatcher:
         long = frozenset(k for k, times in self._stuck_for.items() if times >= self._patience)
         robots = self.ledger.robots
         has_moved = any(robots[k].held != self._held[k] for k in long & self._passed)
-        if self._has_failed:
+        if self._has_failed and self.rounds is None:
             self._tries_in -= 1
             is_due = self._tries_in <= 0
         else:
@@ -428,6 +441,8 @@ class Dispatcher:
 
     def replan_if_possible(self) -> list[Message] | None:
         """Plan the rest as things are now; where that is not possible, report it, return None."""
+        if self.rounds is not None:  # they report themselves
+            return self.replan()
         return self._try(self.replan)
 
     def _is_led_over(self, closed: Collection[Edge]) -> bool:

@@ -101,7 +101,7 @@ class FleetControl:
         Tells of a robot whether an item of its work may begin, see
         `rightofway.control.work_items`: robots drive to the places of work that may not, and stand
         there. A dispatcher sets it.
-    kept
+    kept_parts
         The last part of each robot that is released while a round is under way; None: no round is.
     stranded
         Robots whose batteries are too low for the way to a charging place.
@@ -134,7 +134,7 @@ class FleetControl:
         self.may_stop: Callable[[str], bool] = lambda _: True
         self.may_begin: MayBegin = lambda *_: True
         self.charges: dict[int, float] = {}
-        self.kept: tuple[int, ...] | None = None
+        self.kept_parts: tuple[int, ...] | None = None
         self._since_snapshot = 0
         for number, entry in enumerate(journal.read_entries(), 1):
             self.ledger.read(number, entry)
@@ -423,7 +423,7 @@ class FleetControl:
     def _may_begin(self, robot: int, item: str) -> bool:
         """Return whether work may begin; none begins that a round may give to another robot."""
         own = self.ledger.robots[robot]
-        if self.kept is not None and item in own.route.get_jobs(self.kept[robot]):
+        if self.kept_parts is not None and item in own.route.get_jobs(self.kept_parts[robot]):
             return own.is_sent(item)
         return self.may_begin(robot, item)
 
@@ -496,7 +496,7 @@ class FleetControl:
 
     def _may_enter(self, robot: int, part: int) -> bool:
         """Return whether nothing but other robots keeps a robot from a part."""
-        is_kept = self.kept is None or part <= self.kept[robot]
+        is_kept = self.kept_parts is None or part <= self.kept_parts[robot]
         return is_kept and self.may_enter(robot, part)
 
     _is_in_base = staticmethod(is_in_base)

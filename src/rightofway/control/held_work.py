@@ -68,6 +68,8 @@ class HeldWork:
         own = pool.jobs.get(name)
         if own is None or name in self._control.ledger.outdated:
             return None
+        if number > own.done:  # also where both are at one place, and the first one fails
+            return None
         if number == 0 and not own.is_begun and not all(map(pool.is_over, own.job.after)):
             return None
         return self._clock.count_ticks(own.job.stops[number].earliest)

@@ -84,8 +84,8 @@ class JobCommands:
         """
         own = self._find_open(str(given["name"]))
         before = dump_job(own.job, self._scenario.roadmap)
-        kept = {key: value for key, value in before.items() if not _is_replaced(key, given)}
-        job = self._read({**given, "name": own.job.name}, now, kept)
+        unchanged = {key: value for key, value in before.items() if not _is_replaced(key, given)}
+        job = self._read({**given, "name": own.job.name}, now, unchanged)
         if job == own.job:
             return [], Fact("job changed", job=job.name)
         return [self._make_event("job changed", job, now)], Fact("job changed", job=job.name)
@@ -153,14 +153,14 @@ class JobCommands:
         return event.to_document(self._scenario.roadmap)
 
     def _read(
-        self, given: Mapping[str, Any], now: int, kept: Mapping[str, Any] | None = None
+        self, given: Mapping[str, Any], now: int, unchanged: Mapping[str, Any] | None = None
     ) -> Job:
         """Return the job of a document whose times count from now; keys may be kept as they are."""
         passed = self._scenario.problem.clock.convert_to_time(now)
         document = self._shift_times(given, passed)
         if document.pop("urgent", False):
             document["due"] = passed
-        job = read_job({**(kept or {}), **document}, self._map)
+        job = read_job({**(unchanged or {}), **document}, self._map)
         first = replace(job.stops[0], earliest=max(job.stops[0].earliest, passed))
         job = replace(job, stops=(first, *job.stops[1:]))
         names = [robot.name for robot in self._scenario.robots]

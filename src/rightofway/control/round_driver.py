@@ -89,6 +89,7 @@ class RoundDriver:
         self.is_wanted = False
         self._seen: ViewOfRound | None = None  # of the round that is under way
         self._graph: ReleaseGraph | None = None  # of the plan that it replaces
+        self._ignores_closures = False  # of that round
         self._count = 0  # rounds since the start
         self._pause = 0  # calls of `go_on` until the next try after a failure
         self._tried: object = None  # what was known when a round was last wanted for idle robots
@@ -142,17 +143,21 @@ class RoundDriver:
             messages = self._take_over(self._seen, planned)
         if self.is_wanted and not self._pause and self._seen is None:
             self._begin()
-        if self._seen is not None and (planned := self.rounds.poll()) is not None:
+        while self._seen is not None and (planned := self.rounds.poll()) is not None:
             messages += self._take_over(self._seen, planned)
         return messages
 
-    def _begin(self) -> None:
+    def _begin(self, *, ignores_closures: bool = False) -> None:
+        """Begin a round; perhaps as if nothing was closed and all robots could drive.
+
+        Then robots wait before what is closed, and behind those that do not go on.
+        """
         control, ledger = self._control, self._control.ledger
         if all(own.is_off or k in self.unable for k, own in enumerate(ledger.robots)):
             self.report(Fact("no plan of the rest", reason=Fact("no robot that drives")), False)
             return
-        self.is_wanted = False
-        kept = find_kept_parts(ledger, control.list_committed(), AHEAD)
+        self.is_wanted, self._ignores_closures = False, ignores_closures
+        kept_parts = find_kept_parts(ledger, control.list_committed(), AHEAD)
         now, lead = self.read_ticks(), 0
         if self.rounds.time_limit is not None:
             seconds = float(self.scenario.problem.clock.tick * (self.scenario.units.seconds or 1))
@@ -160,14 +165,14 @@ class RoundDriver:
         self._seen = seen = view_fleet(
             self.scenario,
             ledger,
-            kept,
+            kept_parts,
             charges=control.charges,
-            unable=self.unable,
-            closed=self.list_closed(),
+            unable=() if ignores_closures else self.unable,
+            closed=() if ignores_closures else self.list_closed(),
             now=now,
             takeover=now + lead,
         )
-        control.kept, self._graph = seen.kept, ledger.graph
+        control.kept_parts, self._graph = seen.kept_parts, ledger.graph
         self._count += 1
         present = tuple(self._fleet.robots[robot] for robot in seen.present)
         self.rounds.begin(
@@ -183,30 +188,47 @@ class RoundDriver:
     def _take_over(self, seen: ViewOfRound, planned: Round) -> list[Message]:
         """Let the plan of a round take over, if it is one and still fits."""
         control, ledger = self._control, self._control.ledger
-        self._seen = control.kept = None
+        self._seen = control.kept_parts = None
         if ledger.graph is not self._graph:  # another splice came first
             self.is_wanted = True
             return control.note()
+        if planned.stands and not self._ignores_closures and self._has_closures(seen):
+            self._begin(ignores_closures=True)
+            return []
         if planned.stands:
             return self._keep_old(planned.facts[0].values["reason"])
         routes = make_routes_of_round(self.scenario, ledger, seen, planned)
         absent = [robot for robot, own in enumerate(ledger.robots) if own.is_off]
-        graph = build_graph_behind_released(self.scenario, routes, seen.kept, absent)
+        graph = build_graph_behind_released(self.scenario, routes, seen.kept_parts, absent)
         if graph.find_rotation():
             return self._keep_old(Fact("robots would rotate"))
-        for name, reason in planned.unserved:
-            if self.reasons.get(name) != reason:
-                self.tell(Fact("unserved", job=name, why=Fact(f"unserved {reason}")))
-        self.reasons = {**dict(planned.unserved), **dict.fromkeys(planned.postponed)}
+        self._tell_reasons(dict(planned.unserved), planned.postponed)
         self.report(None, True)
         notes = self._list_unserved(planned)
         return control.splice(routes, graph, withdrawn=self._list_moved(routes), notes=notes)
 
+    def _tell_reasons(self, unserved: dict[str, UnservedReason], postponed: Sequence[str]) -> None:
+        """Tell why jobs are in no tour, each reason once; some follow a job that is in none."""
+        pool = self._control.ledger.pool
+        reasons: dict[str, UnservedReason | None] = {**unserved}
+        for name in postponed:
+            before = pool.jobs[name].job.after if name in pool.jobs else ()
+            reasons[name] = "after" if any(map(reasons.get, before)) else None
+        for name, reason in reasons.items():
+            if reason is not None and self.reasons.get(name) != reason:
+                self.tell(Fact("unserved", job=name, why=Fact(f"unserved {reason}")))
+        self.reasons = reasons
+
+    @staticmethod
+    def _has_closures(seen: ViewOfRound) -> bool:
+        view = seen.view
+        return bool(view.closed) or not all(own.is_able for own in view.robots)
+
     def _keep_old(self, reason: Fact) -> list[Message]:
         """Let the old plan go on, and try again later."""
         self.is_wanted, self._pause = True, PAUSE
-        kept = reason if reason.about is None else str(reason)  # the journal has no scenario
-        self.report(Fact("no plan of the rest", reason=kept), False)
+        kept_parts = reason if reason.about is None else str(reason)  # the journal has no scenario
+        self.report(Fact("no plan of the rest", reason=kept_parts), False)
         return self._control.note()
 
     def _list_moved(self, routes: Sequence[RouteToDrive]) -> list[tuple[int, str]]:

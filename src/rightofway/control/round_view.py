@@ -38,18 +38,22 @@ class ViewOfRound:
         The robots that are on the floor.
     present
         Their numbers in the fleet.
-    kept
+    kept_parts
         The last part of each robot of the fleet that is kept.
     commitments
         What each robot that is on the floor keeps.
-    jobs
+    known
         The jobs of the round, as they were known.
+    jobs
+        The same as they are planned: one whose first work was asked for, and is neither done nor
+        kept, is left to its robot, which may have done it.
     """
 
     view: FleetView
     present: tuple[int, ...]
-    kept: tuple[int, ...]
+    kept_parts: tuple[int, ...]
     commitments: tuple[RobotCommitment, ...]
+    known: Mapping[str, PooledJob]
     jobs: Mapping[str, PooledJob]
 
 
@@ -68,28 +72,28 @@ def find_kept_parts(ledger: Ledger, released: Sequence[int], ahead: int) -> list
     ahead
         How many more parts a robot may keep.
     """
-    kept, grows = list(released), True
+    kept_parts, grows = list(released), True
     while grows:
         grows = False
         for robot, own in enumerate(ledger.robots):
-            part = kept[robot] + 1
+            part = kept_parts[robot] + 1
             if own.is_off or part >= min(own.route.end, released[robot] + ahead + 1):
                 continue
             is_free = all(map(own.is_sent, own.route.get_jobs(part - 1)))
             before = ledger.graph.waits(Part(robot, part))
-            if is_free and all(_is_kept(ledger, kept, *arrival) for arrival in before):
-                kept[robot], grows = part, True
-    return kept
+            if is_free and all(_is_kept(ledger, kept_parts, *arrival) for arrival in before):
+                kept_parts[robot], grows = part, True
+    return kept_parts
 
 
-def _is_kept(ledger: Ledger, kept: Sequence[int], robot: int, visit: int) -> bool:
-    return ledger.robots[robot].is_off or visit <= kept[robot]
+def _is_kept(ledger: Ledger, kept_parts: Sequence[int], robot: int, visit: int) -> bool:
+    return ledger.robots[robot].is_off or visit <= kept_parts[robot]
 
 
 def view_fleet(
     scenario: Scenario,
     ledger: Ledger,
-    kept: Sequence[int],
+    kept_parts: Sequence[int],
     *,
     charges: Mapping[int, float],
     unable: Collection[int],
@@ -105,7 +109,7 @@ def view_fleet(
         The problem, with bookings of ``both``.
     ledger
         The state that the journal describes.
-    kept
+    kept_parts
         The last part of each robot that is kept.
     charges
         Measured states of charge, from 0 to 1; a robot that reports none counts as full.
@@ -118,33 +122,46 @@ def view_fleet(
     """
     present = tuple(robot for robot, own in enumerate(ledger.robots) if not own.is_off)
     batteries, roadmap = FleetBatteries(scenario), scenario.roadmap
-    jobs = {
+    known = {
         name: own
         for name, own in ledger.pool.jobs.items()
         if own.robot is None or not ledger.robots[own.robot].is_off
     }
+    jobs = dict(known)
     views, commitments, ends = list[RobotView](), list[RobotCommitment](), list[tuple[str, Tick]]()
+    latest = max(ledger.robots[k].route.get_enter(kept_parts[k]) for k in present)
     for robot in present:
-        own = _leave_out_unsent(ledger.robots[robot], kept[robot])
-        commitment = make_robot_commitment(scenario, robot, own, kept[robot])
-        begun = {job.job.name: job for job in jobs.values() if job.robot == robot}
+        own = _leave_out_unsent(ledger.robots[robot], kept_parts[robot])
+        commitment = make_robot_commitment(scenario, robot, own, kept_parts[robot])
+        begun = {
+            name: _count_begun(job, own, commitment.route)
+            for name, job in known.items()
+            if job.robot == robot
+        }
+        for name in [name for name, count in begun.items() if not count]:
+            del begun[name]
+            bound = replace(known[name].job, robot=ledger.names[robot])
+            jobs[name] = replace(known[name], job=bound, robot=None, begun=0)
         busy = Tick(max(0, commitment.part.busy - (takeover - now)))
-        ends += [(k, busy) for k, job in begun.items() if job.begun == len(job.job.stops)]
+        lengths = {name: len(known[name].job.stops) for name in begun}
+        ends += [(name, busy) for name, count in begun.items() if count == lengths[name]]
         vertices = commitment.part.vertices
         commitments.append(commitment)
         views.append(
             RobotView(
-                kept_track=Track.of(vertices, range(1 - len(vertices), 1)),
-                last=kept[robot],
+                kept_track=Track.of(vertices, [tick - latest for tick in commitment.route.enter]),
+                last=kept_parts[robot],
                 free=busy,
                 soc=_forecast_soc(batteries, robot, own, charges.get(robot)),
                 begun=tuple(
-                    (name, job.begun)
-                    for name, job in begun.items()
-                    if job.begun < len(job.job.stops)
+                    (name, count) for name, count in begun.items() if count < lengths[name]
                 ),
                 is_able=robot not in unable,
-                steps=tuple(_list_old_steps(ledger.robots[robot], kept[robot], scenario)),
+                steps=tuple(
+                    step
+                    for step in _list_old_steps(ledger.robots[robot], kept_parts[robot], scenario)
+                    if step.job in jobs and step.job not in ledger.outdated
+                ),
             )
         )
     shut = frozenset((roadmap.get_vertex(tail), roadmap.get_vertex(head)) for tail, head in closed)
@@ -158,15 +175,23 @@ def view_fleet(
     return ViewOfRound(
         view=view,
         present=present,
-        kept=tuple(kept),
+        kept_parts=tuple(kept_parts),
         commitments=tuple(commitments),
+        known=known,
         jobs=jobs,
     )
 
 
-def _leave_out_unsent(own: RobotLedger, kept: int) -> RobotLedger:
+def _count_begun(job: PooledJob, own: RobotLedger, kept_parts: RouteToDrive) -> int:
+    """Return how many first stops of a job are done, or asked for in what its robot keeps."""
+    items = (item for names in kept_parts.jobs for item in names if own.is_sent(item))
+    stops = [stop[1] + 1 for item in items if (stop := find_stop(item)) and stop[0] == job.job.name]
+    return max(job.done, *stops, 0)
+
+
+def _leave_out_unsent(own: RobotLedger, kept_parts: int) -> RobotLedger:
     """Return a robot without the work at the end of what it keeps that no order has yet."""
-    route, index = own.route, kept - own.route.first
+    route, index = own.route, kept_parts - own.route.first
     rows = zip(route.jobs[index], route.work[index], strict=True)
     sent = [(item, ticks) for item, ticks in rows if own.is_sent(item)]
     jobs = (*route.jobs[:index], tuple(item for item, _ in sent), *route.jobs[index + 1 :])
@@ -190,16 +215,16 @@ def _forecast_soc(
     return max(measured - drives, Fraction(0))
 
 
-def _list_old_steps(own: RobotLedger, kept: int, scenario: Scenario) -> Iterator[PlannedStep]:
+def _list_old_steps(own: RobotLedger, kept_parts: int, scenario: Scenario) -> Iterator[PlannedStep]:
     """Yield the stops of jobs behind what is kept, and those there that no order has yet."""
-    for visit in range(kept, own.route.end):
+    for visit in range(kept_parts, own.route.end):
         for item in own.route.get_jobs(visit):
             stop = find_stop(item)
-            if stop is None or (visit == kept and own.is_sent(item)):
+            if stop is None or (visit == kept_parts and own.is_sent(item)):
                 continue
             vertex = VertexId(scenario.roadmap.get_vertex(own.route.get_place(visit)))
             yield PlannedStep(
-                visit=visit - kept,
+                visit=visit - kept_parts,
                 vertex=vertex,
                 begin=Tick(0),
                 end=Tick(0),
@@ -255,7 +280,7 @@ def _is_as_known(ledger: Ledger, seen: ViewOfRound, step: PlannedStep) -> bool:
     if step.job is None:
         return True
     own = ledger.pool.jobs.get(step.job)
-    return own is not None and own.job == seen.jobs[step.job].job
+    return own is not None and own.job == seen.known[step.job].job
 
 
 class _Items:
@@ -265,18 +290,18 @@ class _Items:
     ----------
     own
         The robot.
-    kept
+    kept_parts
         The part of its route that it keeps.
     length
         How many visits the new part has; the first one is the last that is kept.
     """
 
-    def __init__(self, own: RobotLedger, kept: RouteToDrive, length: int) -> None:
-        self._kept, self._numbers = kept, itertools.count(own.next_job)
-        self._jobs = [list(kept.jobs[-1]), *([] for _ in range(length - 1))]
-        self._work = [list(kept.work[-1]), *([] for _ in range(length - 1))]
-        self._targets = list(kept.targets)
-        begun = [item for item in kept.jobs[-1] if find_charge_step(item) is not None]
+    def __init__(self, own: RobotLedger, kept_parts: RouteToDrive, length: int) -> None:
+        self._kept, self._numbers = kept_parts, itertools.count(own.next_job)
+        self._jobs = [list(kept_parts.jobs[-1]), *([] for _ in range(length - 1))]
+        self._work = [list(kept_parts.work[-1]), *([] for _ in range(length - 1))]
+        self._targets = list(kept_parts.targets)
+        begun = [item for item in kept_parts.jobs[-1] if find_charge_step(item) is not None]
         is_open = bool(begun) and find_charge_step(begun[-1]) == "begin"
         self._open = begun[-1] if is_open else None  # a charge that is under way
 

@@ -91,6 +91,16 @@ class RouteToDrive:
         """
         return self.work[self._index(visit)]
 
+    def get_enter(self, visit: int) -> int:
+        """Return when a visit is planned to begin [ticks].
+
+        Parameters
+        ----------
+        visit
+            The number of a visit that is kept.
+        """
+        return self.enter[self._index(visit)]
+
     def stretch(self, begin: int, end: int) -> tuple[str, ...]:
         """Return the places of visits, those before ``end``.
 
@@ -123,6 +133,24 @@ class RouteToDrive:
                 for item, soc in self.targets
                 if any(item in names for names in self.jobs[index:])
             ),
+        )
+
+    def cut_after(self, visit: int) -> RouteToDrive:
+        """Return the route without the visits after one.
+
+        Parameters
+        ----------
+        visit
+            The number of a visit that is kept.
+        """
+        length = self._index(visit) + 1
+        return replace(
+            self,
+            places=self.places[:length],
+            jobs=self.jobs[:length],
+            work=self.work[:length],
+            enter=self.enter[:length],
+            lap_ends=tuple(end for end in self.lap_ends if end <= visit),
         )
 
     def join(self, after: RouteToDrive, later: int) -> RouteToDrive:

@@ -352,8 +352,8 @@ class RoundPlanner:
             )  # fmt: skip
             robots.append(own)
         rules = replace(scenario.rules, objective=None, late=None, patience=None, laps=1)
-        trips = replace(
-            scenario, roadmap=given.scenario.roadmap, robots=tuple(robots), jobs=None,
+        trips = replace(  # kept parts may lead out of what is closed
+            scenario, robots=tuple(robots), jobs=None,
             batteries=(), charging=(), closures=(), rules=rules,
         )  # fmt: skip
         tracks = build_timetable(trips.problem, [whole[robot] for robot in given.able])

@@ -61,13 +61,7 @@ def _find_watched(request: Request, number: int) -> Watched:
 
 
 def make_jobs_router(prefix: str) -> APIRouter:
-    """Return the addresses on the jobs of a fleet: the interface of a warehouse management.
-
-    Parameters
-    ----------
-    prefix
-        What they begin with: nothing for the only fleet, or with the ``number`` of one.
-    """
+    """Return the addresses on the jobs of a fleet, below a prefix with its ``number``, or none."""
     jobs = APIRouter(prefix=prefix, tags=["jobs"])
 
     def find(request: Request) -> Watched:

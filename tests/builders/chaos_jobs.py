@@ -1,0 +1,339 @@
+"""Chaos with jobs: they arrive, change and are withdrawn; batteries run down; places close.
+
+Besides bookings, an observer counts stops: each is done once, in the order of its job and by one
+robot, and none of a withdrawn job. A job that nobody does has a sentence that gives the reason.
+"""
+
+from __future__ import annotations
+
+import random
+from collections import Counter
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+import rightofway
+from rightofway.control import FleetControl, Message, RobotLedger
+from rightofway.control.dispatcher import Dispatcher
+from rightofway.control.operator import Operator
+from rightofway.control.round_worker import RoundsAtOnce
+from rightofway.control.work_items import find_charge_step, find_stop
+from rightofway.errors import GaveUp, InputError, NoPlanExists
+from rightofway.facts import Fact
+from rightofway.io import parse_scenario
+from rightofway.model import Plan, Scenario
+from tests.builders.chaos import Chaos, Fault, Killed, Observer, World
+
+__all__ = ["JOB_KINDS", "plan_with_jobs", "run_job_chaos"]
+
+JOB_KINDS = {
+    "arrive": Chaos(kills=0.0, jobs=0.03),
+    "arrive, killed": Chaos(kills=0.03, jobs=0.03),
+    "arrive, resets": Chaos(kills=0.01, resets=0.02, jobs=0.03),
+    "arrive, cancels": Chaos(kills=0.01, cancels=0.02, jobs=0.02),
+    "arrive, wrong fields": Chaos(wrong=0.1, jobs=0.02),
+    "arrive, people": Chaos(people=0.03, jobs=0.02),
+    "arrive, all": Chaos(people=0.02, kills=0.03, resets=0.01, wrong=0.05, cancels=0.01, jobs=0.03),
+}
+"""Kinds of chaos with jobs by name."""
+
+EVENTS_PER_TICK = 10
+
+MOST_STILL = 2_000
+"""Events without faults after which rounds that find no plan will find none."""
+
+CHARGED_PER_EVENT = 0.01
+"""How much a robot at a charging place charges in an event; 1 is full."""
+
+
+def plan_with_jobs(seed: int) -> Plan:
+    """Return a plan of robots with batteries and jobs, of the first draw that has one."""
+    draw = random.Random(f"jobs {seed}")  # noqa: S311
+    while True:
+        rows, columns = draw.choice([(3, 4), (4, 4), (3, 5)])
+        cells = ["".join(draw.choice("....@") for _ in range(columns)) for _ in range(rows)]
+        free = [f"N{k}" for k, cell in enumerate("".join(cells)) if cell == "."]
+        count = draw.randint(2, 4)
+        if len(free) < 2 * count + 3:
+            continue
+        homes = draw.sample(free, count)
+        document = {
+            "format": "rightofway-scenario/1",
+            "map": {"grid": cells},
+            "rules": {"rotations": False, "turn": draw.choice([0, 1])},
+            "batteries": {"cell": {"drive": "1/100", "charge": "1/10", "reserve": "1/10"}},
+            "charging": homes,
+            "robots": [
+                {
+                    "name": f"R{number}",
+                    "home": home,
+                    "capacity": draw.choice([1, 1, 2]),
+                    "battery": "cell",
+                    "start": {"at": home, "soc": draw.choice([1, 1, 0.4])},
+                }
+                for number, home in enumerate(homes)
+            ],
+            "jobs": [draw_job(draw, free, f"J{number}") for number in range(draw.randint(1, 4))],
+        }
+        try:
+            return rightofway.solve(parse_scenario(document), "prioritized")
+        except (NoPlanExists, GaveUp, InputError):
+            continue
+
+
+def draw_job(draw: random.Random, places: list[str], name: str) -> dict[str, Any]:
+    """Draw a job: one stop, or a load from one place to another, perhaps with times."""
+    job: dict[str, Any] = {"name": name}
+    if draw.random() < 0.4:
+        job |= {"at": draw.choice(places), "work": draw.randint(0, 3)}
+    else:
+        job |= {"pickup": draw.choice(places), "dropoff": draw.choice(places)}
+    if draw.random() < 0.3:
+        job["earliest"] = draw.randint(0, 20)
+    if draw.random() < 0.3:
+        job["due"] = draw.randint(0, 40)
+    return job
+
+
+def run_job_chaos(
+    seed: int, chaos: Chaos, control: type[FleetControl] = FleetControl
+) -> Counter[str]:
+    """Drive a plan with jobs through chaos; return what happened.
+
+    Raises
+    ------
+    Fault
+        At the first booking held twice, contradiction, stop done twice, too early or never, or run
+        that stands without a reason.
+    """
+    world = JobWorld(plan_with_jobs(seed), seed, chaos, control)
+    world.run()
+    world.counts["jobs done"] = sum(
+        left == "done" for left in world.control.ledger.pool.left.values()
+    )
+    world.counts["jobs left"] = len(world.control.ledger.pool.jobs)
+    return world.counts
+
+
+class JobWorld(World):
+    """A control of a plan with jobs, its robots and their network."""
+
+    observer: JobObserver
+
+    def __init__(self, plan: Plan, seed: int, chaos: Chaos, control: type[FleetControl]) -> None:
+        self.events, self.said, self.number = 0, set[str](), 0
+        self.stood: tuple[object, int] = None, 0
+        self.socs = [
+            1.0 if robot.start is None else float(robot.start.soc) for robot in plan.scenario.robots
+        ]
+        super().__init__(plan, seed, chaos, control)
+        self.observer = JobObserver(plan.scenario, self.robots)
+
+    def _begin(self) -> None:
+        while True:
+            try:
+                control = self.kind(
+                    self.journal,
+                    look_ahead=self.chaos.look_ahead,
+                    snapshot_every=200,
+                    long_order=2,
+                    roadmap=self.scenario.roadmap,
+                )
+                dispatcher = Dispatcher(
+                    control, self.plan, rounds=RoundsAtOnce(None, "prioritized"), patience=2
+                )
+                dispatcher.keep_time(lambda: self.events // EVENTS_PER_TICK)
+                dispatcher.report = self._note
+                assert dispatcher.rounds is not None
+                dispatcher.rounds.tell = lambda fact: self._note(fact, False)
+                if not self.journal.written:
+                    dispatcher.begin("run")
+                self.control, self.dispatcher = control, dispatcher
+                self.rounds = dispatcher.rounds
+                self.operator = Operator(dispatcher)
+                self.send(control.start())
+            except Killed:
+                self.counts["kills"] += 1
+            else:
+                return
+
+    def _note(self, fact: Fact | None, is_over: bool) -> None:
+        if fact is not None and not is_over:
+            name = fact.values.get("job", fact.kind)
+            self.said.add(str(name))
+            reason = fact.values.get("reason")
+            self.counts[f"{fact.kind}: {reason}" if reason else fact.kind] += 1
+
+    def _event(self) -> None:
+        self.events += 1
+        for robot, own in enumerate(self.control.ledger.robots):
+            if self.observer.is_charging(robot, own):
+                self.socs[robot] = min(1.0, self.socs[robot] + CHARGED_PER_EVENT)
+        super()._event()
+        if self.events % EVENTS_PER_TICK == 0:
+            self._tell(self.draw.randrange(len(self.robots)))
+            self.call(self._take_turn)
+
+    def _take_turn(self) -> list[Message]:
+        before = self.rounds._count
+        messages = [*self.dispatcher.follow_time(), *self.dispatcher.pass_stuck()]
+        self.counts["rounds"] += self.rounds._count - before
+        return messages
+
+    def _step(self, robot: int) -> None:
+        real = self.robots[robot]
+        if real.next_step == "arrive":
+            self.socs[robot] = max(0.0, self.socs[robot] - 0.01)
+        super()._step(robot)
+
+    def _report(self, robot: int) -> Any:
+        state = super()._report(robot)
+        return replace(state, charge=self.socs[robot])
+
+    def _change_work(self) -> list[Message]:
+        """Add, change or withdraw a job; close or open a place."""
+        draw, operator, roadmap = self.draw, self.operator, self.scenario.roadmap
+        places = list(map(roadmap.name, range(roadmap.n_vertices)))
+        ledger = self.control.ledger
+        kind = draw.choice(["add", "add", "change", "withdraw", "close", "open"])
+        command: dict[str, Any] = {"kind": kind}
+        if kind == "add":
+            self.number += draw.random() < 0.9  # else a job is asked for again
+            command |= draw_job(draw, places, f"A{self.number}")
+            if ledger.pool.jobs and draw.random() < 0.2:
+                command["after"] = [draw.choice([*ledger.pool.jobs])]
+            command["urgent"] = draw.random() < 0.2
+        elif kind in {"close", "open"}:
+            names = self._any_place(draw.choice(places))
+            if kind == "open" and ledger.closed:
+                names = draw.choice(sorted(ledger.closed))
+            command |= {"name": names[0]} | ({"to": names[-1]} if len(names) > 1 else {})
+        else:
+            command["name"] = draw.choice([*ledger.pool.jobs] or ["none"])
+            command |= {"at": draw.choice(places)} if kind == "change" else {}
+        try:
+            messages, _ = operator._run_command(command)
+        except (GaveUp, InputError):
+            self.counts[f"not {kind}"] += 1
+            return []
+        self.counts[kind] += 1
+        return messages
+
+    def _decide(self, robot: int) -> None:
+        """Have failed work of a robot done again, or skip its job."""
+        name = self.control.ledger.names[robot]
+        for item in sorted(self.control.ledger.robots[robot].failed):
+            stop = find_stop(item)
+            kind = "again" if stop is None or self._chance(0.6) else "skip"
+            named = stop[0] if stop else f"{name}/{item}"
+            self.call(partial(self._ask_for, kind, named))
+
+    def _ask_for(self, kind: str, name: str) -> list[Message]:
+        try:
+            return self.operator._run_command({"kind": kind, "name": name})[0]
+        except InputError:  # another command came first
+            return []
+
+    def _stand(self) -> list[str]:
+        """Return where each robot stands, and which jobs are left."""
+        pool = self.control.ledger.pool
+        jobs = [
+            f"{name}: {own.robot} {own.begun}/{own.done} after {own.job.after}"
+            for name, own in pool.jobs.items()
+        ]
+        rounds = self.rounds
+        more = f"{rounds.reasons} {rounds.is_wanted} {rounds.is_under_way} {rounds.unable}"
+        flags = f"{self.control.stranded} {self.control.list_stuck()} {self.socs}"
+        return [*super()._stand(), *jobs, str(sorted(self.said)), more, flags]
+
+    def _is_done(self) -> bool:
+        """Whether all has been done, or said why not."""
+        ledger = self.control.ledger
+        waiting = self.rounds.list_waiting()
+        are_told = all(name in self.said for name in waiting)
+        begun = [own for own in ledger.pool.jobs.values() if own.is_begun]
+        return (
+            (
+                are_told
+                and not begun
+                and all(own.is_done or own.is_off for own in ledger.robots)
+                and len(waiting) == len(ledger.pool.jobs)
+                and not self.rounds.is_under_way
+            )
+            or self._stands_told()
+            or all(own.is_off and self._has_no_place(k) for k, own in enumerate(ledger.robots))
+        )
+
+    def _stands_told(self) -> bool:
+        """Whether rounds find no plan, and this was said, in many tries."""
+        robots = self.control.ledger.robots
+        where = [(own.arrived, own.released, len(own.finished)) for own in robots]
+        if not self.dispatcher._has_failed or where != self.stood[0]:
+            self.stood = where, self.events
+        is_long = self.events - self.stood[1] > MOST_STILL
+        self.counts["stands, and says why"] += is_long
+        return is_long
+
+
+class JobObserver(Observer):
+    """Looks at robots, jobs and journal from outside."""
+
+    def __init__(self, scenario: Scenario, robots: Any) -> None:
+        super().__init__(scenario, robots)
+        self.counted: list[Counter[str]] = [Counter() for _ in robots]
+        self.stops: dict[str, list[tuple[int, int]]] = {}  # of each job, robot and stop as done
+        self.known = set[str]()
+        self.over = set[str]()  # jobs that had left without being begun
+
+    def is_charging(self, robot: int, own: RobotLedger) -> bool:
+        """Return whether the last charge of a robot has begun, and it has not driven on."""
+        real, job_of = self.robots[robot], {**self._job_of[robot], **own.jobs_of}
+        if real.is_driving:
+            return False
+        items = [job_of.get(action, "") for action in real.done]
+        steps = [step for item in items if (step := find_charge_step(item))]
+        return bool(steps) and steps[-1] == "begin"
+
+    def look(self, control: FleetControl) -> None:
+        """Compare what robots hold, and what they have done."""
+        super().look(control)
+        pool = control.ledger.pool
+        names = {*pool.jobs, *pool.left}
+        if not self.known <= names:
+            raise Fault(f"jobs are lost: {sorted(self.known - names)}")
+        self.known = names
+        self.over |= {
+            name for name, left in pool.left.items() if left != "done" and name not in self.stops
+        }
+
+    def _look_at_jobs(self, robot: int, own: RobotLedger) -> None:
+        self._job_of[robot] |= own.jobs_of
+        real, counted = self.robots[robot], self.counted[robot]
+        for action, count in real.done.items():
+            if counted[action] == count:
+                continue
+            counted[action] = count
+            item = self._job_of[robot].get(action, "")
+            if count > 1:
+                raise Fault(f"robot {robot} has done {item} {count} times")
+            if stop := find_stop(item):
+                self._count_stop(robot, *stop)
+
+    def _count_stop(self, robot: int, name: str, stop: int) -> None:
+        done = self.stops.setdefault(name, [])
+        if name in self.over:
+            raise Fault(f"robot {robot} has done stop {stop} of {name}, which was given up")
+        if stop != len(done) or any(other != robot for other, _ in done):
+            raise Fault(f"robot {robot} has done stop {stop} of {name} after {done}")
+        done.append((robot, stop))
+
+    def look_at_the_end(self, control: FleetControl, *, is_endless: bool) -> None:
+        """Tell whether each job was done exactly once, and each robot is at its end."""
+        assert not is_endless
+        for robot, own in enumerate(control.ledger.robots):
+            self._look_at_jobs(robot, own)
+            if not own.is_off and self.robots[robot].place != own.route.places[-1]:
+                raise Fault(f"robot {robot} ends at {self.robots[robot].place}")
+        for name, left in control.ledger.pool.left.items():
+            if left == "done" and not self.stops.get(name):
+                raise Fault(f"{name} counts as done, and nobody has done it")

@@ -1,0 +1,27 @@
+"""Jobs that arrive in chaos: each stop is done once, in order; nobody stands without a reason."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import pytest
+
+from tests.builders.chaos import Chaos
+from tests.builders.chaos_jobs import JOB_KINDS, run_job_chaos
+
+SEEDS = 3
+"""Of each kind; `python -m tests.campaigns.jobs` makes as many runs as are wanted."""
+
+
+@pytest.mark.parametrize("kind", JOB_KINDS)
+def test_each_stop_is_done_once_and_a_job_that_nobody_does_has_a_reason(kind: str) -> None:
+    for seed in range(SEEDS):
+        run_job_chaos(seed, JOB_KINDS[kind])
+
+
+def test_chaos_with_jobs_does_what_it_says() -> None:
+    """Jobs arrive, change and are withdrawn; places close; the control is killed."""
+    chaos = Chaos(kills=0.03, jobs=0.06, people=0.01)
+    counts = sum((run_job_chaos(seed, chaos) for seed in range(3)), Counter[str]())
+    for what in ("add", "change", "withdraw", "close", "kills", "rounds", "jobs done"):
+        assert counts[what] > 0, what
