@@ -16,9 +16,9 @@ def draw_shift(
     seed: int, *, n_robots: int = 3, n_jobs: int = 8, windows: bool = True, lead: int = 0
 ) -> ShiftRecord:
     """Return the record of a shift on a scenario that is drawn, without delays."""
-    scenario = parse_scenario(
-        draw_work_document(seed, n_robots=n_robots, n_jobs=n_jobs, windows=windows)
-    )
+    document = draw_work_document(seed, n_robots=n_robots, n_jobs=n_jobs, windows=windows)
+    document["rules"] |= {"headway": seed % 2, "turn": seed // 2 % 2, "rotations": False}
+    scenario = parse_scenario(document)
     return hold_shift(scenario, seed=seed, first=seed % 4 or None, lead=lead)
 
 

@@ -53,6 +53,6 @@ def test_delays_do_no_more_than_make_work_longer_and_later(seed: int) -> None:
 @law(SEEDS)
 def test_all_jobs_without_windows_are_done_or_have_a_reason(seed: int) -> None:
     record = draw_shift(seed, windows=False)
-    assert record.until < LONG or any(own.ended is None for own in record.jobs.values())
+    assert record.until < LONG  # it is over once no job can be done any more
     for own in record.jobs.values():
         assert (own.ended is None) == (own.reason is not None)

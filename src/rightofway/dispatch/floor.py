@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 from rightofway.dispatch.delays import DelayDraws
 from rightofway.dispatch.record import DoneStep, RobotRecord
-from rightofway.model import NEVER, BoundBattery, Scenario
+from rightofway.model import NEVER, BookingRules, BoundBattery, Scenario
 from rightofway.model.bind_work import find_heading_on_map
 from rightofway.model.turning import list_headings
 from rightofway.precedence import Arrival, DelayModel
@@ -93,7 +93,7 @@ class FloorRobot:
     since
         Nothing else begins before that tick.
     recent
-        Vertex and begin of visits, from the one at which it has last arrived on.
+        Vertex and begin of visits, from the last one on whose booking has not ended.
     enters
         When visits began, by number, as far as others may wait for them [ticks].
     heading
@@ -101,7 +101,7 @@ class FloorRobot:
     soc, counted, charging
         The state of charge at a tick, in parts of the battery, and since when it charges.
     has_worked
-        Whether it has worked in the first of its visits.
+        Whether it has worked or charged in the first of its visits.
     cap
         The number of the last visit that it may begin, and of the steps in it; None for no cap.
     lost
@@ -146,9 +146,9 @@ class FloorRobot:
             return self.free
         return self.expected if self.expected > now else 2 * now - self.expected + 1
 
-    def forget_before(self, now: int) -> None:
-        """Forget the visits before the one at which the robot has last arrived."""
-        while len(self.recent) > 1 and self.recent[1][1] <= now:
+    def forget_before(self, now: int, rules: BookingRules) -> None:
+        """Forget visits that have ended, once their headway is over."""
+        while len(self.recent) > 1 and rules.end(self.recent[1][1]) <= now:
             self.recent.popleft()
         least = self.first - len(self.recent) + 1
         for number in [number for number in self.enters if number < least]:
@@ -199,7 +199,8 @@ class SimulatedFloor:
         work = scenario.problem.work
         assert work is not None, "the scenario has jobs"
         self.scenario, self.delays, self.states = scenario, delays, work.robots
-        self._books_ahead = scenario.problem.booking_rules.books_ahead
+        self.rules = scenario.problem.booking_rules
+        self._books_ahead = self.rules.books_ahead
         self.ends: dict[str, int] = {}
         self.events: list[FloorEvent] = []
         self.records = [RobotRecord() for _ in scenario.robots]
@@ -341,7 +342,21 @@ class SimulatedFloor:
             own.charging = begin
             self._note_soc(robot, begin)
         own.free = self.delays.stay(robot, own.first, begin, step.ticks)
-        own.expected = begin + step.ticks
+        own.expected, own.has_worked = begin + step.ticks, True
+
+    def is_charging(self, robot: int) -> bool:
+        """Return whether a robot charges and is not full yet.
+
+        Parameters
+        ----------
+        robot
+            Its number.
+        """
+        own, battery = self.robots[robot], self.states[robot].battery
+        if battery is None or own.charging is None or not battery.charge:
+            return False
+        ticks = max(0, self._until - own.counted)
+        return count_soc(battery, own.soc, ticks, is_charging=True) < battery.full
 
     def _charge_while_idle(self, robot: int, own: FloorRobot) -> None:
         """Charge a robot with nothing to do, where it may; it can be called away at any time."""
@@ -421,8 +436,8 @@ class SimulatedFloor:
             if enter is None:
                 self._waiting[arrival].append(robot)
                 return None, None
-            if enter > at:
-                at, by = enter, arrival.robot
+            if (left := int(self.rules.end(enter))) > at:
+                at, by = left, arrival.robot
         return at, by
 
     def _get_enter(self, arrival: Arrival) -> int | None:
@@ -441,7 +456,8 @@ class SimulatedFloor:
 
     def _begin_visit(self, robot: int, own: FloorRobot, depart: int, enter: int) -> None:
         record, visit = self.records[robot], own.visits[1]
-        self._end_charge(robot, own, depart - visit.turn)
+        turn = self.states[robot].turn if own.has_worked else 0
+        self._end_charge(robot, own, depart - visit.turn - turn)
         own.visits.popleft()
         own.first, own.n_begun, own.has_worked = own.first + 1, 0, False
         own.free, own.expected = enter, depart + visit.drive

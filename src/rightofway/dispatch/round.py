@@ -37,6 +37,7 @@ from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.facts import Fact
 from rightofway.model import (
     Assignment,
+    BoundBattery,
     Job,
     Plan,
     PlannedItem,
@@ -50,6 +51,7 @@ from rightofway.model import (
     TourItem,
     Track,
     UnservedReason,
+    Work,
 )
 from rightofway.model.passing import wait_before_chains
 from rightofway.model.work import PATIENCE
@@ -71,6 +73,9 @@ STEPS_PER_JOB = 60
 
 SHARE_OF_TOURS = 0.2
 """The part of the time that a round takes for tours."""
+
+SPARE = 10
+"""Charges are longer than tours need them by the ticks for one part in so many of a battery."""
 
 SEARCHES = 20
 """Searches for each robot without a track, and for each ten robots, before all are planned anew."""
@@ -288,7 +293,7 @@ class RoundPlanner:
             search.improve(STEPS_PER_JOB * len(work.jobs), hurried.measure_seconds_left())
         if search.cost.missing:
             raise GaveUp(Fact("begun jobs without a tour"))
-        return search.assignment, search.list_ends()
+        return _spare_charges(search.assignment, work), search.list_ends()
 
     def _improve_old(
         self, toured: Scenario, old: Sequence[RobotView], deadline: Deadline, seed: int
@@ -469,7 +474,7 @@ def _shift_job(
         replace(
             stop,
             earliest=max(stop.earliest - passed, Fraction(0)),
-            latest=None if stop.latest is None else max(stop.latest - passed, Fraction(0)),
+            latest=None if stop.latest is None or is_begun else stop.latest - passed,
         )
         for stop in job.stops
     ]
@@ -485,6 +490,26 @@ def _shift_job(
         due=None if job.due is None else max(job.due - passed, Fraction(0)),
         after=tuple(name for name in job.after if name in known),
     )
+
+
+def _spare_charges(assignment: Assignment, work: Work) -> Assignment:
+    """Return the same tours with charges that last longer than they must.
+
+    Else a wait on the way would send a robot back to charge as little again, and so on for ever.
+    """
+    tours = [
+        tour
+        if robot.battery is None
+        else tuple(_spare_charge(item, robot.battery) for item in tour)
+        for tour, robot in zip(assignment.tours, work.robots, strict=True)
+    ]
+    return replace(assignment, tours=tuple(tours))
+
+
+def _spare_charge(item: TourItem, battery: BoundBattery) -> TourItem:
+    if item.job is not None or not item.duration or not battery.charge:
+        return item
+    return replace(item, duration=Tick(item.duration - -battery.full // (SPARE * battery.charge)))
 
 
 def _keep_old(view: FleetView, error: Exception) -> Round:

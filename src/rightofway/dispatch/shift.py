@@ -25,6 +25,10 @@ STOPS_AHEAD = 2
 RETRY = 16
 """Looks after which jobs without a tour are tried again, where nothing else has happened."""
 
+MOST_STILL = 3
+"""Rounds in a row that find no tour for the jobs that are left, while nothing moves: then a shift
+without a time for its end is over."""
+
 MOST_PATIENT = 8
 """A round has up to that many times its time, after rounds in which the old plan stood."""
 
@@ -115,17 +119,27 @@ class _Shift:
         self._retry_at = 0  # when a round looks again at jobs without a tour
         self._cut = set[int]()  # robots with more to do than their routes
         self._n_stood = 0  # rounds in a row after which the old plan stood
+        self._n_still = 0  # rounds in a row that began while nothing moved
         self._is_due = True  # whether something has happened that a round should look at
         self._lost = set[int]()  # robots that do not go on
         self._has_told = False  # whether the standstill that there is has been told
 
     @property
     def is_over(self) -> bool:
-        """Whether the time is over, or all jobs are done and nothing moves."""
+        """Whether the time is over, or nothing moves and no job can be done any more."""
         if self._rules.until is not None and self._now >= self._rules.until:
             return True
-        is_done = self._reveal.is_over and not self._pool.jobs
-        return is_done and all(own.is_idle for own in self._floor.robots)
+        if not self._reveal.is_over or self._floor.events:  # what has happened is not noted yet
+            return False
+        return self._is_still and (not self._pool.jobs or self._n_still >= MOST_STILL)
+
+    @property
+    def _is_still(self) -> bool:
+        """Whether no robot has something to do, and none gets fuller."""
+        return all(
+            own.lost is not None or (own.is_idle and not self._floor.is_charging(robot))
+            for robot, own in enumerate(self._floor.robots)
+        )
 
     def go_on(self) -> None:
         """Look at the floor, plan a round if one is due, and let robots drive until the next."""
@@ -168,6 +182,8 @@ class _Shift:
         self._floor.events = [event for event in self._floor.events if event.tick > self._now]
         for event in sorted(past):
             self._note_work(event)
+        if past or not self._is_still:
+            self._n_still = 0
         lost = {k for k, own in enumerate(self._floor.robots) if (own.lost or NEVER) <= self._now}
         self._is_due |= lost != self._lost
         self._lost = lost
@@ -210,6 +226,7 @@ class _Shift:
         view = look_at_floor(self._floor, begin, takeover, self._pool.jobs)
         self._is_due = False
         self._retry_at = self._now + RETRY * rules.step
+        self._n_still = self._n_still + 1 if self._is_still else 0
         jobs = dict(self._pool.jobs)
         planned = self._planner.plan(
             view,

@@ -82,14 +82,17 @@ def _look_at_robot(
 ) -> RobotView:
     own, (now, takeover) = ahead.robots[robot], times
     state, battery = floor.states[robot], floor.states[robot].battery
-    own.forget_before(now)
-    free = own.free + (state.turn if own.has_worked else 0)
+    own.forget_before(now, floor.rules)
+    turn = state.turn if own.has_worked else 0
+    free = own.free + turn
     if own.charging is not None or own.lost is not None:  # a charge can be ended at any time
-        free = takeover
+        free = takeover + turn
     free, soc = max(free, takeover), Fraction(1)
     if battery is not None:
-        is_charging, ticks = own.charging is not None, max(0, free - own.counted)
+        is_charging, until = own.charging is not None, free - turn
+        ticks = max(0, until - own.counted)
         left = count_soc(battery, own.soc, ticks, is_charging=is_charging)
+        left -= battery.on * (free - max(until, own.counted))
         soc = Fraction(max(left, 0), battery.full)
     rest = list(islice(floor.robots[robot].visits, own.first - floor.robots[robot].first, None))
     return RobotView(
@@ -219,7 +222,7 @@ def splice_round(
             replace(visit, waits=graph.waits(Part(robot, number)))
             for number, visit in enumerate(visits, own.first)
         )
-        own.forget_before(view.takeover)
+        own.forget_before(view.takeover, floor.rules)
 
 
 def _list_visits(
