@@ -11,7 +11,7 @@ from rightofway.errors import InputError
 from rightofway.io import dump_plan, load, make_schema, parse_plan
 from rightofway.io.documents import parse_document
 from rightofway.io.yaml_text import parse_yaml
-from rightofway.model import Plan, PlannerRun, Track
+from rightofway.model import Job, Plan, PlannerRun, Track
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = sorted((ROOT / "examples").glob("*.yaml"))
@@ -47,11 +47,20 @@ def test_every_example_fits(path: Path) -> None:
     assert fits(parse_document(path.read_text("utf-8"), path), "scenario")
 
 
+def every(jobs: tuple[Job, ...]) -> tuple[tuple[int, str], ...]:
+    """Return all jobs as not served."""
+    return tuple((index, "not found") for index in range(len(jobs)))
+
+
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_every_plan_that_is_written_fits(path: Path) -> None:
     scenario = load(path)
     homes = tuple(Track.of([robot.home], [0]) for robot in scenario.robots)
-    plan = Plan(scenario=scenario, tracks=homes, run=PlannerRun(name="nobody moves"))
+    run, jobs = PlannerRun(name="nobody moves"), scenario.jobs
+    idle: dict[str, Any] = (
+        {} if jobs is None else {"tours": ((),) * len(homes), "unserved": every(jobs)}
+    )
+    plan = Plan(scenario=scenario, tracks=homes, run=run, **idle)
     assert fits(dump_plan(plan), "plan")
     assert parse_plan(dump_plan(plan)) == plan
 
