@@ -9,10 +9,10 @@ from typing import Any
 import pytest
 
 from benchmarks.deliveries_with_batteries import make_scenario, measure_cost
-from rightofway import check, solve
+from rightofway import check, improve, solve
 from rightofway.check import Report
 from rightofway.deadline import NO_DEADLINE, Deadline
-from rightofway.errors import GaveUp, NoPlanExists
+from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.facts import Fact
 from rightofway.io import format_plan, parse_plan, parse_scenario
 from rightofway.metrics import (
@@ -27,6 +27,7 @@ from rightofway.model.scenario import assign_tours
 from rightofway.model.work import Assignment
 from rightofway.plan_work import measure_work, plan_work
 from rightofway.planners import Task, find
+from tests.builders.planned_jobs import make_plan
 from tests.builders.work_scenarios import draw_work_document
 
 
@@ -244,3 +245,20 @@ def test_tours_learn_the_charge_that_detours_take() -> None:
     """R1 drives around R2, so the charge of its tour has to last longer; all jobs are done."""
     plan = solve(make_scenario(), time_limit=5)
     assert measure_cost(plan) <= 80_058  # [s]: the least that is possible in sequence
+
+
+def test_an_improved_plan_keeps_its_tours_and_its_unserved_jobs() -> None:
+    plan = make_plan()
+    better = improve(plan, options={"iterations": 100})
+    assert check(better).ok
+    assert better.unserved == plan.unserved
+    assert [[(item.job, item.stop) for item in tour] for tour in better.tours or ()] == [
+        [(item.job, item.stop) for item in tour] for tour in plan.tours or ()
+    ]
+    assert measure_work(better) <= measure_work(plan)
+
+
+def test_a_start_is_refused_for_a_scenario_with_jobs() -> None:
+    plan = make_plan()
+    with pytest.raises(InputError, match="start: is not for a scenario with jobs"):
+        solve(plan.scenario, start=plan)

@@ -116,7 +116,7 @@ def solve(
     ------
     InputError
         For an unknown planner or option, a value that does not fit, or a start for a planner that
-        cannot start from a plan.
+        cannot start from a plan, or for a scenario with jobs.
     NoPlanExists
         If it is proven that there is no plan.
     GaveUp
@@ -125,6 +125,9 @@ def solve(
     spec, limit = find(planner), require_time_limit(time_limit)
     if start is not None:
         _refuse_start(spec)
+        if scenario.jobs is not None:
+            remedy = "leave it out; `improve` keeps the tours of a plan"
+            raise InputError.at("start", f"is not for a scenario with jobs ({remedy})")
     settled = _settle_options(spec, options, named, seed)
     task = Task(
         scenario=scenario, **settled, report=report or _discard_progress, keep_best=keep_best
@@ -162,7 +165,7 @@ def improve(
     Returns
     -------
     Plan
-        Passed by `rightofway.check`, and of no larger flowtime.
+        Passed by `rightofway.check`, and of no larger flowtime. A plan with jobs keeps its tours.
 
     Raises
     ------
@@ -181,7 +184,9 @@ def improve(
     task = Task(
         scenario=plan.scenario, **settled, report=report or _discard_progress, keep_best=keep_best
     )
-    return _run(spec, replace(task, start=plan.tracks), limit, seconds_per_visit, on_plan)[0]
+    task = replace(task, start=plan.tracks)
+    improved, found = _run(spec, task, limit, seconds_per_visit, on_plan, unserved=plan.unserved)
+    return plan if OF_BATTERIES.intersection(found.counts) else improved
 
 
 def _refuse_start(spec: PlannerSpec) -> None:

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import rightofway
 from rightofway.check import check
-from rightofway.errors import GaveUp
+from rightofway.errors import GaveUp, InputError
 from rightofway.facts import Fact
 from rightofway.model import Plan, Rules, Scenario, Tick, compute_completions
 from rightofway.repair.flip import Flipped, flip_right_of_way
@@ -17,6 +17,7 @@ from tests.builders.any_fleet import any_fleet
 from tests.builders.any_plan import STRICT, by_both_judges, planned
 from tests.builders.fleets import grid_fleet
 from tests.builders.laws import law
+from tests.builders.planned_jobs import make_plan
 
 
 def longest_wait(plan: Plan) -> tuple[int, int, Tick]:
@@ -62,6 +63,11 @@ def test_a_robot_that_starts_or_ends_in_the_way_is_named_where_there_is_no_other
         flip_right_of_way(plan, 0, 1, Tick(0))
     with pytest.raises(GaveUp, match="R1 ends in the way of R2"):
         flip_right_of_way(plan, *longest_wait(plan))
+
+
+def test_a_plan_with_jobs_is_refused() -> None:
+    with pytest.raises(InputError, match="of a plan with jobs are not reversed"):
+        flip_right_of_way(make_plan(), 0, 1, Tick(0))
 
 
 def test_a_plan_with_swaps_is_refused() -> None:

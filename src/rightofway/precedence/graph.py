@@ -370,6 +370,7 @@ def build_graph_of_plan(problem: Problem, tracks: Sequence[Track]) -> Precedence
     With the booking rules of the plan, no robot is later in the timetable than in the plan.
     """
     require_one_for_each(problem.itineraries, tracks=tracks)
+    assert not problem.has_times, "the graph does not know times of stages"
     routes = [
         make_route(problem.roadmap, itinerary, track)
         for itinerary, track in zip(problem.itineraries, tracks, strict=True)
@@ -395,6 +396,7 @@ def build_timetable(problem: Problem, tracks: Sequence[Track]) -> list[Track] | 
     list of Track or None
         One for each robot; None where the order is a deadlock or closures leave no such tracks.
     """
+    assert not problem.has_times, "the graph does not know times of stages"
     routes = [
         make_route_through(problem.roadmap, itinerary, track.vertices.tolist())
         for itinerary, track in zip(problem.itineraries, tracks, strict=True)

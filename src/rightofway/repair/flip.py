@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 from rightofway.check import check
 from rightofway.deadline import Deadline
-from rightofway.errors import GaveUp
+from rightofway.errors import GaveUp, InputError
 from rightofway.facts import Fact
 from rightofway.model import Plan, Tick, Track, compute_completions
 from rightofway.precedence import PrecedenceGraph, build_graph_of_plan
@@ -52,10 +52,16 @@ def flip_right_of_way(
 
     Raises
     ------
+    InputError
+        For a plan with jobs: the timetable does not know their times.
     GaveUp
         If the plan has faults, no right of way of the two is there, or neither was found.
     """
-    scenario, judged = plan.scenario, check(plan)
+    scenario = plan.scenario
+    if scenario.problem.has_times:
+        remedy = "plan again, or improve the plan"
+        raise InputError.at("", f"rights of way of a plan with jobs are not reversed ({remedy})")
+    judged = check(plan)
     if not judged.ok:
         raise GaveUp(Fact("plan with faults", faults=judged.total))
     task = Task(scenario=scenario, deadline=Deadline.after(time_limit))
