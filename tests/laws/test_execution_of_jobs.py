@@ -54,7 +54,8 @@ def _execute(plan: Plan, delays: str, run: int) -> tuple[ActionDependencyGraph, 
         tours.append(
             tuple(replace(item, begin=Tick(begin), end=Tick(end)) for item, (begin, end) in done)
         )
-    return adg, execution, replace(plan, tracks=adg.build_tracks(execution.enter), tours=tours)
+    tracks = adg.build_tracks(execution.enter)
+    return adg, execution, replace(plan, tracks=tracks, tours=tuple(tours))
 
 
 @law(seeds, st.sampled_from(DELAYS))
