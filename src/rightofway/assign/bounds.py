@@ -20,13 +20,16 @@ from functools import cache, cached_property
 from math import prod
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from rightofway.assign.travel import Travel
 from rightofway.model.work import BoundJob, Work
 
 MOST_STATES, MOST_ROBOTS = 250, 6
 """Jobs are enumerated if the stops of each robot have so many states, and robots are so few."""
 
-NO_WAY = 1 << 60
+NO_WAY = 1 << 50
 """A drive that does not exist [ticks]."""
 
 Label = tuple[int, int]
@@ -37,21 +40,24 @@ Progress = tuple[tuple[int, ...], int]
 
 
 class Alone(NamedTuple):
-    """How soon a robot can do a job as its only one.
+    """How soon each robot that may do a job can do it as its only one.
 
     Attributes
     ----------
-    end
-        When the job ends at the earliest [ticks]; `NO_WAY` or more if there is no way.
-    home
-        When the robot can rest after that [ticks].
-    is_late
+    ends
+        When the job ends at the earliest [ticks]; `NO_WAY` or more if there is no way; int64.
+    homes
+        When the robot can rest after that [ticks]; int64.
+    are_late
         Whether a stop ends after its `latest`, also so.
+    ready
+        When the robot is ready [ticks]; int64.
     """
 
-    end: int
-    home: int
-    is_late: bool
+    ends: NDArray[np.int64]
+    homes: NDArray[np.int64]
+    are_late: NDArray[np.bool_]
+    ready: NDArray[np.int64]
 
 
 class WorkBound:
@@ -80,8 +86,8 @@ class WorkBound:
             return False
         if any(map(self.is_impossible, own.after)):
             return True
-        ends = (self.find_alone(job, robot) for robot in own.robots)
-        return all(alone.home >= NO_WAY or alone.is_late for alone in ends)
+        alone = self.find_alone(job)
+        return bool(np.all((alone.homes >= NO_WAY) | alone.are_late))
 
     def compute(self, served: Sequence[int]) -> int:
         """Return a lower bound of the objective for the jobs that a plan serves.
@@ -142,8 +148,8 @@ class WorkBound:
             for other in served
             if other != job
         ]
-        for robot in own.robots:
-            drives = self._travel.ticks[self._travel.kind_of[robot], starts, to]
+        for kind in {self._travel.kind_of[robot] for robot in own.robots}:
+            drives = self._travel.ticks[kind, starts, to]
             drives = drives[drives >= 0]
             if len(drives):
                 least = min(least, int(drives.min()) + own.stops[-1].work)
@@ -164,36 +170,45 @@ class WorkBound:
 
     def _find_home(self, job: int, from_ready: int) -> int:
         """Return when a robot that does a job rests at the earliest, or how long after `ready`."""
-        return min(
-            self.find_alone(job, robot).home - from_ready * self._ready[robot]
-            for robot in self._work.jobs[job].robots
-        )
+        alone = self.find_alone(job)
+        return int((alone.homes - from_ready * alone.ready).min())
 
     def _find_end(self, job: int) -> int:
-        return min(self.find_alone(job, robot).end for robot in self._work.jobs[job].robots)
+        """Return when a job ends at the earliest [ticks]; `NO_WAY` if no robot may do it."""
+        return int(self.find_alone(job).ends.min(initial=NO_WAY))
 
     def find_release(self, job: int) -> int:
         """Return when the jobs end at the earliest after which a job may begin [ticks]."""
-        ends = [
-            min((self.find_alone(other, robot).end for robot in self._work.jobs[other].robots),
-                default=NO_WAY)
-            for other in self._work.jobs[job].after
-        ]  # fmt: skip
-        return max(ends, default=0)
+        return max((self.find_end(other) for other in self._work.jobs[job].after), default=0)
 
-    def _find_alone(self, job: int, robot: int) -> Alone:
-        own, state = self._work.jobs[job], self._work.robots[robot]
-        now, at, is_late = int(state.ready), self._travel.get_start(robot), False
+    def _find_alone(self, job: int) -> Alone:
+        own, travel = self._work.jobs[job], self._travel
+        robots = np.array(own.robots, np.int64)
+        kinds = np.array(travel.kind_of, np.int64)[robots]
+        at = np.array([travel.get_start(robot) for robot in own.robots], np.int64)
+        ready = np.array(self._ready, np.int64)[robots]
+        now, are_late = ready, np.zeros(len(robots), np.bool_)
         for number, stop in enumerate(own.stops):
-            to = self._travel.place_of[stop.vertex]
-            released = 0 if number else self.find_release(job)
-            now = max(now + self.measure_drive(robot, at, to), stop.earliest, released) + stop.work
-            is_late = is_late or (stop.latest is not None and now > stop.latest)
+            to = np.full(len(robots), travel.place_of[stop.vertex])
+            least = stop.earliest if number else max(stop.earliest, self.find_release(job))
+            now = np.maximum(now + self._measure_drives(kinds, at, to), least) + stop.work
+            are_late |= now > (NO_WAY if stop.latest is None else stop.latest)
             at = to
-        home = 0
-        if state.home is not None:
-            home = self.measure_drive(robot, at, self._travel.place_of[state.home])
-        return Alone(now, now + home, is_late)
+        ends = [self._work.robots[robot].home for robot in own.robots]
+        to = np.array(
+            [
+                place if end is None else travel.place_of[end]
+                for place, end in zip(at, ends, strict=True)
+            ],
+            np.int64,
+        )
+        return Alone(now, now + self._measure_drives(kinds, at, to), are_late, ready)
+
+    def _measure_drives(
+        self, kinds: NDArray[np.int64], at: NDArray[np.int64], to: NDArray[np.int64]
+    ) -> NDArray[np.int64]:
+        ticks = self._travel.ticks[kinds, at, to].astype(np.int64)
+        return np.where(ticks < 0, NO_WAY, ticks)
 
     def measure_drive(self, robot: int, at: int, to: int) -> int:
         """Return the ticks of a drive, `NO_WAY` without a way."""

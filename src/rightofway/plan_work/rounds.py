@@ -78,7 +78,7 @@ def plan_work(
     alone lead to a plan, the error of that assignment is raised.
     """
     of_rounds = deadline.shorten(SHARE_OF_ROUNDS)
-    rounds = _Rounds(scenario, plan_tours, of_rounds, seed)
+    rounds = _Rounds(scenario, plan_tours, (of_rounds, deadline), seed)
     for number in count(1):
         plan = rounds.run(number)
         if plan is not None:
@@ -99,12 +99,17 @@ class _Rounds:
     """
 
     def __init__(
-        self, scenario: Scenario, plan_tours: PlanTours, deadline: Deadline, seed: int
+        self,
+        scenario: Scenario,
+        plan_tours: PlanTours,
+        deadlines: tuple[Deadline, Deadline],
+        seed: int,
     ) -> None:
         work = scenario.problem.work
         assert work is not None, "the scenario has jobs"
         self._work, self._weights = work, scenario.problem.weights
-        self._plan_tours, self._deadline, self._seed = plan_tours, deadline, seed
+        self._plan_tours, self._seed = plan_tours, seed
+        self._deadline, self._last_deadline = deadlines  # of the rounds; without a plan
         self._travel = measure_travel(scenario.problem, Distances(scenario.roadmap))
         self._delays = np.zeros(self._travel.ticks.shape)
         self._drains = [np.zeros_like(kind.drives) for kind in self._travel.batteries]
@@ -129,11 +134,8 @@ class _Rounds:
         try:
             plan, judged = self._plan_tours(assignment, deadline, self._seed + number - 1)
         except (GaveUp, NoPlanExists):
-            if self.best is None:
-                # Half of the jobs at a time: a fleet in which nobody moves has a plan at last.
-                self._fewer = self._keep_half(assignment)
-                if self._fewer is None:
-                    raise
+            if self.best is None and not self._choose_next(assignment):
+                raise
             return None
         self._learn(plan, assignment, whole=not judged.ok)
         if not judged.ok:
@@ -149,6 +151,18 @@ class _Rounds:
             return None
         self.best = cost, plan
         return plan
+
+    def _choose_next(self, assignment: Assignment) -> bool:
+        """Choose what is planned after an assignment without a plan; return whether there is any.
+
+        First the same with more time, then half of the jobs at a time: a fleet in which nobody
+        moves has a plan at last.
+        """
+        if self._deadline is not self._last_deadline:
+            self._deadline, self._fewer = self._last_deadline, assignment
+        else:
+            self._fewer = self._keep_half(assignment)
+        return self._fewer is not None
 
     def move_jobs(self, deadline: Deadline, better: Callable[[Plan], None]) -> Plan:
         """Return the best plan after moves of jobs."""
