@@ -39,7 +39,9 @@ def wall(studio: StudioPage) -> None:
 
 def test_an_example_is_one_press_away_and_planned_with_a_second(studio: StudioPage) -> None:
     card = studio.page.get_by_role("button", name="Workshop in metres 4 robots")
+    studio.page.get_by_role("button", name="Warehouse with jobs 3 robots").wait_for()
     for picture in studio.page.locator("main.start .gallery li").all():
+        picture.scroll_into_view_if_needed()  # pictures far below are made when they are near
         picture.locator("img").wait_for()
     studio.keep("studio-start")
     card.click()

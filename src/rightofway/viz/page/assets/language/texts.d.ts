@@ -497,6 +497,7 @@ export interface StudioTexts {
     crossroad: string;
     door: string;
     floor: string;
+    jobs: string;
     warehouse: string;
     [key: string]: string;
   };
