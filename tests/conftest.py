@@ -30,6 +30,7 @@ SLOW = (
     "conformance/test_samples.py",  # plans on 36 real layouts
     "control/test_chaos.py",  # five runs of each kind, and of each broken wording
     "control/test_chaos_jobs.py",  # runs of each kind, with a plan for each round
+    "control/test_jobs_at_broker.py",  # a broker, and processes that are killed
     "control/test_standstill.py",  # a hundred fleets
     "laws/test_best_timetable.py",
     "laws/test_fixed_routes.py",  # the optimum of each planner's routes
