@@ -36,7 +36,7 @@ def count_finished(journal: Path) -> dict[str, int]:
         query = "SELECT json_extract(entry, '$.job'), count(*) FROM entries"
         return dict(
             database.execute(
-                f"{query} WHERE json_extract(entry, '$.kind') = 'finished'"  # noqa: S608
+                f"{query} WHERE json_extract(entry, '$.kind') = 'finished'"
                 " AND json_extract(entry, '$.job') LIKE '%/%' GROUP BY 1"
             )
         )

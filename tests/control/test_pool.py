@@ -12,6 +12,7 @@ from rightofway.control import FleetControl
 from rightofway.control.commands import read_duration
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.journal import Entry
+from rightofway.control.laps import LapsToDrive
 from rightofway.control.round_worker import RoundRequest, RoundsAtOnce
 from rightofway.control.work_items import find_stop
 from rightofway.dispatch import Round
@@ -276,3 +277,20 @@ def test_what_is_killed_at_any_entry_goes_on_with_the_same_jobs() -> None:
         ledger = FleetControl(journal, roadmap=roadmap).ledger
         known = [entry["job"]["name"] for entry in entries[:end] if entry["kind"] == "job known"]
         assert {*ledger.pool.jobs, *ledger.pool.left} == {*known}
+
+
+def test_a_battery_that_will_not_last_begins_a_round_once_for_each_plan() -> None:
+    """R1 drives at least four lengths of 5.25 % for J1, and keeps 10 % in reserve."""
+    shift = Shift()
+    wanted = []
+    for charge in (1.0, 0.2, 0.19):
+        shift.dispatcher.control.charges[0] = charge
+        shift.rounds.look()
+        wanted.append(shift.rounds.is_wanted)
+        shift.rounds.is_wanted = False
+    assert wanted == [False, True, False]
+
+
+def test_a_plan_with_jobs_is_not_repeated_in_laps() -> None:
+    with pytest.raises(InputError, match="jobs are done once"):
+        LapsToDrive(floor_plan())

@@ -79,10 +79,13 @@ class LapsToDrive:
     Raises
     ------
     InputError
-        If a robot ends elsewhere, or the visits of a period do not repeat.
+        If a robot ends elsewhere, the visits of a period do not repeat, or the plan has jobs.
     """
 
     def __init__(self, plan: Plan, count: int = 0) -> None:
+        if plan.scenario.jobs is not None:
+            message = "has jobs, and jobs are done once (drive it without laps)"
+            raise InputError.at("plan", message)
         self._count, self._routes = 0, make_routes_to_drive(plan)
         names = [robot.name for robot in plan.scenario.robots]
         for name, route in zip(names, self._routes, strict=True):

@@ -52,6 +52,10 @@ class FleetMetrics:
         self._unfit = Gauge("rightofway_robots_unfit",
                             "Robots that are lost, faulty, paused, in error or in manual mode",
                             registry=self.registry)  # fmt: skip
+        self._charge = Gauge("rightofway_charge", "Measured state of charge, from 0 to 1",
+                             ["robot"], registry=self.registry)  # fmt: skip
+        self._known = Gauge("rightofway_jobs_known", "Jobs that are known and not finished",
+                            registry=self.registry)  # fmt: skip
         self._waits = Counter(
             "rightofway_waits", "How often a robot began to wait for others", ["robot"],
             registry=self.registry,
@@ -115,7 +119,10 @@ class FleetMetrics:
             The control.
         """
         robots = control.ledger.robots
-        self._jobs.set(sum(own.jobs_done for own in robots))
+        self._jobs.set(sum(control.ledger.count_jobs()))
+        self._known.set(len(control.ledger.pool.jobs))
+        for robot, charge in control.charges.items():
+            self._charge.labels(self._names[robot]).set(charge)
         self._unfit.set(
             sum(not control.is_fit(robot) or own.fault is not None
                 for robot, own in enumerate(robots))

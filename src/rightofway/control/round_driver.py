@@ -9,7 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
+from rightofway.control.batteries import FleetBatteries
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.journal import Entry
 from rightofway.control.laps import build_graph_behind_released
@@ -23,7 +25,7 @@ from rightofway.control.round_view import (
 )
 from rightofway.control.round_worker import RoundRequest, Rounds
 from rightofway.control.routes import RouteToDrive
-from rightofway.control.work_items import find_stop
+from rightofway.control.work_items import find_charge_step, find_stop
 from rightofway.dispatch import PoolEvent, Round
 from rightofway.facts import Fact
 from rightofway.model import Scenario, Tick, UnservedReason
@@ -36,6 +38,9 @@ FOR_GOOD: frozenset[UnservedReason] = frozenset({"latest", "after"})
 
 AHEAD = 4
 """Parts beyond the released ones that a robot may keep while a round is under way."""
+
+TOLERANCE = 0.01
+"""By how much a forecast may be below the reserve: robots report whole percents."""
 
 PAUSE = 10
 """Calls of `look` until a round that has found no plan is tried again."""
@@ -92,6 +97,8 @@ class RoundDriver:
         self._ignores_closures = False  # of that round
         self._count = 0  # rounds since the start
         self._pause = 0  # calls of `go_on` until the next try after a failure
+        self._batteries = FleetBatteries(self.scenario)
+        self._short_graph: ReleaseGraph | None = None  # of a plan that batteries do not last for
         self._tried: object = None  # what was known when a round was last wanted for idle robots
 
     @property
@@ -121,17 +128,40 @@ class RoundDriver:
         return [name for name, own in pool.jobs.items() if not own.is_begun and name not in planned]
 
     def look(self) -> None:
-        """Want a round where jobs wait and a robot has nothing to do; call it every second."""
+        """Want a round where jobs wait for robots, or a battery will not last; each second."""
         self._pause = max(0, self._pause - 1)
         ledger, waiting = self._control.ledger, self.list_waiting()
+        robots = ledger.robots
         idle = [
             robot
-            for robot, own in enumerate(ledger.robots)
+            for robot, own in enumerate(robots)
             if own.is_done and not own.is_off and robot not in self.unable
         ]
         known = waiting, idle, len(ledger.pool.left)
         if waiting and idle and known != self._tried:
             self._tried, self.is_wanted = known, True
+        if ledger.graph is not self._short_graph and any(map(self._is_short, range(len(robots)))):
+            self._short_graph, self.is_wanted = ledger.graph, True  # once for each plan
+
+    def _is_short(self, robot: int) -> bool:
+        """Return whether a robot is expected below its reserve before its next charge."""
+        own, charge = self._control.ledger.robots[robot], self._control.charges.get(robot)
+        battery = self._batteries.of_robot[robot]
+        if battery is None or charge is None or own.is_off or robot in self.unable:
+            return False
+        visits = range(own.arrived, own.route.end)
+        charges = (
+            visit
+            for visit in visits
+            if any(
+                find_charge_step(item) == "begin" and item not in own.finished
+                for item in own.route.get_jobs(visit)
+            )
+        )
+        places = own.route.stretch(own.arrived, next(charges, own.route.end - 1) + 1)
+        drives = (self._batteries.measure_drive(robot, *ends) for ends in pairwise(places))
+        is_driving = len(places) > 1
+        return is_driving and charge - sum(drives) < battery.reserve - TOLERANCE
 
     def go_on(self) -> list[Message]:
         """Splice the plan of a round that has ended, and begin the next one; return messages."""
