@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
+from rightofway.check import check
 from rightofway.facts import Fact
 from rightofway.io.scenario.reader import parse_scenario
 from rightofway.model import Scenario, Tick
@@ -98,3 +99,16 @@ def test_a_shift_in_which_nothing_moves_says_why() -> None:
     assert (tick, fact.kind, fact.values["jobs"]) == (2, "nothing moves", 1)
     assert fact.values["reasons"] == (Fact("unserved robot"),)
     assert str(fact) == "nothing moves, and a job is known: no robot may do it and can carry it"
+
+
+def test_a_robot_enters_a_headway_after_another_one_has_left() -> None:
+    jobs = [
+        {"name": "J1", "at": "N4", "robot": "R1"},
+        {"name": "J2", "at": "N3", "robot": "R2", "earliest": 1},
+    ]
+    rules = {"headway": 3, "return": "none"}
+    record = hold_shift(make_scenario(["....."], {"R1": "N1", "R2": "N0"}, jobs=jobs, rules=rules))
+    # R1 leaves N1 at tick 1, so R2 enters it at tick 4, and N3 at tick 6.
+    assert record.jobs["J1"].ended == 3
+    assert record.jobs["J2"].ended == 6
+    assert check(record.make_plan()).ok

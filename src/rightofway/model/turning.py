@@ -116,13 +116,25 @@ def compute_first_turns(
     """
     if turning is None or heading is None:
         return ()
-    headings, has_heading = _measure_headings(roadmap)
+    first, end = roadmap.indptr[start : start + 2].tolist()
     turns = []
-    for edge in range(roadmap.indptr[start], roadmap.indptr[start + 1]):
-        angle = abs(Fraction(headings[edge]) - heading) % 360
-        steps = round(min(angle, 360 - angle) / ANGLE_STEP) if has_heading[edge] else 0
+    for own in _list_exact_headings(roadmap)[first:end]:
+        if own is None or own == heading:
+            turns.append(Tick(0))
+            continue
+        angle = abs(own - heading) % 360
+        steps = round(min(angle, 360 - angle) / ANGLE_STEP)
         turns.append(Tick(math.ceil(steps * ANGLE_STEP / turning.rate)))
     return tuple(turns)
+
+
+@lru_cache(maxsize=4)
+def _list_exact_headings(roadmap: Roadmap) -> list[Fraction | None]:
+    """Return the heading of each edge as the fraction that its float is; None where it has none."""
+    headings, has_heading = (values.tolist() for values in _measure_headings(roadmap))
+    known = {heading: Fraction(heading) for heading in set(headings)}
+    pairs = zip(headings, has_heading, strict=True)
+    return [known[heading] if is_known else None for heading, is_known in pairs]
 
 
 @lru_cache(maxsize=4)
