@@ -84,6 +84,31 @@ def test_times_and_orders_of_jobs_are_kept() -> None:
     assert plan.unserved == ((2, "latest"),)
 
 
+@pytest.mark.parametrize(
+    ("job", "reason"),
+    [
+        ({"pickup": "N1", "dropoff": "N3", "load": 2}, "robot"),  # capacities are 1
+        ({"at": "N1", "robot": "R2", "types": ["fork"]}, "robot"),  # R2 has no type
+        ({"at": "N5"}, "way"),  # a wall is before the last column
+        ({"at": "N3", "robot": "R1"}, "battery"),  # 2 x 3 edges need more than 5 of them
+        ({"at": "N3", "robot": "R2", "latest": 1}, "latest"),  # 4 edges away
+        ({"at": "N1", "after": ["J0"]}, "after"),
+    ],
+)
+def test_unserved_jobs_have_their_reason(job: dict[str, Any], reason: str) -> None:
+    """R1 is at N0, and R2 two rows below; J0 is for nobody."""
+    nobody = {"name": "J0", "at": "N2", "types": ["crane"]}
+    document = make_document([nobody, {"name": "J1", **job}])
+    document["map"] = {"grid": ["....@.", "....@.", "....@."]}
+    document["batteries"] = {"tank": {"drive": "1/5"}}
+    document["robots"] = [
+        {"name": "R1", "home": "N0", "battery": "tank"},
+        {"name": "R2", "home": "N13"},
+    ]
+    plan = solve(parse_scenario(document))
+    assert plan.unserved == ((0, "robot"), (1, reason))
+
+
 def test_time_until_a_job_may_begin_is_not_lost() -> None:
     """A robot that waits for `earliest` waits for nobody: its job ends as soon as it can."""
     plan = solve(parse_scenario(make_document([carry("J1", 1, 3, earliest=30)])))

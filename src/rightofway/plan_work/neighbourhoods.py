@@ -197,12 +197,16 @@ def _make_plan(old: Plan, scenario: Scenario, tracks: Sequence[Track]) -> Plan:
 
 
 def _list_unserved(plan: Plan, scenario: Scenario) -> tuple[tuple[int, UnservedReason], ...]:
-    """Return the jobs that tours leave out, each with the reason that it had or "not found"."""
+    """Return the jobs that tours leave out, each with the reason that it had, if that holds."""
     reasons = dict(plan.unserved)
     assert scenario.problem.work is not None, "the scenario has jobs"
-    served = {item.job for tour in scenario.tours or () for item in tour}
-    return tuple(
-        (job, reasons.get(job, "not found"))
-        for job in range(len(scenario.problem.work.jobs))
-        if job not in served
-    )
+    jobs = scenario.problem.work.jobs
+    unserved = set(range(len(jobs))) - {
+        item.job for tour in scenario.tours or () for item in tour if item.job is not None
+    }
+    for job in unserved:
+        if not unserved.isdisjoint(jobs[job].after):
+            reasons.setdefault(job, "after")
+        elif reasons.get(job, "after") == "after":  # those before it are served now
+            reasons[job] = "not found"
+    return tuple((job, reasons[job]) for job in sorted(unserved))
