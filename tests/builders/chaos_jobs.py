@@ -16,8 +16,9 @@ import rightofway
 from rightofway.control import FleetControl, Message, RobotLedger
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.operator import Operator
-from rightofway.control.round_worker import RoundsAtOnce
+from rightofway.control.round_worker import RoundRequest, RoundsAtOnce
 from rightofway.control.work_items import find_charge_step, find_stop
+from rightofway.dispatch import Round
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.facts import Fact
 from rightofway.io import parse_scenario
@@ -115,6 +116,24 @@ def run_job_chaos(
     return world.counts
 
 
+class LateRounds(RoundsAtOnce):
+    """Rounds whose plans come late: meanwhile robots drive, and people ask for more."""
+
+    def __init__(self, draw: random.Random) -> None:
+        super().__init__(None, "prioritized")
+        self._draw, self._polls = draw, 0
+
+    def begin(self, request: RoundRequest) -> None:
+        """Plan a round; its plan comes after some more messages."""
+        super().begin(request)
+        self._polls = self._draw.choice([0, 3, 30, 100])
+
+    def poll(self) -> Round | None:
+        """Return the plan of the round that was begun, once, when its time has come."""
+        self._polls -= 1
+        return super().poll() if self._polls < 0 else None
+
+
 class JobWorld(World):
     """A control of a plan with jobs, its robots and their network."""
 
@@ -139,9 +158,8 @@ class JobWorld(World):
                     long_order=2,
                     roadmap=self.scenario.roadmap,
                 )
-                dispatcher = Dispatcher(
-                    control, self.plan, rounds=RoundsAtOnce(None, "prioritized"), patience=2
-                )
+                rounds = LateRounds(self.draw)
+                dispatcher = Dispatcher(control, self.plan, rounds=rounds, patience=2)
                 dispatcher.keep_time(lambda: self.events // EVENTS_PER_TICK)
                 dispatcher.report = self._note
                 assert dispatcher.rounds is not None
@@ -283,6 +301,8 @@ class JobObserver(Observer):
         self.counted: list[Counter[str]] = [Counter() for _ in robots]
         self.stops: dict[str, list[tuple[int, int]]] = {}  # of each job, robot and stop as done
         self.known = set[str]()
+        self.before: dict[str, tuple[str, ...]] = {}  # jobs that end before each job
+        self.lengths: dict[str, int] = {}  # stops of each job
         self.over = set[str]()  # jobs that had left without being begun
 
     def is_charging(self, robot: int, own: RobotLedger) -> bool:
@@ -302,6 +322,8 @@ class JobObserver(Observer):
         if not self.known <= names:
             raise Fault(f"jobs are lost: {sorted(self.known - names)}")
         self.known = names
+        self.before |= {name: own.job.after for name, own in pool.jobs.items()}
+        self.lengths |= {name: len(own.job.stops) for name, own in pool.jobs.items()}
         self.over |= {
             name for name, left in pool.left.items() if left != "done" and name not in self.stops
         }
@@ -325,6 +347,9 @@ class JobObserver(Observer):
             raise Fault(f"robot {robot} has done stop {stop} of {name}, which was given up")
         if stop != len(done) or any(other != robot for other, _ in done):
             raise Fault(f"robot {robot} has done stop {stop} of {name} after {done}")
+        for before in self.before.get(name, ()):
+            if before not in self.over and len(self.stops.get(before, ())) < self.lengths[before]:
+                raise Fault(f"robot {robot} has begun {name} before the end of {before}")
         done.append((robot, stop))
 
     def look_at_the_end(self, control: FleetControl, *, is_endless: bool) -> None:

@@ -6,6 +6,7 @@ from collections import Counter
 
 import pytest
 
+from rightofway.control import FleetControl
 from tests.builders.chaos import Chaos
 from tests.builders.chaos_jobs import JOB_KINDS, run_job_chaos
 
@@ -25,3 +26,28 @@ def test_chaos_with_jobs_does_what_it_says() -> None:
     counts = sum((run_job_chaos(seed, chaos) for seed in range(3)), Counter[str]())
     for what in ("add", "change", "withdraw", "close", "kills", "rounds", "jobs done"):
         assert counts[what] > 0, what
+
+
+class AnyWorkAtOnce(FleetControl):
+    """Work begins when its robot is there: before its time, and after a stop that has failed."""
+
+    def _may_begin(self, robot: int, item: str) -> bool:  # noqa: ARG002
+        return True
+
+
+class WorkDuringRounds(FleetControl):
+    """Work begins while a round is under way that may give it to another robot."""
+
+    def _may_begin(self, robot: int, item: str) -> bool:
+        return self.may_begin(robot, item)
+
+
+@pytest.mark.parametrize("wording", [AnyWorkAtOnce, WorkDuringRounds])
+def test_a_broken_wording_of_rounds_is_found(wording: type[FleetControl]) -> None:
+    """Within forty seeds the observer or the control itself stops a run."""
+    for seed in range(40):
+        try:
+            run_job_chaos(seed, Chaos(kills=0.0, jobs=0.06, people=0.02), wording)
+        except Exception:  # noqa: BLE001 (some wordings end in a contradiction within control)
+            return
+    pytest.fail(f"nobody noticed: {wording.__doc__}")

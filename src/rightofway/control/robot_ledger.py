@@ -95,8 +95,8 @@ class RobotLedger:
         return next((item for item in items if item not in self.finished), None)
 
     def is_sent(self, item: str) -> bool:
-        """Return whether an order had the work of an item, or it is finished."""
-        return item in self.finished or self.attempts.get(item, 0) > 0
+        """Return whether an order had the work of an item; that of a withdrawn job has none."""
+        return self.attempts.get(item, 0) > 0
 
     def is_asked_for(self, item: str) -> bool:
         """Return whether the last node of the last order has the work of an item, or it failed."""

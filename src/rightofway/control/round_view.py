@@ -79,7 +79,8 @@ def find_kept_parts(ledger: Ledger, released: Sequence[int], ahead: int) -> list
             part = kept_parts[robot] + 1
             if own.is_off or part >= min(own.route.end, released[robot] + ahead + 1):
                 continue
-            is_free = all(map(own.is_sent, own.route.get_jobs(part - 1)))
+            items = own.route.get_jobs(part - 1)
+            is_free = all(item in own.finished or own.is_sent(item) for item in items)
             before = ledger.graph.waits(Part(robot, part))
             if is_free and all(_is_kept(ledger, kept_parts, *arrival) for arrival in before):
                 kept_parts[robot], grows = part, True
