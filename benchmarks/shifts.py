@@ -33,7 +33,7 @@ from rightofway.report.shift import report_shift
 MEGABYTE = 1024
 """`ru_maxrss` has kilobytes."""
 
-TIME_OF_JOB = 130
+TIME_OF_JOB = 240
 """A robot gets a job about every so many seconds."""
 
 

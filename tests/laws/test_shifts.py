@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from random import Random
+
 from hypothesis import strategies as st
 
 from rightofway.check import check
@@ -56,3 +58,46 @@ def test_all_jobs_without_windows_are_done_or_have_a_reason(seed: int) -> None:
     assert record.until < LONG  # it is over once no job can be done any more
     for own in record.jobs.values():
         assert (own.ended is None) == (own.reason is not None)
+
+
+ROWS, COLUMNS = 4, 6
+
+
+@law(SEEDS)
+def test_every_job_of_a_well_formed_fleet_is_begun_in_time(seed: int) -> None:
+    # Homes are in the last row with cells without homes between them, so that each robot comes
+    # home on a way without other homes. Jobs are in the other rows, and arrive faster than done.
+    draw = Random(seed)  # noqa: S311
+    cells = [f"N{cell}" for cell in range((ROWS - 1) * COLUMNS)]
+    homes = [f"N{(ROWS - 1) * COLUMNS + column}" for column in range(0, COLUMNS, 2)]
+    patience = draw.choice([0, 15, 40])
+    scenario = parse_scenario(
+        {
+            "format": "rightofway-scenario/1",
+            "map": {"grid": ["." * COLUMNS] * ROWS},
+            "robots": [
+                {"name": home, "home": home} for home in homes[: draw.randint(1, len(homes))]
+            ],
+            "rules": {"turn": 0, "patience": patience},
+            "jobs": [
+                {
+                    "name": f"J{number}",
+                    "pickup": draw.choice(cells),
+                    "dropoff": draw.choice(cells),
+                    "weight": draw.choice([1, 1, 20]),
+                    "earliest": 2 * number,
+                }
+                for number in range(14)
+            ],
+        }
+    )
+    record = hold_shift(scenario, seed=seed)
+    # A robot alone ends a begun job, drives to the next one, ends it and drives home.
+    longest = 4 * (ROWS + COLUMNS)
+    for number, own in enumerate(record.jobs.values()):
+        assert own.begun is not None
+        older = sum(
+            other.ended is None or other.ended > own.known
+            for other in list(record.jobs.values())[:number]
+        )
+        assert own.begun <= own.known + patience + (older + 1) * longest

@@ -23,8 +23,8 @@ Path = tuple[VertexId, ...]
 MOST_ENTRIES = 2**27
 """Entries of all tables that are kept: half a gigabyte."""
 
-MOST_ENERGIES = 2**25
-"""Entries of all tables of energies that are kept: a quarter of a gigabyte."""
+MOST_ENERGIES = 2**24
+"""Entries of all tables of energies that are kept: an eighth of a gigabyte."""
 
 ENTRIES_OF_PATHS = 32
 """Entries for each vertex of a search for single paths, with its graph and its landmarks."""
