@@ -185,8 +185,8 @@ def improve(
         scenario=plan.scenario, **settled, report=report or _discard_progress, keep_best=keep_best
     )
     task = replace(task, start=plan.tracks)
-    improved, found = _run(spec, task, limit, seconds_per_visit, on_plan, unserved=plan.unserved)
-    return plan if OF_BATTERIES.intersection(found.counts) else improved
+    improved, judged = _run(spec, task, limit, seconds_per_visit, on_plan, unserved=plan.unserved)
+    return plan if OF_BATTERIES.intersection(judged.counts) else improved
 
 
 def _refuse_start(spec: PlannerSpec) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from rightofway.dispatch import Reveal, ShiftRecord, ShiftRules, run_shift
 from rightofway.execution.delays import delay_model_of, read_delays
 from rightofway.io.scenario.reader import parse_scenario
@@ -38,3 +40,21 @@ def hold_shift(
     model = delay_model_of(read_delays(delays, scenario), scenario) if delays else None
     reveal = Reveal(scenario.jobs or (), scenario.problem.clock, first=first)
     return run_shift(scenario, reveal, rules, delays=model)
+
+
+def make_scenario(grid: list[str], robots: dict[str, Any], **others: Any) -> Scenario:
+    """Return a scenario on a grid: the homes of robots, or their documents, by name."""
+    fleet = [
+        {"name": name, **(own if isinstance(own, dict) else {"home": own})}
+        for name, own in robots.items()
+    ]
+    rules = {"turn": 0, **others.pop("rules", {})}
+    return parse_scenario(
+        {
+            "format": "rightofway-scenario/1",
+            "map": {"grid": grid},
+            "robots": fleet,
+            "rules": rules,
+            **others,
+        }
+    )

@@ -21,7 +21,7 @@ from rightofway.control import (
     SqliteJournal,
 )
 from rightofway.control.dispatcher import Dispatcher
-from rightofway.control.journal import VERSION, BatchedJournal, JournalRow
+from rightofway.control.journal import OLDEST, VERSION, BatchedJournal, JournalRow
 from rightofway.control.notices import make_notice
 from rightofway.control.recording import Recording
 from rightofway.errors import InputError
@@ -175,7 +175,7 @@ def start(path: Path) -> None:
         FleetControl(journal).start()
 
 
-@pytest.mark.parametrize("version", [0, VERSION - 1, VERSION + 1])
+@pytest.mark.parametrize("version", [0, OLDEST - 1, VERSION + 1])
 def test_a_journal_carries_its_version_and_others_are_refused(driven: Path, version: int) -> None:
     start(driven)
     with closing(sqlite3.connect(driven)) as database:

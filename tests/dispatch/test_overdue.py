@@ -6,8 +6,7 @@ from fractions import Fraction
 from typing import Any
 
 from rightofway.model import Tick
-from tests.builders.shifts import hold_shift
-from tests.dispatch.test_shift import make_scenario
+from tests.builders.shifts import hold_shift, make_scenario
 
 
 def hold_busy_shift(patience: int, **distant: Any) -> int | None:

@@ -7,27 +7,8 @@ from typing import Any
 
 from rightofway.check import check
 from rightofway.facts import Fact
-from rightofway.io.scenario.reader import parse_scenario
-from rightofway.model import Scenario, Tick
-from tests.builders.shifts import hold_shift
-
-
-def make_scenario(grid: list[str], robots: dict[str, Any], **others: Any) -> Scenario:
-    """Return a scenario on a grid: the homes of robots, or their documents, by name."""
-    fleet = [
-        {"name": name, **(own if isinstance(own, dict) else {"home": own})}
-        for name, own in robots.items()
-    ]
-    rules = {"turn": 0, **others.pop("rules", {})}
-    return parse_scenario(
-        {
-            "format": "rightofway-scenario/1",
-            "map": {"grid": grid},
-            "robots": fleet,
-            "rules": rules,
-            **others,
-        }
-    )
+from rightofway.model import Tick
+from tests.builders.shifts import hold_shift, make_scenario
 
 
 def transport(name: str, pickup: str, dropoff: str, **others: Any) -> dict[str, Any]:

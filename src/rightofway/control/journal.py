@@ -23,8 +23,9 @@ Entry = Mapping[str, Any]
 """A journal entry as JSON has it, with its ``kind``."""
 
 
-VERSION = 3
-"""The version of the file, its ``user_version``; no others are read."""
+VERSION, OLDEST = 3, 2
+"""The version of the file, its ``user_version``, and the oldest one that is read: its entries are
+read as before, and what is written makes the file one of the new version."""
 
 UNFOLDED = ("notice", "pace")
 """Kinds of entries that are for people only: no snapshot has them, and no control reads them."""
@@ -330,9 +331,9 @@ def _refuse_other_version(database: sqlite3.Connection, path: Path) -> None:
     """Refuse a file with entries of another version."""
     (version,) = database.execute("PRAGMA user_version").fetchone()
     query = "SELECT count(*) FROM sqlite_master WHERE name = 'entries'"
-    if version != VERSION and database.execute(query).fetchone()[0]:
+    if not OLDEST <= version <= VERSION and database.execute(query).fetchone()[0]:
         message = (
-            f"is a journal of version {version}, and this program reads version {VERSION}"
+            f"is a journal of version {version}, and this program reads {OLDEST} to {VERSION}"
             " (use the rightofway that wrote it)"
         )
         raise InputError.at(str(path), message)

@@ -261,8 +261,8 @@ class Ledger:
         self.failed = entry["failed"]
         self.robots = [RobotLedger.of_document(robot) for robot in entry["robots"]]
         self.graph = _make_graph([own.route for own in self.robots], entry["waits"])
-        self.outdated = set(entry["outdated"])
-        if entry["pool"] is not None:
+        self.outdated = set(entry.get("outdated", ()))  # journals of version 2 have no jobs
+        if entry.get("pool") is not None:
             self.pool = Pool.of_document(entry["pool"], self.roadmap)
         self.changed.update(range(len(self.robots)))
 

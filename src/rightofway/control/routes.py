@@ -203,7 +203,7 @@ class RouteToDrive:
                 "work": tuple(map(tuple, document["work"])),
                 "enter": tuple(document["enter"]),
                 "lap_ends": tuple(document["lap_ends"]),
-                "targets": tuple((item, soc) for item, soc in document["targets"]),
+                "targets": tuple((item, soc) for item, soc in document.get("targets", ())),
             }
         )
 

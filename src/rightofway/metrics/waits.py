@@ -55,7 +55,7 @@ def waits_in(
         vertex[visit + 1],
         np.where(frees == NOBODY, NOBODY, robot[frees])[visit + 1],
     )
-    found = [
+    for_places = [
         Wait(
             robot=robot,
             vertex=VertexId(vertex),
@@ -80,7 +80,7 @@ def waits_in(
         for robot, (track, stay) in enumerate(zip(tracks, stays, strict=True))
         for hold in stay.holds
     ]
-    return tuple(sorted([*found, *holds], key=lambda wait: (wait.tick, wait.robot)))
+    return tuple(sorted([*for_places, *holds], key=lambda wait: (wait.tick, wait.robot)))
 
 
 def drop_holds(stay: Stays) -> NDArray[np.int64]:

@@ -133,7 +133,7 @@ class _Waves:
     def _may(self, robot: int, stage: int) -> bool:
         """Return whether all stages that end before a stage are served in waves before."""
         before = self._before.get((robot, stage), ())
-        return all(self._served[one] > earlier for one, earlier in before)
+        return all(self._served[other] > earlier for other, earlier in before)
 
     def find_next_begin(self) -> Tick:
         """Return when the next stage may begin that waits for its earliest begin only [ticks]."""

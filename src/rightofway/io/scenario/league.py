@@ -86,7 +86,7 @@ def read_problem(document: Any, path: Path) -> Loaded:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Rows:
+class LeagueRows:
     """The rows of a file of agents or tasks.
 
     Attributes
@@ -128,7 +128,7 @@ def _load_map(file: Path) -> LoadedMap:
         return LoadedMap(roadmap=make_grid_roadmap(lines), lines=tuple(lines), file=file)
 
 
-def _read_rows(problem: Source, key: str, path: Path) -> Rows:
+def _read_rows(problem: Source, key: str, path: Path) -> LeagueRows:
     """Return the rows of a file, as many as its first number counts."""
     file = _find_file(problem, key, path)
     with locate_faults(key), name_file(str(file)):
@@ -146,7 +146,7 @@ def _read_rows(problem: Source, key: str, path: Path) -> Rows:
             message = f"{count} rows are counted, and {len(numbers) - 1} follow ({remedy})"
             raise InputError.at(at, message)
     numbers, used = numbers[1 : count + 1], filled[1 : count + 1]
-    return Rows(file=file, key=key, rows=numbers, lines=[line for line, _ in used])
+    return LeagueRows(file=file, key=key, rows=numbers, lines=[line for line, _ in used])
 
 
 def _read_row(text: str) -> list[int]:
@@ -156,7 +156,7 @@ def _read_row(text: str) -> list[int]:
     return list(map(int, text.split(",")))
 
 
-def _read_team(problem: Source, agents: Rows | None) -> int:
+def _read_team(problem: Source, agents: LeagueRows | None) -> int:
     source = problem.need("teamSize")
     team = source.read_whole(1, MOST_AGENTS)
     if agents is not None and team > len(agents.rows):
@@ -189,7 +189,7 @@ def _read_reveal(problem: Source, team: int, has_agents: bool | None) -> int:
 
 
 def _place_agents(
-    agents: Rows, loaded: LoadedMap, team: int, faults: Faults
+    agents: LeagueRows, loaded: LoadedMap, team: int, faults: Faults
 ) -> Iterator[PlacedRobot]:
     """Yield the robots at their first cells, or note why there are none."""
     for index, row in enumerate(agents.rows[:team]):
@@ -202,7 +202,7 @@ def _place_agents(
 
 
 def _make_jobs(
-    tasks: Rows, loaded: LoadedMap, robots: Sequence[PlacedRobot], faults: Faults
+    tasks: LeagueRows, loaded: LoadedMap, robots: Sequence[PlacedRobot], faults: Faults
 ) -> Iterator[Job]:
     """Yield the tasks as jobs in the order of the file; with robots, dealt out in turn.
 
