@@ -1,4 +1,4 @@
-"""Shifts on small random scenarios with jobs that become known one after another."""
+"""Shifts: a small one with four jobs, and random ones; jobs become known one after another."""
 
 from __future__ import annotations
 
@@ -7,11 +7,35 @@ from typing import Any
 from rightofway.dispatch import Reveal, ShiftRecord, ShiftRules, run_shift
 from rightofway.execution.delays import delay_model_of, read_delays
 from rightofway.io.scenario.reader import parse_scenario
+from rightofway.io.yaml_text import parse_yaml
 from rightofway.model import Scenario, Tick
 from tests.builders.work_scenarios import draw_work_document
 
+SHIFT = """
+format: rightofway-scenario/1
+map: {grid: ["......", "......"]}
+units: {time: s}
+robots:
+  - {name: R1, home: N0, battery: tank}
+  - {name: R2, home: N6, battery: tank}
+batteries: {tank: {drive: 1/50, charge: 1/20, reserve: 1/10}}
+charging: [N0, N6]
+rules: {turn: 0}
+jobs:
+  - {name: J1, pickup: N5, dropoff: N1, pickup_work: 2, due: 60}
+  - {name: J2, at: N11, work: 3, earliest: 4}
+  - {name: J3, pickup: N4, dropoff: N9, earliest: 30, due: 31}
+  - {name: J4, at: N3, latest: 2}
+"""
+"""J3 is known at 30 and due at 31; nobody is at N3 by 2."""
+
 LONG = Tick(3000)
 """The end of shifts that should be over long before [ticks]."""
+
+
+def make_shift(until: int = LONG) -> ShiftRecord:
+    """Return the record of the small shift."""
+    return hold_shift(parse_scenario(parse_yaml(SHIFT)), until=Tick(until))
 
 
 def draw_shift(

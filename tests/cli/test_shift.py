@@ -9,31 +9,15 @@ import pytest
 
 from rightofway.check import check
 from rightofway.dispatch.record_file import dump_shift, load_shift
+from tests.builders.shifts import SHIFT
 from tests.cli.conftest import Cli
-
-SCENARIO = """
-format: rightofway-scenario/1
-map: {grid: ["......", "......"]}
-units: {time: s}
-robots:
-  - {name: R1, home: N0, battery: tank}
-  - {name: R2, home: N6, battery: tank}
-batteries: {tank: {drive: 1/50, charge: 1/20, reserve: 1/10}}
-charging: [N0, N6]
-rules: {turn: 0}
-jobs:
-  - {name: J1, pickup: N5, dropoff: N1, pickup_work: 2, due: 60}
-  - {name: J2, at: N11, work: 3, earliest: 4}
-  - {name: J3, pickup: N4, dropoff: N9, earliest: 30, due: 31}
-  - {name: J4, at: N3, latest: 2}
-"""
 
 
 @pytest.fixture
 def scenario(tmp_path: Path) -> Path:
     """Return a scenario with jobs that become known one after another."""
     path = tmp_path / "shift.yaml"
-    path.write_text(SCENARIO)
+    path.write_text(SHIFT)
     return path
 
 
@@ -100,3 +84,11 @@ def test_a_scenario_without_jobs_is_refused(cli: Cli, door: Path) -> None:
     ended = cli("shift", door)
     assert ended.code == 2
     assert "has no jobs (a shift needs jobs: [], at least)" in ended.err
+
+
+def test_a_page_plays_the_shift(cli: Cli, scenario: Path, tmp_path: Path) -> None:
+    page = tmp_path / "shift.html"
+    ended = cli("shift", scenario, "--lead", "0", "--page", page)
+    assert ended.code == 0
+    assert f"wrote {page}" in ended.err
+    assert "<title>shift.yaml: a shift of 2 robots</title>" in page.read_text()

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from rightofway.dispatch import ShiftRecord
 from rightofway.errors import NoPlanExists
 from rightofway.model import ExecutionTrace, Plan, SteadyState
-from rightofway.viz import Background, write_page
+from rightofway.viz import Background, write_page, write_shift_page
 from tests.builders.browsers import CHROMIUM
 from tests.builders.players import Player
 
@@ -25,11 +26,14 @@ Opener = Callable[..., Player]
 
 @contextmanager
 def pages(browser: Browser, directory: Path) -> Iterator[Opener]:
-    """Yield a function that opens the page of a plan, still unless ``reduced_motion`` says no."""
+    """Yield a function that opens the page of a plan or a shift.
+
+    It is still unless ``reduced_motion`` says no.
+    """
     contexts = []
 
     def open_page(
-        plan: Plan,
+        plan: Plan | ShiftRecord,
         fragment: str = "",
         *,
         steady: Sequence[SteadyState] = (),
@@ -41,16 +45,19 @@ def pages(browser: Browser, directory: Path) -> Iterator[Opener]:
         **context: Any,
     ) -> Player:
         path = directory / "plan.html"
-        write_page(
-            plan,
-            path,
-            steady=steady,
-            actual=actual,
-            no_plan=no_plan,
-            background=background,
-            title=title,
-            others=others,
-        )
+        if isinstance(plan, ShiftRecord):
+            write_shift_page(plan, path, title=title)
+        else:
+            write_page(
+                plan,
+                path,
+                steady=steady,
+                actual=actual,
+                no_plan=no_plan,
+                background=background,
+                title=title,
+                others=others,
+            )
         contexts.append(browser.new_context(**{"reduced_motion": "reduce", **context}))
         viewer = Player(contexts[-1].new_page())
         viewer.page.goto(f"{path.as_uri()}{fragment}")

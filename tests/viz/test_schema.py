@@ -19,6 +19,7 @@ from rightofway.repair.impossible import put_fleet_at_home
 from rightofway.viz import Background, make_inspection_page, make_payload
 from rightofway.viz.page.document import as_compact_json
 from rightofway.viz.page.schema import InspectionPayload, Payload
+from rightofway.viz.page.shift_data import make_shift_payload
 from tests.builders.closures import closed_fleet
 from tests.builders.fleets import grid_fleet
 from tests.builders.payloads import payload_in
@@ -31,6 +32,7 @@ from tests.builders.plans import (
     loop,
     yard,
 )
+from tests.builders.shifts import make_shift
 from tests.builders.sizes import sized_on_lanes, zoned
 from tests.builders.typescript import stale, type_of
 
@@ -48,6 +50,7 @@ def validate(payload: Payload) -> None:
 PLANS: dict[str, Callable[[], Payload]] = {
     "decisions": lambda: make_payload(door()),
     "curves": lambda: make_payload(loop()),
+    "shift": lambda: make_shift_payload(make_shift()),
     "sizes": lambda: make_payload(yard()),
     "laps": lambda: make_payload(counter(), steady=[counter_steady()]),
     "floor": lambda: make_payload(counter(), actual=counter_late()),

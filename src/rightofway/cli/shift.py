@@ -25,15 +25,22 @@ from rightofway.cli.options import (
     seed_option,
     ticks_option,
 )
-from rightofway.cli.outputs import put_text, refuse_outputs
-from rightofway.cli.terminal import format_json, put_json, put_report, show_progress
+from rightofway.cli.outputs import make_page_option, put_text, refuse_outputs
+from rightofway.cli.terminal import (
+    format_json,
+    make_title,
+    put_json,
+    put_report,
+    say_written,
+    show_progress,
+)
 
 if TYPE_CHECKING:
     from rightofway.model import Scenario
 
 EXAMPLES = """\b
 Examples:
-  rightofway shift warehouse.yaml --until 28800
+  rightofway shift warehouse.yaml --until 28800 --page shift.html
   rightofway shift warehouse.yaml --delays exponential:0.1,breaks:0.05
   rightofway shift league.json --until 500 --lead 0
   rightofway shift warehouse.yaml --known 600 --json
@@ -70,6 +77,7 @@ def _read_round_time(_context: click.Context, _parameter: click.Parameter, given
 @click.option("-o", "--output", metavar="FILE", callback=require_writable(".json"),
               help="Write the whole shift to this file (.json); - for standard output.",
               )  # fmt: skip
+@make_page_option("the shift")
 @ticks_option
 @as_json_option("figures")
 def shift(
@@ -84,6 +92,7 @@ def shift(
     round_time: float,
     lead: Fraction | None,
     output: str | None,
+    page: str | None,
     in_ticks: bool,
     as_json: bool,
 ) -> int:
@@ -131,6 +140,11 @@ def shift(
         put_report(report_shift(record, choose_quantities(opened, in_ticks=in_ticks)))
     if output:
         put_text(format_json(dump_shift(record)) + "\n", output)
+    if page:
+        from rightofway.viz import write_shift_page
+
+        write_shift_page(record, page, title=make_title(scenario))
+        say_written(page)
     return 0
 
 

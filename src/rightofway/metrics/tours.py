@@ -36,13 +36,17 @@ class TourCourse:
     reserve: Fraction | None
 
 
-def trace_tours(plan: Plan) -> tuple[TourCourse, ...]:
+def trace_tours(
+    plan: Plan, *, measured: Sequence[Sequence[Charge]] | None = None
+) -> tuple[TourCourse, ...]:
     """Return the load and the battery of each robot over time.
 
     Parameters
     ----------
     plan
         A plan; empty without jobs.
+    measured
+        The measured state of charge of each robot, instead of the one by the plan.
 
     Notes
     -----
@@ -56,7 +60,13 @@ def trace_tours(plan: Plan) -> tuple[TourCourse, ...]:
             loads=tuple(_list_loads(work, robot, tour)),
             charges=()
             if state.battery is None
-            else tuple(_drop_straight(list(_trace_charge(plan, robot, state, state.battery)))),
+            else tuple(
+                _drop_straight(
+                    list(_trace_charge(plan, robot, state, state.battery))
+                    if measured is None
+                    else measured[robot]
+                )
+            ),
             reserve=None
             if state.battery is None
             else Fraction(state.battery.reserve, state.battery.full),

@@ -52,7 +52,7 @@ def _list_totals(
         counts.append(f"{figures.under_way} under way")
     yield "jobs", join_items(counts)
     for reason, count in figures.unserved:
-        yield "not served", f"{count}: {_explain_unserved(reason)}"
+        yield "not served", f"{count}: {describe_unserved(reason)}"
     if figures.done:
         yield "throughput", f"a job every {duration(Fraction(record.until, figures.done))}"
         yield "service time", _write_quantiles(figures.service, quantities)
@@ -73,8 +73,9 @@ def _list_totals(
     yield "rounds", f"{text}; in {stood} the old plan stood" if figures.stood else text
 
 
-def _explain_unserved(reason: str) -> str:
-    return "not begun yet" if reason == "not yet" else str(Fact(f"unserved {reason}"))
+def describe_unserved(reason: str) -> Fact:
+    """Return why a job is not done, by its reason or ``not yet``."""
+    return Fact(f"unserved {reason}")
 
 
 def _write_quantiles(service: Quantiles, quantities: Quantities) -> str:

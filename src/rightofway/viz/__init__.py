@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         write_inspection,
     )
     from rightofway.viz.page.payload import make_payload
+    from rightofway.viz.page.shift_data import make_shift_page, write_shift_page
     from rightofway.viz.page.widget import bundle_of
     from rightofway.viz.raster.picture import Film, make_png, write_gif, write_png
     from rightofway.viz.raster.preview import make_preview
@@ -29,6 +30,7 @@ _MODULES = {
     "page.document": ("make_frame", "make_page", "write_page"),
     "page.inspection": ("make_inspection_page", "make_site_data", "write_inspection"),
     "page.payload": ("make_payload",),
+    "page.shift_data": ("make_shift_page", "write_shift_page"),
     "page.widget": ("bundle_of",),
     "raster.picture": ("Film", "make_png", "write_gif", "write_png"),
     "raster.preview": ("make_preview",),
@@ -46,11 +48,13 @@ __all__ = [
     "make_png",
     "make_preview",
     "make_scenario_html",
+    "make_shift_page",
     "make_site_data",
     "write_gif",
     "write_inspection",
     "write_page",
     "write_png",
+    "write_shift_page",
 ]
 
 if not TYPE_CHECKING:  # a checker would take any misspelt name for an object

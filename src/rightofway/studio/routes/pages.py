@@ -79,7 +79,7 @@ def _send_file(request: Request, path: str) -> Response:
 def read_page_file(path: str) -> bytes:
     """Return a file of the page; `Refused` if there is none."""
     if path == STYLE:
-        return make_style_sheet(with_jobs=True).encode()
+        return make_style_sheet("work").encode()
     if path == "texts.json":
         return as_compact_json({code: read_texts(code) for code in LANGUAGES}).encode()
     text = _read_text(path)

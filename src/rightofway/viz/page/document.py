@@ -28,6 +28,9 @@ from rightofway.viz.palette import DARK, LIGHT
 FRAME_HEIGHT = 680
 """Room for map and diagram [pixels]."""
 
+PART_SHEETS = {"work": "jobs.css", "shift": "shift.css"}
+"""Style that only some pages need, by the part of their content that it is for."""
+
 MARKUP = str.maketrans({character: f"\\u{ord(character):04x}" for character in "<>&"})
 """Escapes that mean the same in JSON, and nothing in HTML."""
 
@@ -100,7 +103,7 @@ def make_document(
     """
     own = "connect-src 'self'; "
     style, scripts = (
-        make_style_sheet(with_jobs="work" in payload),
+        make_style_sheet(*(part for part in PART_SHEETS if part in payload)),
         [make_classic_script(name) for name in order_scripts(entry)],
     )
     parts = {
@@ -204,14 +207,14 @@ def as_compact_json(payload: Mapping[str, object]) -> str:
 
 
 @cache
-def make_style_sheet(*, with_jobs: bool = False) -> str:
-    """Return the style of the page, light and dark, with that of jobs where there are any."""
+def make_style_sheet(*parts: str) -> str:
+    """Return the style of the page, light and dark, with that of the parts of its content."""
     themes = (
         f":root{{{LIGHT.as_css()}}}",
         f"@media (prefers-color-scheme:dark){{:root:not(.on-paper){{{DARK.as_css()}}}}}",
     )
-    sheets = ("style.css", "jobs.css") if with_jobs else ("style.css",)
-    return "\n".join([*themes, *map(read_asset, sheets)])
+    sheets = (PART_SHEETS[part] for part in parts)
+    return "\n".join([*themes, *map(read_asset, ("style.css", *sheets))])
 
 
 def _compute_hash(text: str) -> str:

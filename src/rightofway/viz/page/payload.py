@@ -18,13 +18,12 @@ from numpy.typing import NDArray
 from rightofway.check import Report
 from rightofway.cyclic import list_pieces_of_plan
 from rightofway.errors import InputError, NoPlanExists
-from rightofway.metrics import Metrics, compare, compute_lost_time, join_waits, measure
+from rightofway.metrics import compare, compute_lost_time, join_waits, measure
 from rightofway.model import (
     Decision,
     ExecutionTrace,
     ForcedLoss,
     Loss,
-    LostTime,
     Plan,
     Scenario,
     Stays,
@@ -117,8 +116,66 @@ def make_payload(
     """
     trips, steady = make_trips(plan), steady or plan.steady
     scenario, run, metrics = plan.scenario, plan.run, measure(plan)
-    tick, lost = scenario.problem.clock.tick, compute_lost_time(plan)
+    lost = compute_lost_time(plan)
     words, book = Words(plan=plan, quantities=Quantities.of(scenario)), PhraseBook()
+    payload = make_bare_payload(plan, trips, book, title=title, background=background)
+    payload["line"] = trace_line(plan, [other for other, _ in others])
+    for data, completion, alone, own in zip(
+        payload["robots"], metrics.completions, metrics.alone, lost, strict=True
+    ):
+        data["completion"], data["alone"] = completion, alone
+        data["lost"] = (own.detours, own.making_room, own.waiting)
+    payload["losses"] = [
+        _make_loss(scenario.roadmap, loss, book.add(describe_loss(words, loss)))
+        for robot_losses in lost
+        for loss in robot_losses.losses
+    ]
+    payload["faults"] = _make_faults(plan, give_verdict(plan), book)
+    payload["planner"] = _make_planner(plan)
+    payload["decisions"] = [_make_decision(decision, words, book) for decision in run.decisions]
+    payload["reroutes"] = [
+        {"robot": reroute.robot, "because": to_parts(FactWriter(scenario).write(reroute.because))}
+        for reroute in run.reroutes
+    ]
+    payload["metrics"] = {
+        "flowtime": metrics.flowtime,
+        "makespan": metrics.makespan,
+        "lowerBound": metrics.lower_bound,
+    }
+    add_names(scenario, payload, book)
+    if forced := list_forced_losses(plan):
+        payload["forcedLosses"] = [_make_forced_loss(loss, words, book) for loss in forced]
+    if steady:
+        payload["steady"] = _list_steady(plan, steady, book)
+        payload["laps"] = [robot.laps or scenario.rules.laps for robot in scenario.robots]
+    if steady and actual is None:
+        payload["end"] = _find_last_tick(trips, payload["steady"])
+    if actual is not None:
+        payload["floor"] = _make_execution(plan, actual, trips, words, book)
+    if no_plan is not None:
+        payload["noPlan"] = True
+        payload["faults"] = _make_blockages(scenario, no_plan, book)
+    if others:
+        _compare(plan, title, others, payload)
+    if scenario.problem.work is not None:
+        payload["work"] = make_work_data(plan, book)
+    return payload
+
+
+def make_bare_payload(
+    plan: Plan,
+    trips: Sequence[Trip],
+    book: PhraseBook,
+    *,
+    title: str = "",
+    background: Background | None = None,
+) -> Payload:
+    """Return the site and the trips of robots alone: nothing is measured or judged.
+
+    Each robot has the time of its last visit as its completion time.
+    """
+    scenario = plan.scenario
+    tick = scenario.problem.clock.tick
     payload: Payload = {
         "title": title,
         "phrases": book.entries,
@@ -128,62 +185,31 @@ def make_payload(
         "headway": scenario.problem.booking_rules.headway,
         "booksAhead": scenario.problem.booking_rules.books_ahead,
         "map": map_data(scenario.roadmap, room=measure_room(scenario), background=background),
-        "line": _trace_line(plan, [other for other, _ in others]),
-        "robots": _list_robots(plan, trips, metrics, lost),
-        "losses": [
-            _make_loss(scenario.roadmap, loss, book.add(describe_loss(words, loss)))
-            for robot_losses in lost
-            for loss in robot_losses.losses
-        ],
-        "faults": _make_faults(plan, give_verdict(plan), book),
-        "planner": _make_planner(plan),
-        "decisions": [_make_decision(decision, words, book) for decision in run.decisions],
-        "reroutes": [
-            {
-                "robot": reroute.robot,
-                "because": to_parts(FactWriter(scenario).write(reroute.because)),
-            }
-            for reroute in run.reroutes
-        ],
-        "metrics": {
-            "flowtime": metrics.flowtime,
-            "makespan": metrics.makespan,
-            "lowerBound": metrics.lower_bound,
-        },
+        "line": [],
+        "robots": _list_robots(plan, trips),
+        "losses": [],
+        "faults": {"count": 0, "kinds": [], "listed": []},
+        "planner": {"name": "", "method": ""},
+        "decisions": [],
+        "reroutes": [],
+        "metrics": {"flowtime": 0, "makespan": 0, "lowerBound": 0},
     }
-    names = PlaceNames(scenario)
-    if names.is_measured:
-        payload["places"] = [(vertex, book.add(name)) for vertex, name in names.of_robots.items()]
-    if forced := list_forced_losses(plan):
-        payload["forcedLosses"] = [_make_forced_loss(loss, words, book) for loss in forced]
-    if steady:
-        payload["steady"] = _list_steady(plan, steady, book)
-        payload["laps"] = [robot.laps or scenario.rules.laps for robot in scenario.robots]
-    if steady and actual is None:
-        payload["end"] = _find_last_tick(trips, payload["steady"])
     if scenario.closures:
         payload["closures"] = [
             make_closure_data(closure, scenario) for closure in scenario.closures
         ]
     if scenario.rules.clearance:
         payload["clearance"] = float(scenario.rules.clearance)
-    if actual is not None:
-        payload["floor"] = _make_execution(plan, actual, trips, words, book)
-    if no_plan is not None:
-        payload["noPlan"] = True
-        payload["faults"] = _make_blockages(scenario, no_plan, book)
-    if others:
-        _compare(plan, title, others, payload)
-    _add_work(plan, payload, book)
+    if work := scenario.problem.work:
+        mark_charging_places(payload["map"], work)
     return payload
 
 
-def _add_work(plan: Plan, payload: Payload, book: PhraseBook) -> None:
-    """Add jobs and tours of a plan with jobs, and its own charging places."""
-    work = plan.scenario.problem.work
-    if work is not None:
-        mark_charging_places(payload["map"], work)
-        payload["work"] = make_work_data(plan, book)
+def add_names(scenario: Scenario, payload: Payload, book: PhraseBook) -> None:
+    """Add the cells that are called after robots."""
+    names = PlaceNames(scenario)
+    if names.is_measured:
+        payload["places"] = [(vertex, book.add(name)) for vertex, name in names.of_robots.items()]
 
 
 def _compare(plan: Plan, title: str, others: Sequence[tuple[Plan, str]], payload: Payload) -> None:
@@ -257,7 +283,7 @@ def _make_planner(plan: Plan) -> PlannerData:
     return data
 
 
-def _trace_line(plan: Plan, others: Sequence[Plan]) -> list[tuple[int, float]]:
+def trace_line(plan: Plan, others: Sequence[Plan]) -> list[tuple[int, float]]:
     """Return the places over time of a small fleet: vertex and distance along the line.
 
     Other plans on the same map may visit other places, which come after.
@@ -273,9 +299,7 @@ def _trace_line(plan: Plan, others: Sequence[Plan]) -> list[tuple[int, float]]:
     return [(int(vertex), round(place, DECIMALS)) for vertex, place in places.items()]
 
 
-def _list_robots(
-    plan: Plan, trips: Sequence[Trip], metrics: Metrics, lost: Sequence[LostTime]
-) -> list[RobotData]:
+def _list_robots(plan: Plan, trips: Sequence[Trip]) -> list[RobotData]:
     edge_ticks = [itinerary.edge_ticks for itinerary in plan.scenario.problem.itineraries]
     colours, robots = choose_colours(len(trips)), list[RobotData]()
     for index, (robot, trip, edges) in enumerate(
@@ -285,9 +309,9 @@ def _list_robots(
             "name": robot.name,
             "colour": colours[index],
             "speed": str(robot.speed),
-            "completion": metrics.completions[index],
-            "alone": metrics.alone[index],
-            "lost": (lost[index].detours, lost[index].making_room, lost[index].waiting),
+            "completion": trip.enter[-1],
+            "alone": trip.enter[-1],
+            "lost": (0, 0, 0),
             "vertices": compute_differences(trip.vertices),
             "enter": compute_differences(trip.enter),
             "drive": edges[0] if len(edges) == 1 else list(trip.drive),

@@ -30,6 +30,15 @@ JobCostRow = TypeAliasType("JobCostRow", tuple[int, int | None])
 TourRow = TypeAliasType("TourRow", tuple[int, int, int, int, int, int])
 """Job, stop (both are -1 for a charge), vertex, begin, end, load after it."""
 
+SliceRow = TypeAliasType("SliceRow", tuple[int, int, int, float | None, float | None])
+"""End of a part of a shift, jobs done and late, median and 95th percentile of service times."""
+
+UseRow = TypeAliasType("UseRow", tuple[int, int, int, int, int, int])
+"""Jobs done by a robot, ticks of driving, waiting, working, charging, and the rest."""
+
+RoundRow = TypeAliasType("RoundRow", tuple[int, int, int, int, int])
+"""Begin, takeover, milliseconds, jobs, 1 where the old plan stood."""
+
 ObstacleRow = TypeAliasType("ObstacleRow", tuple[str, float, float, float, float])
 """Name, left, top, width, height."""
 
@@ -157,7 +166,8 @@ MapData = TypeAliasType("MapData", GridData | NetworkData)
 class RobotData(TypedDict):
     """A robot and its track; ``vertices`` and ``enter`` are first differences.
 
-    ``begins`` has for each stage when its work begins at the earliest.
+    ``begins`` has for each stage when its work begins at the earliest. A robot that ``idles`` has
+    nothing to do where it stays at home.
     """
 
     name: str
@@ -174,6 +184,7 @@ class RobotData(TypedDict):
     begins: NotRequired[list[int]]
     turns: NotRequired[list[TurnRow]]
     stands: NotRequired[Literal[True]]
+    idles: NotRequired[Literal[True]]
     index: NotRequired[int]
 
 
@@ -435,6 +446,31 @@ class WorkData(TypedDict):
     tours: list[TourData]
 
 
+class ShiftData(TypedDict):
+    """A shift, whose plan is all that robots have done.
+
+    ``known`` has for each job when it became known, ``waits`` for each robot the others that it
+    waited for and ticks, the longest first; ``bottlenecks`` the same of vertices. ``service`` has
+    median, 95th percentile and maximum. Texts of the reasons of jobs, of rounds, and of what
+    happened are by index.
+    """
+
+    until: int
+    done: int
+    late: int
+    underWay: int
+    unserved: list[tuple[int, int]]
+    service: NotRequired[tuple[float, float, int]]
+    slices: list[SliceRow]
+    known: list[int]
+    robots: list[UseRow]
+    waits: list[list[tuple[int, int]]]
+    bottlenecks: list[tuple[int, int]]
+    rounds: list[RoundRow]
+    told: list[tuple[int, int]]
+    happened: list[tuple[int, int]]
+
+
 class PlanData(TypedDict):
     """A plan without its map; ``line`` has vertices with their distances along a line.
 
@@ -465,6 +501,7 @@ class PlanData(TypedDict):
     noPlan: NotRequired[Literal[True]]
     places: NotRequired[list[tuple[int, int]]]
     work: NotRequired[WorkData]
+    shift: NotRequired[ShiftData]
 
 
 class OtherPlan(PlanData):

@@ -7,7 +7,7 @@ from typing import Any
 
 from rightofway.languages import LANGUAGES, VALUE, read_texts
 
-PARTS = {"jobs": "work", "driven": "driven"}
+PARTS = {"jobs": "work", "driven": "driven", "shift": "shift"}
 """Labels that only some pages need: the key of the labels, and that of the data they are for."""
 
 
@@ -17,11 +17,12 @@ def find_texts(payload: Mapping[str, object], *, is_whole: bool = False) -> dict
     Labels of `PARTS` are for pages with these parts only. A whole set has the templates of all
     kinds, for a page that gets facts later.
     """
+    strings = set() if is_whole else set(_list_strings(payload))
     return {
         language: {
             "name": texts["name"],
             "page": _choose_labels(texts["page"], payload),
-            "facts": texts["facts"] if is_whole else _choose_facts(texts, payload),
+            "facts": texts["facts"] if is_whole else _choose_facts(texts, strings),
         }
         for language, texts in zip(LANGUAGES, map(read_texts, LANGUAGES), strict=True)
     }
@@ -32,10 +33,10 @@ def _choose_labels(labels: Mapping[str, Any], payload: Mapping[str, object]) -> 
     return {key: label for key, label in labels.items() if key not in left_out}
 
 
-def _choose_facts(texts: Mapping[str, Any], payload: object) -> dict[str, Any]:
+def _choose_facts(texts: Mapping[str, Any], strings: set[str]) -> dict[str, Any]:
     """Return the templates of the kinds in a payload, and those that these or labels refer to."""
     facts = texts["facts"]
-    chosen, kinds = dict[str, Any](), {*_list_strings(payload), *_list_forms(texts["page"])}
+    chosen, kinds = dict[str, Any](), {*strings, *_list_forms(texts["page"])}
     while kinds := {kind for kind in kinds if kind in facts and kind not in chosen}:
         chosen |= {kind: facts[kind] for kind in sorted(kinds)}
         kinds = set(_list_forms([facts[kind] for kind in kinds]))
@@ -54,4 +55,5 @@ def _list_strings(data: object) -> Iterator[str]:
             yield from _list_strings(value)
     elif isinstance(data, list | tuple):
         for value in data:
-            yield from _list_strings(value)
+            if not isinstance(value, int):  # most of a large payload are numbers
+                yield from _list_strings(value)

@@ -61,7 +61,7 @@ def is_in_notebook() -> bool:
 @cache
 def make_widget_module() -> str:
     """Return the JavaScript module of the widget: the page's style, its scripts, and `render`."""
-    style = re.sub(r":root|\bbody\b", ".page", make_style_sheet(with_jobs=True))
+    style = re.sub(r":root|\bbody\b", ".page", make_style_sheet("work"))
     shell = f'<style>{style}{WIDGET_STYLE}</style><div class="page" tabindex="-1"></div>'
     scripts = (make_classic_script(name) for name in order_scripts("widget"))
     return "\n".join([f"const SHELL = {json.dumps(shell)};", *scripts])

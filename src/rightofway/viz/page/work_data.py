@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from rightofway.assign import JobCost, list_job_costs
 from rightofway.facts import Fact
 from rightofway.metrics import TourCourse, list_job_times, trace_tours
+from rightofway.metrics.tours import Charge
 from rightofway.model import Plan
 from rightofway.model.work import BoundJob
 from rightofway.report.facts import FactWriter
@@ -23,16 +24,23 @@ SHOWN_ROBOTS = 10
 """Robots that a job is compared on, those of least cost."""
 
 
-def make_work_data(plan: Plan, book: PhraseBook) -> WorkData:
-    """Return the jobs and tours of a plan whose scenario has jobs."""
+def make_work_data(
+    plan: Plan, book: PhraseBook, *, measured: Sequence[Sequence[Charge]] | None = None
+) -> WorkData:
+    """Return the jobs and tours of a plan whose scenario has jobs.
+
+    With the measured state of charge of robots it is the plan of what they have done: nobody chose
+    among all robots then, so jobs are not compared on them.
+    """
     work = plan.scenario.problem.work
     assert work is not None, "the scenario has jobs"
-    is_small = len(work.jobs) * len(work.robots) <= MOST_COSTS
+    is_small = measured is None and len(work.jobs) * len(work.robots) <= MOST_COSTS
     costs = list_job_costs(plan) if is_small else ()
     return {
         "jobs": _list_jobs(plan, work.jobs, costs, book),
         "tours": [
-            _make_tour(plan, robot, course) for robot, course in enumerate(trace_tours(plan))
+            _make_tour(plan, robot, course)
+            for robot, course in enumerate(trace_tours(plan, measured=measured))
         ],
     }
 

@@ -306,6 +306,7 @@ export interface OtherPlan {
   noPlan?: true;
   places?: [number, number][];
   work?: WorkData;
+  shift?: ShiftData;
   map?: MapData;
 }
 
@@ -335,6 +336,7 @@ export interface Payload {
   noPlan?: true;
   places?: [number, number][];
   work?: WorkData;
+  shift?: ShiftData;
   map: MapData;
   driven?: FeedData;
   others?: OtherPlan[];
@@ -358,7 +360,7 @@ export interface RerouteData {
   because: PhraseData;
 }
 
-/** A robot and its track; ``vertices`` and ``enter`` are first differences. ``begins`` has for each stage when its work begins at the earliest. */
+/** A robot and its track; ``vertices`` and ``enter`` are first differences. ``begins`` has for each stage when its work begins at the earliest. A robot that ``idles`` has nothing to do where it stays at home. */
 export interface RobotData {
   name: string;
   colour: string;
@@ -374,12 +376,35 @@ export interface RobotData {
   begins?: number[];
   turns?: TurnRow[];
   stands?: true;
+  idles?: true;
   index?: number;
 }
+
+export type RoundRow = [number, number, number, number, number];
 
 export type RouteRow = [number, number, "route", number, number[]];
 
 export type SaysRow = [number, number, "says", "work" | "drive" | "wait" | "end" | "news" | "alarm", PhraseData, number[]];
+
+/** A shift, whose plan is all that robots have done. ``known`` has for each job when it became known, ``waits`` for each robot the others that it waited for and ticks, the longest first; ``bottlenecks`` the same of vertices. ``service`` has median, 95th percentile and maximum. Texts of the reasons of jobs, of rounds, and of what happened are by index. */
+export interface ShiftData {
+  until: number;
+  done: number;
+  late: number;
+  underWay: number;
+  unserved: [number, number][];
+  service?: [number, number, number];
+  slices: SliceRow[];
+  known: number[];
+  robots: UseRow[];
+  waits: [number, number][][];
+  bottlenecks: [number, number][];
+  rounds: RoundRow[];
+  told: [number, number][];
+  happened: [number, number][];
+}
+
+export type SliceRow = [number, number, number, number | null, number | null];
 
 export type StageRow = [number, number, number, number];
 
@@ -411,6 +436,8 @@ export interface UnitsData {
   length: string | null;
   time: string | null;
 }
+
+export type UseRow = [number, number, number, number, number, number];
 
 export type VisitRow = [number, number, "arrived" | "released" | "done", number];
 

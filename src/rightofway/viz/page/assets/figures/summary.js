@@ -57,7 +57,7 @@ export class Summary {
       header,
       () => (header.tabIndex = header.scrollWidth > header.clientWidth ? 0 : -1),
     ); // scrolls by keys
-    root.part("about-open").hidden = plan.noPlan;
+    root.part("about-open").hidden = plan.noPlan || Boolean(plan.shift);
     root.part("made").replaceChildren(facts(this.#made()), ...this.#explanation());
   }
 
@@ -124,6 +124,7 @@ export class Summary {
         String(count),
         "",
       ]);
+    if (this.plan.shift && this.jobs) return this.jobs.figures.filter(([, value]) => value);
     const figures =
       happened && !this.plan.driven
         ? this.#floorFigures()

@@ -115,7 +115,9 @@ export class Card {
     ]);
     return [
       this.#header(swatch(robot), element("h2", { className: "name" }, robot.name)),
-      ...(robot instanceof FloorRobot || this.plan.steady ? [] : this.#sum(robot)),
+      ...(robot instanceof FloorRobot || this.plan.steady || this.plan.shift
+        ? []
+        : this.#sum(robot)),
       ...(robot.isDriven ? [this.#now(robot)] : []),
       facts([
         ...this.#times(robot),
@@ -144,7 +146,7 @@ export class Card {
    * @param {Robot} robot
    */
   #encounters(robot) {
-    const encounters = this.space.encounters(robot);
+    const encounters = this.plan.shift ? [] : this.space.encounters(robot);
     if (!encounters.length) return [];
     const lines = this.#lines(encounters, (encounter) => {
       const text = `${encounter.other.name}, ${this.words.apart(encounter)}`;

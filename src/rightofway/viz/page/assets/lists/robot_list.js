@@ -48,7 +48,8 @@ export class RobotList {
     this.sort.addEventListener("click", () => this.#toggleSort());
     choice.on("choice", () => this.list.setChosen(choice.robot));
     for (const event of ["mode", "fleet"]) choice.on(event, () => this.#select());
-    this.sort.hidden = Boolean(plan.steady && !plan.happened); // robots make different numbers of laps
+    // robots make different numbers of laps, and nobody has planned a shift
+    this.sort.hidden = Boolean((plan.steady && !plan.happened) || plan.shift);
     this.#select();
   }
 
@@ -130,6 +131,12 @@ export class RobotList {
    * @param {Robot} robot
    */
   #times(late, robot) {
+    if (this.plan.shift) {
+      late.textContent = texts.shift.robotDid({
+        count: this.plan.shift.raw.robots[robot.index][0],
+      });
+      return;
+    }
     late.append(element("span", {}, this.words.time(robot.completion)), " ");
     if (robot.delay > 0) late.append(element("small", {}, `+${this.words.time(robot.delay)}`));
     const [done, alone] = [robot.completion, robot.alone].map((tick) => this.words.moment(tick));

@@ -1,6 +1,6 @@
 import { element } from "../common/dom.js";
 import { texts } from "../language/language.js";
-import { BROKEN, HELD } from "../plan/phases.js";
+import { BROKEN, DONE, HELD } from "../plan/phases.js";
 
 /** @import { Root } from "../common/root.js" */
 /** @import { Choice } from "../player/choice.js" */
@@ -26,8 +26,9 @@ export class States {
    * @param {Root} root
    * @param {Motion} motion
    * @param {Choice} choice
+   * @param {boolean} [isShift] whether robots that are done get other jobs later
    */
-  constructor(root, motion, choice) {
+  constructor(root, motion, choice, isShift = false) {
     this.root = root;
     this.motion = motion;
     this.choice = choice;
@@ -35,7 +36,13 @@ export class States {
     const digits = String(motion.fleet.robots.length).length;
     for (const count of this.#counts) count.style.minWidth = `${digits}ch`; // or the layout would move with the count
     this.rows = texts.activities.map((word, activity) =>
-      element("li", {}, sign(SIGNS[activity]), word, this.#counts[activity]),
+      element(
+        "li",
+        {},
+        sign(SIGNS[activity]),
+        isShift && activity === DONE ? texts.shift.idle : word,
+        this.#counts[activity],
+      ),
     );
     this.ghost = element("li", {}, sign(GHOST_SIGN), texts.byPlan);
     root.part("states").replaceChildren(...this.rows, this.ghost);

@@ -70,13 +70,14 @@ export class MapRoute {
    */
   #route(context, robot, aside, scale) {
     const now = robot.phases.visit[this.motion.phase[robot.index]];
+    const [first, last] = robot.span(now);
     context.strokeStyle = robot.colour;
     context.lineJoin = context.lineCap = "round";
     context.lineWidth = this.sizes.route.line / scale;
     context.globalAlpha = 0.35;
-    this.#lane(context, robot, 0, now, aside / scale);
+    this.#lane(context, robot, first, now, aside / scale);
     context.globalAlpha = 1;
-    this.#lane(context, robot, now, robot.vertices.length - 1, aside / scale);
+    this.#lane(context, robot, now, last, aside / scale);
     context.lineCap = "butt";
   }
 

@@ -50,7 +50,10 @@ export function phasesOf(robot) {
     if (visit < last) add(robot.turns.get(visit) ?? 0, TURN);
     if (visit === last) pushEnd(phases, now, robot);
     else {
-      if (go > now) pushStill(phases, now, go, WAIT, visit, robot);
+      if (go > now) {
+        const isIdle = robot.idles && robot.vertices[visit] === robot.home;
+        pushStill(phases, now, go, isIdle ? DONE : WAIT, visit, robot);
+      }
       if (leave > go) push(phases, go, DRIVE, visit);
     }
   }

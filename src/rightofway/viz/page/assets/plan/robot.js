@@ -35,12 +35,26 @@ export class Robot {
     this.losses = []; // by tick
     this.still = raw.still ?? []; // from when to when it stood still by itself, on the floor
     this.ending = raw.ending ?? (raw.stands ? WAIT : DONE); // what it does for ever after its last visit
+    this.idles = raw.idles ?? false; // where it stays at home
     this.phases = phasesOf(this);
   }
 
   /** The vertices of its whole way, those that it has not come to as well. */
   get way() {
     return this.vertices;
+  }
+
+  /**
+   * The first and the last visit of the route that is shown during a visit. A robot that gets jobs
+   * all the time drives its way from the last stop to the one after the next; others all.
+   *
+   * @param {number} visit
+   */
+  span(visit) {
+    if (!this.idles) return [0, this.vertices.length - 1];
+    const next = this.stages.findIndex((stage) => stage.visit > visit);
+    const [before, after] = next < 0 ? [this.stages.length - 2, -1] : [next - 1, next + 1];
+    return [this.stages[before]?.visit ?? 0, this.stages[after]?.visit ?? this.vertices.length - 1];
   }
 
   /** Whether it is driven now, so that it is not known how it goes on. */

@@ -4,6 +4,7 @@ import { Roadmap } from "./roadmap.js";
 import { Robot } from "./robot.js";
 
 /** @import { ClosureData, DecisionData, FaultData, ForcedLossData, JobData, LevelData, Payload, TourData } from "../payload.d.ts" */
+/** @import { Shift } from "../shift/shift.js" */
 /** @import { FloorRobot } from "./floor.js" */
 /** @import { Driven } from "../live/driven.js" */
 /** @import { Steady } from "./steady.js" */
@@ -41,6 +42,8 @@ export class Site {
     this.jobs = [];
     /** @type {TourData[]} */
     this.tours = []; // of the robots, where there are jobs
+    /** @type {Shift | null} */
+    this.shift = null;
     /** @type {FloorRobot[] | null} */
     this.happened = null;
     /** @type {Driven | null} */
@@ -73,7 +76,7 @@ export class Site {
     return radii && radii + this.clearance;
   }
 
-  /** The places that robots go to, homes apart, each with its robots. */
+  /** The places that robots go to, homes apart, each with its robots; in a shift these are all places. */
   get stops() {
     return (this.#stops ??= this.#findStops());
   }
@@ -84,6 +87,7 @@ export class Site {
   #findStops() {
     /** @type {Map<number, Robot[]>} */
     const stops = new Map();
+    if (this.shift) return stops;
     for (const robot of this.planned) {
       for (const vertex of new Set(robot.stages.map((stage) => stage.vertex))) {
         if (vertex === robot.home) continue;

@@ -23,7 +23,8 @@ export function usedPlaces(plan) {
     return known;
   };
   for (const robot of plan.robots) {
-    for (const vertex of [robot.home, ...robot.stages.map((stage) => stage.vertex)]) {
+    const stages = robot.idles ? [] : robot.stages; // a shift stops nearly everywhere
+    for (const vertex of [robot.home, ...stages.map((stage) => stage.vertex)]) {
       const place = at(vertex);
       place.robots.push(robot.index);
       if (vertex === robot.home) place.homeOf = robot;

@@ -45,7 +45,7 @@ import { Words } from "../language/words.js";
  * @param {HTMLElement} element `document.body` where the player is the page
  * @param {Payload & WithTexts} payload what `make_payload` returns, and texts
  * @param {typeof import("../live/watching.js").WATCHING | null} [watching] for a fleet that is driven
- * @param {typeof import("../jobs/working.js").WORKING | null} [working] for a plan with jobs
+ * @param {typeof import("../jobs/working.js").WORKING | null} [working] for a plan with jobs, or a shift
  * @returns {PlayerHandle}
  */
 export function createPlayer(element, payload, watching = null, working = null) {
@@ -58,6 +58,7 @@ export function createPlayer(element, payload, watching = null, working = null) 
   offerLanguages(root.part("language", HTMLSelectElement));
 
   const plan = new Plan(payload);
+  if (payload.shift && jobs?.Shift) plan.shift = new jobs.Shift(payload.shift, plan.jobs);
   if (watching) plan.beDriven(new watching.Driven(payload.robots, plan.planned));
   const { driven } = plan;
   const words = new Words(plan);
@@ -69,7 +70,7 @@ export function createPlayer(element, payload, watching = null, working = null) 
   const use = new Use(choice);
   const bottleneck = new Bottleneck(root, plan, clock, choice, theme);
 
-  const jobMarks = jobs && new jobs.JobMarks(plan, theme, choice);
+  const jobMarks = jobs && new jobs.JobMarks(plan, theme, choice, clock);
   const mapView = new MapView(root.part("map", HTMLCanvasElement), plan, theme, {
     motion,
     ghosts,
@@ -90,7 +91,7 @@ export function createPlayer(element, payload, watching = null, working = null) 
   const transport = new Transport(root, plan, clock, words);
   const loop = new Loop(root, plan, clock, choice);
   const modeSwitch = new ModeSwitch(root, plan, choice);
-  const states = new States(root, motion, choice);
+  const states = new States(root, motion, choice, Boolean(plan.shift));
   const comparison =
     plan.comparison && new Comparison(root, plan, clock, choice, theme, mapView, diagram);
   const live = watching && driven && new watching.Live(root, plan, driven, clock, choice, words);
@@ -99,14 +100,20 @@ export function createPlayer(element, payload, watching = null, working = null) 
   const card = new Card(root, plan, clock, choice, words, comparison, space, live, jobCards); // before the lists, whose height depends on it
   const robotList = new RobotList(root, plan, motion, clock, choice, words, live);
   const jobList = jobs && jobs.makeJobList(root, plan, clock, choice, words);
+  const shiftViews =
+    plan.shift && jobs?.ShiftViews
+      ? new jobs.ShiftViews(root, plan, clock, choice, theme, words, diagram)
+      : null;
   const decisionList = makeDecisionList(root, plan, clock, choice, words);
   const faultList = makeFaultList(root, plan, clock, choice, words);
   const tabs = new Tabs(
     root,
     {
       robots: plan.robots.length,
-      jobs: plan.jobs.length,
-      decisions: hasNoReasons(plan) ? "–" : decisionList.items.length,
+      jobs: plan.shift ? plan.shift.countKnown(0) : plan.jobs.length,
+      shift: shiftViews && "",
+      rounds: plan.shift && plan.shift.raw.rounds.length,
+      decisions: plan.shift ? null : hasNoReasons(plan) ? "–" : decisionList.items.length,
       faults: plan.faultCount || null,
       compared: comparison && comparison.plans.length,
       log: plan.driven && plan.driven.story.length,
@@ -114,6 +121,7 @@ export function createPlayer(element, payload, watching = null, working = null) 
     () => {
       robotList.refresh();
       jobList?.refresh();
+      shiftViews?.refresh();
       decisionList.refresh();
       faultList.refresh();
       comparison?.refresh();
@@ -162,6 +170,7 @@ export function createPlayer(element, payload, watching = null, working = null) 
       written = clock.wholeTick;
       states.refresh();
       robotList.refresh();
+      if (shiftViews) jobList?.refresh();
       live?.refresh();
       if (live) card.refresh();
     },
@@ -213,6 +222,7 @@ export function createPlayer(element, payload, watching = null, working = null) 
   mapView.viewport.fit();
   if (plan.faultCount) tabs.show("faults");
   else if (comparison) tabs.show("compared");
+  else if (shiftViews) tabs.show("shift");
   if (plan.noPlan && !linked) choice.chooseFault(0);
   frames.ask();
   if (

@@ -38,8 +38,9 @@ export class Census {
   /**
    * @param {CanvasRenderingContext2D} context
    * @param {Area} area
+   * @param {boolean} [hasLegend]
    */
-  paint(context, area) {
+  paint(context, area, hasLegend = true) {
     const counts = this.#counts.value;
     const below = new Float64Array(this.samples);
     const { work, turn, drive, wait, held, broken } = this.theme;
@@ -57,7 +58,7 @@ export class Census {
       this.#band(context, area, below, counts[activity]);
     }
     if (this.choice.beside) this.#outline(context, area, this.#beside.value);
-    this.#legend(context, area, colours);
+    if (hasLegend) this.#legend(context, area, colours);
   }
 
   get #stack() {

@@ -13,6 +13,7 @@ import { SteadyBand } from "./steady_band.js";
 /** @import { JobMarks } from "../jobs/job_marks.js" */
 /** @import { Moments } from "../player/clock.js" */
 /** @import { Plan } from "../plan/plan.js" */
+/** @import { ShiftChart } from "../shift/shift_chart.js" */
 /** @import { Theme } from "../drawing/theme.js" */
 /** @import { Use } from "../plan/use.js" */
 /** @import { Words } from "../language/words.js" */
@@ -45,6 +46,8 @@ export class Diagram {
     this.axis = axis ?? { plan, words };
     /** @type {JobMarks | null} */
     this.jobs = null; // of a plan with jobs
+    /** @type {ShiftChart | null} */
+    this.shift = null;
     this.hasLabels = true;
     this.area = new Area(theme.root.top, 0, 0, plan.end); // until the first frame
     this.canvas = canvas ?? root.part("diagram", HTMLCanvasElement);
@@ -60,6 +63,7 @@ export class Diagram {
 
   /** The view that suits what is chosen and how large the fleet is. */
   get view() {
+    if (this.shift && !this.choice.corridor) return this.shift;
     if (this.choice.robot || this.choice.corridor || this.plan.line.length) return this.spaceTime;
     return this.plan.robots.length <= MOST_ROWS ? this.rows : this.census;
   }
@@ -125,7 +129,7 @@ export class Diagram {
     context.clip();
     const { view } = this;
     view.paint(context, area);
-    if (!(view instanceof Census))
+    if ("lanes" in view)
       this.jobs?.paintDiagram(context, area, (robot, vertex) => view.lanes(robot, vertex));
     this.#decisions(context, area);
     context.restore();
