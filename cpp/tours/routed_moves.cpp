@@ -12,8 +12,8 @@
 namespace rightofway {
 namespace {
 
-constexpr std::array warmths{0.0, 0.05, 0.3, 1.0};  // of proposals, in mean costs of a job
-constexpr std::size_t n_compared = 4;               // jobs, of which the latest one moves
+constexpr std::array warmths{0.0, 0.1, 0.5, 8.0};  // of proposals, in mean costs of a job
+constexpr std::size_t n_compared = 4;              // jobs, of which the latest one moves
 constexpr std::size_t searches_per_robot = 6;
 constexpr Tick holds_per_price = 4;
 constexpr Tick hold_edges = 16;  // as in prioritized planning: the price of an eviction
