@@ -93,3 +93,16 @@ def test_a_robot_enters_a_headway_after_another_one_has_left() -> None:
     assert record.jobs["J1"].ended == 3
     assert record.jobs["J2"].ended == 6
     assert check(record.make_plan()).ok
+
+
+def test_a_late_robot_waits_before_a_closure_until_it_ends() -> None:
+    jobs = [{"name": "J1", "at": "N4"}]
+    scenario = make_scenario(
+        ["....."], {"R1": "N0"}, jobs=jobs, closures=[{"at": "N3", "from": 5, "until": 20}],
+        rules={"return": "none"},
+    )  # fmt: skip
+    # In time it leaves N3 at tick 4; five ticks late it would be there at tick 8.
+    assert hold_shift(scenario).jobs["J1"].ended == 4
+    late = hold_shift(scenario, delays="stop:R1@1+5")
+    assert late.jobs["J1"].ended == 22
+    assert check(late.make_plan()).ok

@@ -411,6 +411,11 @@ class SimulatedFloor:
         if at is None:
             return False
         depart, enter = self._time_drive(robot, own, ready, at)
+        while (opens := self._find_open(robot, own, depart, enter)) > depart:
+            if opens >= NEVER:  # only another route leads on
+                return False
+            after = opens if self._books_ahead else opens + enter - depart
+            depart, enter = self._time_drive(robot, own, ready, after)
         if depart >= self._until and not self.roadmap.is_passed(own.visits[0].vertex):
             return False
         self._begin_visit(robot, own, depart, enter)
@@ -453,6 +458,24 @@ class SimulatedFloor:
         end = self.delays.drive(robot, number, ready, drive)
         enter = max(end, at)
         return enter - (end - ready), enter
+
+    def _find_open(self, robot: int, own: FloorRobot, depart: int, enter: int) -> int:
+        """Return when the edge and the vertex of a drive are open again; 0 where they are.
+
+        The robot stays in the vertex for as long as it is planned to.
+        """
+        closures, visit = self.scenario.problem.closures, own.visits[1]
+        if closures is None:
+            return 0
+        stay = own.visits[2].planned - visit.planned if len(own.visits) > 2 else 1  # noqa: PLR2004
+        closed = [
+            *((depart, enter, *times) for times in closures.list_along_edge(robot, visit.edge)),
+            *(
+                (depart if self._books_ahead else enter, enter + max(stay, 1), *times)
+                for times in closures.list_at_vertex(robot, visit.vertex)
+            ),
+        ]
+        return max((end for a, b, start, end in closed if a < end and start < b), default=0)
 
     def _begin_visit(self, robot: int, own: FloorRobot, depart: int, enter: int) -> None:
         record, visit = self.records[robot], own.visits[1]

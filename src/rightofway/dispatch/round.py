@@ -248,6 +248,8 @@ class RoundPlanner:
                 self._keep_later(given, cut.later)
                 return plan
         left = deadline.measure_seconds_left()
+        if left == 0:
+            raise GaveUp(Fact("time over without a plan"))
         self._keep_later(given, ())
         return solve(given.scenario, self._planner, time_limit=left, seed=seed)
 
