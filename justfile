@@ -99,6 +99,10 @@ delay count *args:
 chaos count *args:
     python -m tests.campaigns.plans chaos {{ count }} {{ args }}
 
+# Drive plans with jobs that arrive through chaos, with the seeds from FIRST to before LAST, in each kind
+chaos-jobs first last:
+    python -m tests.campaigns.jobs {{ first }} {{ last }}
+
 # Drive plans over a real broker COUNT times (0: without end), its processes killed at random
 chaos-broker count *args:
     python -m tests.campaigns.broker {{ count }} {{ args }}
