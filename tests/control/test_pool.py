@@ -294,3 +294,32 @@ def test_a_battery_that_will_not_last_begins_a_round_once_for_each_plan() -> Non
 def test_a_plan_with_jobs_is_not_repeated_in_laps() -> None:
     with pytest.raises(InputError, match="jobs are done once"):
         LapsToDrive(floor_plan())
+
+
+def test_a_start_begins_the_round_that_a_kill_has_ended() -> None:
+    """A job that has changed may not begin before it is planned again."""
+    shift = Shift(rounds=SlowRounds())
+    shift.drive(2)
+    shift.ask("change", name="J2", at="N12")
+    assert shift.dispatcher.ledger.outdated == {"J2"}
+    control = FleetControl(shift.journal, roadmap=shift.plan.scenario.roadmap)
+    dispatcher = Dispatcher(control, shift.plan, rounds=RoundsAtOnce(None))
+    dispatcher.keep_time(lambda: 3)
+    places = [robot.place for robot in shift.floor.robots]
+    Floor(dispatcher, places)
+    assert dispatcher.ledger.outdated == set()
+
+
+def test_a_robot_is_placed_while_a_round_is_under_way_whose_plan_is_dropped() -> None:
+    rounds = SlowRounds()
+    shift = Shift(rounds=rounds)
+    shift.drive(2)
+    shift.ask("add", name="A1", at="N12")
+    shift.ask("remove", name="R1")
+    shift.floor.robots[0].forget()
+    shift.floor.robots[0].place = "N0"
+    shift.ask("place", name="R1", at="N0")
+    assert shift.dispatcher.control.kept_parts is None
+    rounds.is_ready = True
+    shift.drive(150)
+    assert shift.pool.left == dict.fromkeys(("A1", "J1", "J2", "J3"), "done")

@@ -229,6 +229,7 @@ class FleetControl:
         refuse_ways(routes, committed, names, self.may_drive)
         entry = make_plan_entry("splice", self.ledger.run, routes, graph, committed=committed)
         begins = [{"kind": "placed", "robot": k, "visit": routes[k].first} for k in placed]
+        self.kept_parts = None  # a round that is under way is of the old plan
         # One commit swaps the routes and the graph, so that a kill leaves the old or the new plan.
         self.commit(*begins, {**entry, "withdrawn": [list(job) for job in withdrawn]}, *notes)
         if self._since_snapshot >= self._snapshot_every:

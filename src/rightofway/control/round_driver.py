@@ -91,7 +91,7 @@ class RoundDriver:
         self.unable = frozenset[int]()
         self.list_closed: Callable[[], Collection[Edge]] = tuple
         self.read_ticks: Callable[[], int] = lambda: 0
-        self.is_wanted = False
+        self.is_wanted = bool(control.ledger.run)  # a round may have been under way
         self._seen: ViewOfRound | None = None  # of the round that is under way
         self._graph: ReleaseGraph | None = None  # of the plan that it replaces
         self._ignores_closures = False  # of that round
