@@ -73,9 +73,9 @@ def plan_work(
 ) -> Plan:
     """Return the best judged plan of a scenario with jobs, with its tours and unserved jobs.
 
-    A first plan is looked for whatever the deadline. `better` takes each plan that is better than
-    those before, `report` a fact on the progress after each round. If not even the begun jobs
-    alone lead to a plan, the error of that assignment is raised.
+    `better` takes each plan that is better than those before, `report` a fact on the progress after
+    each round. If not even the begun jobs alone lead to a plan in time, the error of that
+    assignment is raised.
     """
     of_rounds = deadline.shorten(SHARE_OF_ROUNDS)
     rounds = _Rounds(scenario, plan_tours, (of_rounds, deadline), seed)
