@@ -50,7 +50,9 @@ def carry(name: str, pickup: int, dropoff: int, **more: Any) -> dict[str, Any]:
 def refuse_above(most: int, scenario: Any) -> Any:
     """Return a planner of tours that finds no plan for more than some jobs."""
 
-    def plan_tours(assignment: Assignment, _: Deadline, seed: int) -> tuple[Plan, Report]:
+    def plan_tours(
+        assignment: Assignment, _: Deadline, seed: int, __: object
+    ) -> tuple[Plan, Report]:
         if len({item.job for tour in assignment.tours for item in tour}) > most:
             raise GaveUp(Fact("time over without a plan"))
         toured, spec = assign_tours(scenario, assignment.tours), find("prioritized")

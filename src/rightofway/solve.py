@@ -226,10 +226,12 @@ def _run_rounds(
 
     _refuse_unknown(spec, task)
 
-    def plan_tours(assignment: Assignment, deadline: Deadline, seed: int) -> tuple[Plan, Report]:
+    def plan_tours(
+        assignment: Assignment, deadline: Deadline, seed: int, offer: Callable[[Plan], None] | None
+    ) -> tuple[Plan, Report]:
         toured = replace(task, scenario=assign_tours(task.scenario, assignment.tours), seed=seed)
         limit = deadline.measure_seconds_left()
-        return _run(spec, toured, limit, seconds_per_visit, None, unserved=assignment.unserved)
+        return _run(spec, toured, limit, seconds_per_visit, offer, unserved=assignment.unserved)
 
     return plan_work(
         task.scenario,
@@ -291,7 +293,7 @@ def _run(
             has_plan=keep,
         )
         if on_plan is not None:
-            task = replace(task, better=_make_hand_over(on_plan, spec, task))
+            task = replace(task, better=_make_hand_over(on_plan, spec, task, unserved))
         if task.start is not None:
             keep()
         try:
@@ -387,7 +389,10 @@ def _make_draft(spec: PlannerSpec, task: Task, old: Plan | None) -> Draft:
 
 
 def _make_hand_over(
-    on_plan: Callable[[Plan], None], spec: PlannerSpec, task: Task
+    on_plan: Callable[[Plan], None],
+    spec: PlannerSpec,
+    task: Task,
+    unserved: Sequence[tuple[int, UnservedReason]],
 ) -> Callable[[Callable[[], Sequence[Track]]], None]:
     """Return a function that hands plans of a planner that goes on to the caller of `solve`.
 
@@ -405,7 +410,7 @@ def _make_hand_over(
     least: list[tuple[Tick, Tick]] = []
 
     def hand_over(tracks: Callable[[], Sequence[Track]]) -> None:
-        plan = _make_plan(task, tracks(), run)
+        plan = _make_plan(task, tracks(), run, unserved)
         rating = task.measure_worth(plan.tracks)
         if not least or rating < least[-1]:
             least.append(rating)

@@ -19,7 +19,7 @@ from itertools import count
 import numpy as np
 
 from rightofway.assign import AssignmentSearch, Travel, WorkBound, measure_travel
-from rightofway.check import Report
+from rightofway.check import Report, check
 from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.facts import Fact
@@ -55,8 +55,10 @@ OBJECTIVES: Mapping[WorkObjective, Objective] = {
     "both": Objective.BOTH,
 }
 
-PlanTours = Callable[[Assignment, Deadline, int], tuple[Plan, Report]]
-"""Plans an assignment with a seed, and has the plan judged.
+PlanTours = Callable[
+    [Assignment, Deadline, int, Callable[[Plan], None] | None], tuple[Plan, Report]
+]
+"""Plans an assignment with a seed, and has the plan judged; may hand over plans on its way.
 
 Raises `GaveUp` or `NoPlanExists` if it finds none.
 """
@@ -78,7 +80,7 @@ def plan_work(
     assignment is raised.
     """
     of_rounds = deadline.shorten(SHARE_OF_ROUNDS)
-    rounds = _Rounds(scenario, plan_tours, (of_rounds, deadline), seed)
+    rounds = _Rounds(scenario, plan_tours, (of_rounds, deadline), seed, better)
     for number in count(1):
         plan = rounds.run(number)
         if plan is not None:
@@ -104,11 +106,12 @@ class _Rounds:
         plan_tours: PlanTours,
         deadlines: tuple[Deadline, Deadline],
         seed: int,
+        better: Callable[[Plan], None],
     ) -> None:
         work = scenario.problem.work
         assert work is not None, "the scenario has jobs"
         self._work, self._weights = work, scenario.problem.weights
-        self._plan_tours, self._seed = plan_tours, seed
+        self._plan_tours, self._seed, self._better = plan_tours, seed, better
         self._deadline, self._last_deadline = deadlines  # of the rounds; without a plan
         self._travel = measure_travel(scenario.problem, Distances(scenario.roadmap))
         self._delays = np.zeros(self._travel.ticks.shape)
@@ -132,7 +135,8 @@ class _Rounds:
                 raise
             return None
         try:
-            plan, judged = self._plan_tours(assignment, deadline, self._seed + number - 1)
+            offer = self._take_offer if self.best is None else None
+            plan, judged = self._plan_tours(assignment, deadline, self._seed + number - 1, offer)
         except (GaveUp, NoPlanExists):
             if self.best is None and not self._choose_next(assignment):
                 raise
@@ -151,6 +155,13 @@ class _Rounds:
             return None
         self.best = cost, plan
         return plan
+
+    def _take_offer(self, plan: Plan) -> None:
+        """Keep a plan that the first round has on its way, so that there is one at once."""
+        cost = measure_work(plan)
+        if check(plan).ok and (self.best is None or cost < self.best[0]):
+            self.best = cost, plan
+            self._better(plan)
 
     def _choose_next(self, assignment: Assignment) -> bool:
         """Choose what is planned after an assignment without a plan; return whether there is any.
