@@ -2,10 +2,10 @@
 
     jobs + fleet at the takeover → tours → routes → judged behind the kept parts → plan
 
-The jobs of a round are those that are begun or overdue, and about three more for each robot, so its
-time does not grow with the pool. Tours start from the old ones. Robots whose tours stay the same
-keep their old tracks at first, and the others are planned around them; then large neighbourhood
-search improves all of them until time is up.
+The jobs of a round are those that are begun, and for each robot about three that are overdue and
+three others, so its time does not grow with the pool. Tours start from the old ones. Robots whose
+tours stay the same keep their old tracks at first, and the others are planned around them; then
+large neighbourhood search improves all of them until time is up.
 
 References
 ----------
@@ -66,7 +66,7 @@ from rightofway.solve import solve
 __all__ = ["RoundPlanner", "choose_jobs"]
 
 JOBS_PER_ROBOT = 3
-"""Jobs of a round for each robot, beside those that are begun or overdue."""
+"""Jobs of a round for each robot that are overdue, and as many others, beside the begun ones."""
 
 STEPS_PER_JOB = 60
 """Steps of the search for tours, for each job of the round."""
@@ -421,7 +421,7 @@ def choose_jobs(
         urgency = overdue_at if is_overdue else job.earliest
         return job.name not in begun, not is_overdue, urgency, own.known, -job.weight, job.name
 
-    most = JOBS_PER_ROBOT * len(view.robots)
+    room = dict.fromkeys((True, False), JOBS_PER_ROBOT * len(view.robots))
     chosen, postponed = dict[str, PooledJob](), list[str]()
     unserved: dict[str, UnservedReason] = {}
     able = {scenario.robots[k].name for k, own in enumerate(view.robots) if own.is_able}
@@ -439,10 +439,13 @@ def choose_jobs(
             unserved[name] = "robot"
         elif name not in begun and not _is_in_time(job, now):
             unserved[name] = "latest"
-        elif open_before or (len(chosen) >= most and rank(own)[1] and name not in begun):
+        elif name in begun:
+            chosen[name] = own
+        elif open_before or not room[is_overdue := not rank(own)[1]]:
             postponed.append(name)
         else:
             chosen[name] = own
+            room[is_overdue] -= 1
     assert begun_anywhere <= jobs.keys() | over.keys(), "begun jobs are known"
     return ChosenJobs(
         jobs=tuple(chosen.values()),
