@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 import pytest
@@ -45,10 +46,11 @@ def test_a_robot_keeps_no_headway_from_itself() -> None:
 
 @pytest.mark.parametrize("change", ["switch", "replan"])
 def test_changes_during_execution_are_refused_for_plans_with_jobs(change: str) -> None:
+    changes: dict[str, Any] = {change: True}
     with pytest.raises(InputError, match=f"{change}: is not for plans with jobs"):
-        rightofway.simulate(make_plan(), runs=1, **{change: True})
+        rightofway.simulate(make_plan(), runs=1, **changes)
     with pytest.raises(InputError, match=f"{change}: is not for plans with jobs"):
-        replay(make_plan(), **{change: True})
+        replay(make_plan(), **changes)
 
 
 def test_a_late_job_holds_back_the_job_after_it() -> None:
