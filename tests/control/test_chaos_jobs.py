@@ -20,6 +20,19 @@ def test_each_stop_is_done_once_and_a_job_that_nobody_does_has_a_reason(kind: st
         run_job_chaos(seed, JOB_KINDS[kind])
 
 
+@pytest.mark.parametrize(
+    ("kind", "seed"),
+    [
+        ("arrive, all", 207),  # a robot was placed while a round was under way
+        ("arrive, cancels", 219),  # a job had changed before a kill
+        ("arrive, resets", 205),
+        ("arrive, wrong fields", 326),  # a withdrawn stop came before one that was asked for
+    ],
+)
+def test_runs_that_had_a_fault_have_none(kind: str, seed: int) -> None:
+    run_job_chaos(seed, JOB_KINDS[kind])
+
+
 def test_chaos_with_jobs_does_what_it_says() -> None:
     """Jobs arrive, change and are withdrawn; places close; the control is killed."""
     chaos = Chaos(kills=0.03, jobs=0.06, people=0.01)

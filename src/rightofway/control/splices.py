@@ -63,7 +63,7 @@ def _keeps_visit(own: RobotLedger, new: RouteToDrive, visit: int, *, is_last: bo
     Work that no order has yet may change in the last one: it gets an order of its own.
     """
     before, after = own.route.get_jobs(visit), new.get_jobs(visit)
-    if is_last:
+    if is_last and before != after:
         before = tuple(filter(own.is_sent, before))
         after = after[: len(before)]
     return own.route.get_place(visit) == new.get_place(visit) and before == after
