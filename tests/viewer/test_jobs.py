@@ -108,3 +108,12 @@ def test_shares_have_decimal_commas_in_german(show: Opener) -> None:
 def test_a_narrow_page_need_not_be_scrolled_to_the_side(show: Opener) -> None:
     viewer = show(make_plan(), "#job=J1", viewport={"width": 360, "height": 740})
     assert viewer.is_as_wide_as(360)
+
+
+def test_a_robot_that_charges_is_said_to_charge(show: Opener) -> None:
+    """R1 charges from 13 to 15."""
+    viewer = show(make_plan())
+    viewer.seek(12)
+    assert "charging 0" in " ".join(viewer.text("#states").split())
+    viewer.seek(14)
+    assert "charging 1" in " ".join(viewer.text("#states").split())

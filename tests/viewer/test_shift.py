@@ -108,3 +108,10 @@ def test_a_shift_speaks_german(show: Opener) -> None:
 def test_a_narrow_page_of_a_shift_need_not_be_scrolled_to_the_side(show: Opener) -> None:
     viewer = show(make_shift(), "#robot=R1", viewport={"width": 360, "height": 740})
     assert viewer.is_as_wide_as(360)
+
+
+def test_on_paper_it_has_a_table_of_the_use_of_robots(show: Opener) -> None:
+    viewer = show(make_shift())
+    viewer.page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
+    table = viewer.page.locator("#paper-robots").text_content() or ""
+    assert table.startswith("RobotJobs donedrivewaitworkchargeidleR1")

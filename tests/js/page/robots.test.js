@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Motion } from "../../../src/rightofway/viz/page/assets/plan/motion.js";
 import {
+  CHARGE,
   DONE,
   DRIVE,
   TURN,
@@ -65,7 +66,7 @@ test("a robot that drives is between two vertices, by the share of the time", ()
   assert.deepEqual([motion.x[0], motion.activity[0], motion.share[0]], [2, WORK, 0.5]);
   motion.moveTo(0.5); // backwards
   assert.deepEqual([motion.x[0], motion.activity[0]], [0, WAIT]);
-  assert.deepEqual([...motion.counts], [0, 1, 0, 0, 0, 0, 0]);
+  assert.deepEqual([...motion.counts], [0, 1, 0, 0, 0, 0, 0, 0]);
 });
 
 test("a robot that stands still by itself needs longer for the same work", () => {
@@ -79,4 +80,51 @@ test("a wait for no robot names no second place", () => {
   assert.deepEqual(new Loss([0, 0, null, 4, 4, 5, null, 1, 2, 1, 0]).places, [4]);
   assert.deepEqual(new Loss([0, 0, 1, 4, 4, 5, 6, 1, 2, 1, 0]).places, [4, 6]);
   assert.deepEqual(new Loss([FOLLOWS, 0, 1, 4, 7, 5, 6, 1, 2, 1, 0]).places, [4, 7]);
+});
+
+/**
+ * It is at its home N0 until 4 and from 10 on for a while, works at N1 from 5 to 7, and charges at N0 from
+ * 8 to 9.
+ */
+function idler() {
+  return new Robot(
+    {
+      name: "R1",
+      colour: "#000000",
+      speed: "1",
+      completion: 12,
+      alone: 12,
+      lost: [0, 0, 0],
+      vertices: [0, 1, -1, 1], // 0 1 0 1
+      enter: [0, 5, 3, 4], // 0 5 8 12
+      drive: 1,
+      stages: [
+        [1, 2, 0, 1],
+        [0, 1, 0, 2],
+      ],
+      begins: [5, 8],
+      charges: [1],
+      idles: true,
+    },
+    0,
+  );
+}
+
+test("a robot of a shift has nothing to do where it stays at home, and charges do not count as work", () => {
+  const { activity, begin } = idler().phases;
+  assert.deepEqual([...activity], [DONE, DRIVE, WORK, DRIVE, CHARGE, DONE, DRIVE, DONE]);
+  assert.deepEqual([...begin], [0, 4, 5, 7, 8, 9, 11, 12]);
+});
+
+test("the route that is shown of a robot of a shift leads from its last stop to the one after the next", () => {
+  assert.deepEqual(
+    [0, 1, 2, 3].map((visit) => idler().span(visit)),
+    [
+      [0, 2],
+      [1, 3],
+      [2, 3],
+      [2, 3],
+    ],
+  );
+  assert.deepEqual(robot().span(1), [0, 3]);
 });

@@ -324,6 +324,9 @@ def _list_robots(plan: Plan, trips: Sequence[Trip]) -> list[RobotData]:
             robot_data["radius"] = float(robot.radius)
         if plan.tours is not None:
             robot_data["begins"] = [int(stage.earliest) for stage in trip.stages]
+            charges = [place for place, item in enumerate(plan.tours[index]) if item.job is None]
+            if charges:
+                robot_data["charges"] = charges
         if any(trip.turns):
             robot_data["turns"] = _list_sparse(trip.turns)
         if min(trip.served) < 0:

@@ -166,7 +166,8 @@ MapData = TypeAliasType("MapData", GridData | NetworkData)
 class RobotData(TypedDict):
     """A robot and its track; ``vertices`` and ``enter`` are first differences.
 
-    ``begins`` has for each stage when its work begins at the earliest. A robot that ``idles`` has
+    ``begins`` has for each stage when its work begins at the earliest, ``charges`` the stages that
+    are charges. A robot that ``idles`` has
     nothing to do where it stays at home.
     """
 
@@ -182,6 +183,7 @@ class RobotData(TypedDict):
     drive: int | list[int]
     stages: list[StageRow]
     begins: NotRequired[list[int]]
+    charges: NotRequired[list[int]]
     turns: NotRequired[list[TurnRow]]
     stands: NotRequired[Literal[True]]
     idles: NotRequired[Literal[True]]

@@ -360,7 +360,7 @@ export interface RerouteData {
   because: PhraseData;
 }
 
-/** A robot and its track; ``vertices`` and ``enter`` are first differences. ``begins`` has for each stage when its work begins at the earliest. A robot that ``idles`` has nothing to do where it stays at home. */
+/** A robot and its track; ``vertices`` and ``enter`` are first differences. ``begins`` has for each stage when its work begins at the earliest, ``charges`` the stages that are charges. A robot that ``idles`` has nothing to do where it stays at home. */
 export interface RobotData {
   name: string;
   colour: string;
@@ -374,6 +374,7 @@ export interface RobotData {
   drive: number | number[];
   stages: StageRow[];
   begins?: number[];
+  charges?: number[];
   turns?: TurnRow[];
   stands?: true;
   idles?: true;

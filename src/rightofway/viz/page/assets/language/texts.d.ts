@@ -289,6 +289,7 @@ export interface PageTexts {
     round: Text<"count" | "seconds" | "time">;
     takesOver: Text<"time">;
     stands: string;
+    waitLess: string;
     noRound: string;
     noRoundFits: string;
   };

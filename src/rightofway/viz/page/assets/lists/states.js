@@ -1,6 +1,6 @@
 import { element } from "../common/dom.js";
 import { texts } from "../language/language.js";
-import { BROKEN, DONE, HELD } from "../plan/phases.js";
+import { BROKEN, CHARGE, DONE, HELD } from "../plan/phases.js";
 
 /** @import { Root } from "../common/root.js" */
 /** @import { Choice } from "../player/choice.js" */
@@ -15,6 +15,7 @@ const SIGNS = [
   '<circle cx="8" cy="8" r="5" fill="currentColor" stroke="none" opacity=".38"/>',
   '<circle cx="8" cy="8" r="4.2" stroke-width="1.8"/><path d="M11 5a4.2 4.2 0 1 1-6 6z" fill="currentColor" stroke="none"/>',
   '<circle cx="8" cy="8" r="4.2" stroke-width="1.8"/><path d="M3 3l10 10M3 13L13 3" stroke-width="1.8"/>',
+  '<path d="M9.500 1.500 3.500 9h4l-1 5.500 6-7.500h-4z" fill="currentColor" stroke="none"/>',
 ];
 const GHOST_SIGN = '<circle cx="8" cy="8" r="5" stroke-dasharray="2.6 2.63" stroke-width="1.3"/>';
 
@@ -52,7 +53,7 @@ export class States {
 
   /** Show the signs that may be on the map. */
   #suit() {
-    for (const activity of [HELD, BROKEN]) {
+    for (const activity of [HELD, BROKEN, CHARGE]) {
       this.rows[activity].hidden = !this.motion.fleet.robots.some(({ phases }) =>
         phases.activity.includes(activity),
       );

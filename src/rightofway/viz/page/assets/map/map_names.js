@@ -1,5 +1,5 @@
 import { LabelBoard, SIDES, TextWidths, boxBeside, cut } from "../drawing/label_board.js";
-import { BROKEN, DONE, DRIVE, TURN, WORK } from "../plan/phases.js";
+import { CHARGE, BROKEN, DONE, DRIVE, TURN, WORK } from "../plan/phases.js";
 import { PlaceNames } from "./place_names.js";
 import { haloed } from "../drawing/shapes.js";
 import { inkOn } from "../drawing/theme.js";
@@ -147,7 +147,7 @@ export class MapNames {
   #inside(context, index, radius) {
     const { name } = this.plan.robots[index];
     const activity = this.motion.activity[index];
-    const hollow = activity !== DRIVE && activity !== WORK && activity !== TURN;
+    const hollow = activity !== DRIVE && ![WORK, TURN, CHARGE].includes(activity);
     const [x, y] = this.#at(index);
     context.globalAlpha = this.choice.standsOut(index) ? 1 : 0.4;
     context.font = this.#insideFont(radius);

@@ -1,5 +1,7 @@
 import { FloorRobot } from "../plan/floor.js";
-import { BROKEN, DONE, HELD, TURN, WAIT, WORK } from "../plan/phases.js";
+import { BROKEN, CHARGE, DONE, HELD, TURN, WAIT, WORK } from "../plan/phases.js";
+import { bolt } from "./map_marks.js";
+import { inkOn } from "../drawing/theme.js";
 import { arc, disc, line, ring } from "../drawing/shapes.js";
 
 /** @import { Choice } from "../player/choice.js" */
@@ -11,7 +13,7 @@ import { arc, disc, line, ring } from "../drawing/shapes.js";
 
 const FEW = 80; // up to here, waiting robots point to where they want to go
 
-/** The robots at their true size, if they have one: a disc that drives, a ring that waits, an arc that counts work, two that turn. */
+/** The robots at their true size, if they have one: a disc that drives, a ring that waits, an arc that counts work, two that turn, a bolt that charges. */
 export class MapRobots {
   /**
    * @param {Site} plan
@@ -180,6 +182,10 @@ export class MapRobots {
       context.fillStyle = robot.colour;
       disc(context, x, y, radius);
       context.globalAlpha = alpha;
+      if (activity === CHARGE) {
+        context.fillStyle = inkOn(robot.colour);
+        bolt(context, x, y, radius * 2);
+      }
     }
     if (this.#dialled(i)) this.#dial(context, robot, x, y, radius, scale);
   }

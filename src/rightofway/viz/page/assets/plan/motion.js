@@ -19,7 +19,7 @@ export class Motion {
     this.share = new Float32Array(count); // of the activity that is over, 0 to 1
     this.phase = new Int32Array(count);
     this.ticks = new Float64Array(count); // the moment of each robot
-    this.counts = new Int32Array(7); // robots by activity
+    this.counts = new Int32Array(8); // robots by activity
     this.moveTo(0);
   }
 

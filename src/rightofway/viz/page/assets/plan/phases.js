@@ -11,6 +11,7 @@ export const TURN = 3;
 export const DONE = 4;
 export const HELD = 5; // up, by itself: on the floor only
 export const BROKEN = 6;
+export const CHARGE = 7; // in a plan with jobs
 
 /**
  * What a robot does when, one entry for each change: `begin[i]` to `begin[i + 1]`, during `visit[i]`.
@@ -44,7 +45,7 @@ export function phasesOf(robot) {
       if (robot.stages[stage].visit < visit) continue;
       const idle = (robot.begins[stage] ?? 0) - now;
       if (idle > 0) add(idle, WAIT);
-      add(robot.stages[stage].work, WORK);
+      add(robot.stages[stage].work, robot.charges.has(stage) ? CHARGE : WORK);
       if (visit < last || robot.ending !== DONE) add(robot.stages[stage].turn, TURN);
     }
     if (visit < last) add(robot.turns.get(visit) ?? 0, TURN);

@@ -27,6 +27,7 @@ export class Robot {
     /** @type {Stage[]} */
     this.stages = raw.stages.map(([vertex, work, turn, visit]) => ({ vertex, work, turn, visit }));
     this.begins = raw.begins ?? []; // of the work of each stage, in a plan with jobs
+    this.charges = new Set(raw.charges); // the stages at which it charges
     this.turns = new Map(raw.turns); // on the spot between two edges, by visit [ticks]
     this.completion = raw.completion;
     this.alone = raw.alone;
@@ -53,7 +54,7 @@ export class Robot {
   span(visit) {
     if (!this.idles) return [0, this.vertices.length - 1];
     const next = this.stages.findIndex((stage) => stage.visit > visit);
-    const [before, after] = next < 0 ? [this.stages.length - 2, -1] : [next - 1, next + 1];
+    const [before, after] = next < 0 ? [this.stages.length - 1, -1] : [next - 1, next + 1];
     return [this.stages[before]?.visit ?? 0, this.stages[after]?.visit ?? this.vertices.length - 1];
   }
 

@@ -4,6 +4,7 @@ import { texts } from "../language/language.js";
 /** @import { Root } from "../common/root.js" */
 /** @import { Clock } from "./clock.js" */
 /** @import { Comparison } from "../figures/comparison.js" */
+/** @import { ShiftData } from "../payload.d.ts" */
 /** @import { Plan } from "../plan/plan.js" */
 /** @import { Robot } from "../plan/robot.js" */
 /** @import { Theme } from "../drawing/theme.js" */
@@ -64,6 +65,7 @@ export class Paper {
 
   #table() {
     const { words } = this;
+    if (this.plan.shift) return this.#useTable(this.plan.shift.raw);
     const head = [
       texts.robot,
       this.#end,
@@ -84,6 +86,24 @@ export class Paper {
           this.#time(ticks),
         ),
       ],
+    );
+  }
+
+  /**
+   * How robots used their time in a shift; of many, those that waited longest.
+   *
+   * @param {ShiftData} shift
+   */
+  #useTable({ robots, until }) {
+    const { words } = this;
+    return this.#rows(
+      [texts.robot, texts.jobs.done, ...texts.shift.activities],
+      ({ index }) => robots[index][2],
+      texts.shift.waitLess,
+      ({ name, index }) => {
+        const [done, ...parts] = robots[index];
+        return [name, String(done), ...parts.map((ticks) => words.percent(ticks / until))];
+      },
     );
   }
 

@@ -1,6 +1,6 @@
 import { Area } from "../timetable/axis.js";
 import { texts } from "../language/language.js";
-import { DONE, DRIVE, TURN, WAIT, WORK } from "../plan/phases.js";
+import { CHARGE, DONE, DRIVE, TURN, WAIT, WORK } from "../plan/phases.js";
 import { line } from "../drawing/shapes.js";
 
 /** @import { Census } from "../timetable/census.js" */
@@ -219,9 +219,10 @@ export class ShiftChart {
    */
   #robot(context, lane, { name, phases }) {
     this.#label(context, lane, name, "");
-    const { drive, wait, work, turn } = this.theme;
+    const { drive, wait, work, turn, paper } = this.theme;
+    const charge = `color-mix(in srgb, ${work} 40%, ${paper})`;
     /** @type {Record<number, string>} */
-    const colours = { [DRIVE]: drive, [WAIT]: wait, [WORK]: work, [TURN]: turn };
+    const colours = { [DRIVE]: drive, [WAIT]: wait, [WORK]: work, [TURN]: turn, [CHARGE]: charge };
     /** @type {Record<number, number>} */
     const heights = { [DRIVE]: 0.4, [WAIT]: 0.7, [WORK]: 1, [TURN]: 0.4 };
     for (let i = 0; i < phases.begin.length; i++) {

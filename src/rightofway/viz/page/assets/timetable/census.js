@@ -1,6 +1,6 @@
 import { FleetMemo } from "../plan/fleet_memo.js";
 import { texts } from "../language/language.js";
-import { BROKEN, DONE, DRIVE, HELD, TURN, WAIT, WORK } from "../plan/phases.js";
+import { BROKEN, CHARGE, DONE, DRIVE, HELD, TURN, WAIT, WORK } from "../plan/phases.js";
 
 /** @import { Area } from "./axis.js" */
 /** @import { Choice } from "../player/choice.js" */
@@ -9,7 +9,7 @@ import { BROKEN, DONE, DRIVE, HELD, TURN, WAIT, WORK } from "../plan/phases.js";
 /** @import { Theme } from "../drawing/theme.js" */
 
 const MOST_SAMPLES = 1200;
-const STACK = [WORK, TURN, DRIVE, WAIT, HELD, BROKEN]; // from the bottom up; robots that are done are the empty space above
+const STACK = [WORK, CHARGE, TURN, DRIVE, WAIT, HELD, BROKEN]; // from the bottom up; robots that are done are the empty space above
 
 /** What a large fleet does: how many robots work, turn, drive and wait, over time. */
 export class Census {
@@ -43,10 +43,11 @@ export class Census {
   paint(context, area, hasLegend = true) {
     const counts = this.#counts.value;
     const below = new Float64Array(this.samples);
-    const { work, turn, drive, wait, held, broken } = this.theme;
+    const { work, turn, drive, wait, held, broken, paper } = this.theme;
     /** @type {Record<number, string>} */
     const colours = {
       [WORK]: work,
+      [CHARGE]: `color-mix(in srgb, ${work} 40%, ${paper})`,
       [TURN]: turn,
       [DRIVE]: drive,
       [WAIT]: wait,

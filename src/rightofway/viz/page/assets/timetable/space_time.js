@@ -3,7 +3,7 @@ import { Area } from "./axis.js";
 import { Corridor } from "../plan/corridor.js";
 import { FloorRobot } from "../plan/floor.js";
 import { texts } from "../language/language.js";
-import { BROKEN, DONE, DRIVE, HELD, TURN, WAIT, WORK } from "../plan/phases.js";
+import { BROKEN, CHARGE, DONE, DRIVE, HELD, TURN, WAIT, WORK } from "../plan/phases.js";
 import { crossedOut, line, shortened, stripes } from "../drawing/shapes.js";
 import { CorridorAxis, LineAxis } from "./space_axis.js";
 import { several } from "../language/words.js";
@@ -334,7 +334,7 @@ export class SpaceTime {
       return;
     }
     const thin = this.axis.line;
-    const heavy = activity === WORK || activity === TURN;
+    const heavy = [WORK, TURN, CHARGE].includes(activity);
     context.lineWidth = heavy ? thin * 2.2 : thin;
     context.lineCap = heavy ? "butt" : "round";
     context.setLineDash(activity === WAIT ? [0.1, thin * 2.4] : []);
