@@ -180,6 +180,8 @@ class JobWorld(World):
             name = fact.values.get("job", fact.kind)
             self.said.add(str(name))
             reason = fact.values.get("reason")
+            if "released (" in str(reason):
+                raise Fault(str(reason))
             self.counts[f"{fact.kind}: {reason}" if reason else fact.kind] += 1
 
     def _event(self) -> None:

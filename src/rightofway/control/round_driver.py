@@ -27,6 +27,7 @@ from rightofway.control.round_worker import RoundRequest, Rounds
 from rightofway.control.routes import RouteToDrive
 from rightofway.control.work_items import find_charge_step, find_stop
 from rightofway.dispatch import PoolEvent, Round
+from rightofway.errors import InputError
 from rightofway.facts import Fact
 from rightofway.model import Scenario, Tick, UnservedReason
 from rightofway.precedence import ReleaseGraph
@@ -232,10 +233,14 @@ class RoundDriver:
         graph = build_graph_behind_released(self.scenario, routes, seen.kept_parts, absent)
         if graph.find_rotation():
             return self._keep_old(Fact("robots would rotate"))
+        notes, moved = self._list_unserved(planned), self._list_moved(routes)
+        try:
+            messages = control.splice(routes, graph, withdrawn=moved, notes=notes)
+        except InputError as error:  # the guard: no round ends the control
+            return self._keep_old(str(error))
         self._tell_reasons(dict(planned.unserved), planned.postponed)
         self.report(None, True)
-        notes = self._list_unserved(planned)
-        return control.splice(routes, graph, withdrawn=self._list_moved(routes), notes=notes)
+        return messages
 
     def _tell_reasons(self, unserved: dict[str, UnservedReason], postponed: Sequence[str]) -> None:
         """Tell why jobs are in no tour, each reason once; some follow a job that is in none."""
@@ -254,10 +259,12 @@ class RoundDriver:
         view = seen.view
         return bool(view.closed) or not all(own.is_able for own in view.robots)
 
-    def _keep_old(self, reason: Fact) -> list[Message]:
+    def _keep_old(self, reason: Fact | str) -> list[Message]:
         """Let the old plan go on, and try again later."""
         self.is_wanted, self._pause = True, PAUSE
-        kept_parts = reason if reason.about is None else str(reason)  # the journal has no scenario
+        kept_parts = (
+            reason if isinstance(reason, Fact) and reason.about is None else str(reason)
+        )  # the journal has no scenario
         self.report(Fact("no plan of the rest", reason=kept_parts), False)
         return self._control.note()
 
