@@ -262,10 +262,9 @@ class RoundDriver:
     def _keep_old(self, reason: Fact | str) -> list[Message]:
         """Let the old plan go on, and try again later."""
         self.is_wanted, self._pause = True, PAUSE
-        kept_parts = (
-            reason if isinstance(reason, Fact) and reason.about is None else str(reason)
-        )  # the journal has no scenario
-        self.report(Fact("no plan of the rest", reason=kept_parts), False)
+        is_general = isinstance(reason, Fact) and reason.about is None  # a journal has no scenario
+        fact = Fact("no plan of the rest", reason=reason if is_general else str(reason))
+        self.report(fact, False)
         return self._control.note()
 
     def _list_moved(self, routes: Sequence[RouteToDrive]) -> list[tuple[int, str]]:
