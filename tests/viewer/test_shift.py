@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from rightofway.dispatch.record import DoneStep
+from rightofway.model import Tick
 from tests.builders.browsers import needs_browser
 from tests.builders.shifts import make_shift
 from tests.viewer.conftest import Opener
@@ -115,3 +117,19 @@ def test_on_paper_it_has_a_table_of_the_use_of_robots(show: Opener) -> None:
     viewer.page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
     table = viewer.page.locator("#paper-robots").text_content() or ""
     assert table.startswith("RobotJobs donedrivewaitworkchargeidleR1")
+
+
+def test_of_a_long_tour_the_card_has_the_part_from_the_moment_that_is_shown_on(
+    show: Opener,
+) -> None:
+    """R1 charges 301 times, from 100 on in each tick: at 250 it begins the one after 150 others."""
+    record = make_shift()
+    robot = record.robots[0]
+    robot.steps[:] = [DoneStep(len(robot.vertices) - 1, 100 + k, 101 + k) for k in range(301)]
+    viewer = show(replace(record, until=Tick(500)))
+    viewer.seek(250)
+    viewer.page.locator("#use-list .row").first.click()
+    lines = viewer.page.locator("#card ol li")
+    assert lines.count() == 152
+    assert lines.first.inner_text().startswith("4 min 10 s")
+    assert lines.last.inner_text() == "and 150 more"

@@ -52,7 +52,8 @@ def test_a_job_under_way_at_the_end_has_its_robot_and_no_times() -> None:
 def test_nothing_is_told_that_only_a_planner_may_tell() -> None:
     payload = make_shift_payload(make_shift())
     assert payload["planner"] == {"name": "", "method": ""}
-    assert payload["decisions"] == payload["losses"] == []
+    assert not payload["decisions"]
+    assert not payload["losses"]
     assert payload["faults"]["count"] == 0
     assert not any("costs" in job for job in payload["work"]["jobs"])
 

@@ -11,6 +11,8 @@ import { upperFirst } from "../language/words.js";
 /** @import { Robot } from "../plan/robot.js" */
 /** @import { Words } from "../language/words.js" */
 
+const MOST_ITEMS = 200; // of a tour in a card
+
 /** What the card has of a job, and of the tour of a robot. */
 export class JobCards {
   /**
@@ -135,7 +137,13 @@ export class JobCards {
     const { items, charges } = tour;
     const title = element("h3", {}, texts.jobs.tour);
     if (!items.length) return [title, element("p", { className: "note" }, texts.jobs.noTour)];
-    const lines = element("ol", {}, ...items.map((item) => this.#item(robot, item)));
+    // of a long tour, those from the one before this moment on
+    const now = items.findLastIndex(([, , , begin]) => begin <= this.clock.tick);
+    const first = items.length > MOST_ITEMS ? Math.max(now, 0) : 0;
+    const shown = items.slice(first, first + MOST_ITEMS);
+    const lines = element("ol", {}, ...shown.map((item) => this.#item(robot, item)));
+    const left = items.length - shown.length;
+    if (left) lines.append(element("li", {}, texts.andMore({ count: left })));
     const curve = charges?.length
       ? [
           element("h3", {}, texts.jobs.charge),
