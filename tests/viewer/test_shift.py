@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from rightofway.dispatch.record import DoneStep
 from rightofway.model import Tick
+from tests.builders.accessibility import serious
 from tests.builders.browsers import needs_browser
 from tests.builders.shifts import make_shift
 from tests.viewer.conftest import Opener
@@ -133,3 +134,9 @@ def test_of_a_long_tour_the_card_has_the_part_from_the_moment_that_is_shown_on(
     assert lines.count() == 152
     assert lines.first.inner_text().startswith("4 min 10 s")
     assert lines.last.inner_text() == "and 150 more"
+
+
+def test_the_page_of_a_shift_has_no_serious_barriers(show: Opener) -> None:
+    for scheme in ("light", "dark"):
+        viewer = show(make_shift(), "#robot=R1", color_scheme=scheme)
+        assert serious(viewer) == []

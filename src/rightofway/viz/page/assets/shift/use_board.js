@@ -15,7 +15,7 @@ import { upperFirst } from "../language/words.js";
 export const SHIFT_TAB = `<button type="button" role="tab" id="tab-shift" aria-controls="shift" aria-selected="false" tabindex="-1"><span data-text="shiftTab"></span></button>`;
 
 export const SHIFT_PANEL = `<div class="panel" id="shift" role="tabpanel" aria-labelledby="tab-shift" hidden>
-  <div id="shift-figures" class="shift-figures"></div>
+  <div id="shift-figures" class="shift-figures" tabindex="0" role="group" data-label="shiftTab"></div>
   <div id="use-list" class="list" role="listbox" tabindex="0" data-label="robots"></div>
 </div>`;
 
