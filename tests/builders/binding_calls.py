@@ -10,11 +10,19 @@ import os
 import random
 from collections.abc import Callable, Iterator
 from enum import Enum
+from functools import cache
 from importlib.util import module_from_spec, spec_from_file_location
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from rightofway.assign import AssignmentSearch, measure_travel
+from rightofway.io import parse_scenario
+from rightofway.plan_work.neighbourhoods import Neighbourhoods
+from rightofway.search import Distances
+from rightofway.solve import solve
+from tests.builders.work_scenarios import draw_work_document
 
 if TYPE_CHECKING:
     from rightofway import _core
@@ -485,8 +493,35 @@ def _tour_problem(rng: random.Random) -> Arguments:
     }  # fmt: skip
 
 
+def _works() -> Part:
+    """Return the works of twelve visits: two of the first robot, the second one after the third."""
+    return Part("VisitWorks", {
+        "first_work": int32(0, 0, 1, *[1] * 2, *[2] * 4, *[3] * 5), "ticks": int64(1, 1, 1),
+        "earliest": int64(0, 0, 0), "planned": int64(1, 1, 1), "first_before": int32(0, 0, 0, 0),
+        "before": int32(), "ends_with_work": int32(0, 0, 0),
+    })  # fmt: skip
+
+
+@cache
+def _find_moves_of_jobs() -> Neighbourhoods:
+    """Return neighbourhoods of a plan of three jobs by two robots."""
+    scenario = parse_scenario(draw_work_document(7, n_jobs=3))
+    work = scenario.problem.work
+    assert work is not None, "the scenario has jobs"
+    travel = measure_travel(scenario.problem, Distances(scenario.roadmap))
+    search = AssignmentSearch(work, travel, weights=scenario.problem.weights)
+    return Neighbourhoods(solve(scenario, "prioritized"), search, travel, 0)
+
+
+def _moves_of_jobs(_: random.Random) -> Arguments:
+    near = _find_moves_of_jobs()
+    work = near.plan.scenario.problem.work
+    assert work is not None, "the plan has jobs"
+    return near.make_arguments(work)
+
+
 PARTS = (
-    *_tour_parts().values(),
+    *_tour_parts().values(), _works(),
     _roads(), problem_arguments("sizes")["robots"], _rules(), _lists().arguments["drawing"],
     _lists(), _turning(0, -1, 1), _closures(1), _work(),
     _trip(_turning(0)), _horizon(), _routes(*[1] * 12), _rows_of_routes(), _closed(),
@@ -540,6 +575,12 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
     "TourSearch.tours": _always(),
     "TourSearch.unserved": _always(),
     "TourSearch.cost": _always(),
+    "TourSearch.compare_robots": lambda rng: {"job": rng.randrange(2)},
+    "RoutedMoves": _moves_of_jobs,
+    "RoutedMoves.run": _timed(n_moves=40, most_gains=3),
+    "RoutedMoves.n_gains": _always(),
+    "RoutedMoves.tracks": _always(),
+    "RoutedMoves.items": _always(),
     "ShortestPaths": lambda rng: {**graph(), "edge_ticks": _ticks_of_edges(rng)},
     "ShortestPaths.find": lambda rng: {"start": rng.randrange(V), "target": rng.randrange(V)},
     "find_overlaps": lambda rng: {
@@ -623,6 +664,7 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
         "drive": int64(*([0, 1, 2, 1] * 3)), **_stoppages(), "clock": rng.random() < 1 / 2,
     },
     "ActionDependencyGraph.deadlocked": _always(),
+    "ActionDependencyGraph.planned_completions": _always(),
     "PrecedenceGraph": _precedence_graph,
     "PrecedenceGraph.enter_of": lambda rng: {"visit": rng.randrange(12)},
     "PrecedenceGraph.enter": _always(),

@@ -19,6 +19,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,6 +94,16 @@ class Neighbourhoods:
 
     def _make_moves(self, work: Work) -> _core.RoutedMoves:
         """Return the search in the native core, from the best plan."""
+        return _core.RoutedMoves(**self.make_arguments(work))
+
+    def make_arguments(self, work: Work) -> dict[str, Any]:
+        """Return the arguments of that search.
+
+        Parameters
+        ----------
+        work
+            The jobs of the plan.
+        """
         scenario = assign_tours(self.plan.scenario, self._list_tours())
         problem = replace(scenario.problem, after=())  # the tours know which jobs follow others
         fleet = FleetSearch(problem, seed=self._seed, threads=1)
@@ -112,18 +123,18 @@ class Neighbourhoods:
             ends.append(stay.completion)
         self._seed += 1
         cost, late_cost = _scale_jobs(work, scenario.tours or ())
-        return _core.RoutedMoves(
-            fleet.native,
-            self._search.native,
-            np.array(self._travel.vertices, np.int32),
-            np.array([robot.turn for robot in work.robots], np.int64),
-            np.array(stops, np.int32),
-            np.array(ends, np.int64),
-            np.array([stay.completion for stay in stays], np.int64),
-            cost,
-            late_cost,
-            self._seed,
-        )
+        return {
+            "fleet": fleet.native,
+            "tours": self._search.native,
+            "vertex_of": np.array(self._travel.vertices, np.int32),
+            "turn_of": np.array([robot.turn for robot in work.robots], np.int64),
+            "stops": np.array(stops, np.int32),
+            "ends": np.array(ends, np.int64),
+            "completions": np.array([stay.completion for stay in stays], np.int64),
+            "cost": cost,
+            "late_cost": late_cost,
+            "seed": self._seed,
+        }
 
     def _adopt(self, moves: _core.RoutedMoves) -> bool:
         """Take over the plan of moves if the judge passes it and it costs less."""
