@@ -144,7 +144,7 @@ def test_objectives_are_measured_by_one_method() -> None:
     """One robot takes 2 ticks, the other one waits for it: 3."""
     plan = solve(crossing(), "fixed-priority")
     values = [objective.compute_cost(plan.scenario, plan.tracks) for objective in Objective]
-    assert values == [5, 5, 5, 3, 2 * 3 + 5]
+    assert values == [5, 5, 5, 3, 2 * 3 + 5, 2 * 3 + 5]
     assert classify_cost(Tick(5), Proof(bound=Tick(5))).kind is OutcomeKind.OPTIMAL
 
 

@@ -33,7 +33,13 @@ class WorkCost(NamedTuple):
 
 
 def measure_work(plan: Plan) -> WorkCost:
-    """Return the objective of a plan with jobs and tours that keeps the rules."""
+    """Return the objective of a plan with jobs.
+
+    Parameters
+    ----------
+    plan
+        A plan with tours that keeps the rules.
+    """
     work = _get_work(plan.scenario)
     done = [(job.job, job.end) for job in list_job_times(plan)]
     return _measure(plan.scenario, work, plan.tracks, done, plan.completions)

@@ -75,9 +75,25 @@ def plan_work(
 ) -> Plan:
     """Return the best judged plan of a scenario with jobs, with its tours and unserved jobs.
 
-    `better` takes each plan that is better than those before, `report` a fact on the progress after
-    each round. If not even the begun jobs alone lead to a plan in time, the error of that
-    assignment is raised.
+    Parameters
+    ----------
+    scenario
+        A scenario with jobs.
+    plan_tours
+        Plans an assignment.
+    deadline
+        When to stop.
+    seed
+        For all that is drawn.
+    better
+        Takes each plan that is better than those before.
+    report
+        Takes a fact on the progress after each round.
+
+    Raises
+    ------
+    GaveUp, NoPlanExists
+        If not even the begun jobs alone lead to a plan in time: the error of that assignment.
     """
     of_rounds = deadline.shorten(SHARE_OF_ROUNDS)
     rounds = _Rounds(scenario, plan_tours, (of_rounds, deadline), seed, better)

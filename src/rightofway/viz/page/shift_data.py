@@ -10,7 +10,6 @@ from rightofway.dispatch import ShiftRecord
 from rightofway.dispatch.figures import RobotUse, ShiftFigures, measure_shift
 from rightofway.facts import Fact
 from rightofway.files import write_whole
-from rightofway.kinds.arguments import checks_arguments
 from rightofway.kinds.table import TEXT
 from rightofway.model import Plan, Tick
 from rightofway.report.facts import FactWriter
@@ -81,7 +80,6 @@ def make_shift_page(
     return make_document(about, payload, "shift_main")
 
 
-@checks_arguments
 def write_shift_page(
     record: ShiftRecord,
     path: str | os.PathLike[str],
