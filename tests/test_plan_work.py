@@ -26,7 +26,7 @@ from rightofway.model import Objective, OutcomeKind, Plan, PlannerRun
 from rightofway.model.scenario import assign_tours
 from rightofway.model.work import Assignment
 from rightofway.plan_work import measure_work, plan_work
-from rightofway.planners import Task, find
+from rightofway.planners import PlanRequest, find
 from tests.builders.planned_jobs import make_plan
 from tests.builders.work_scenarios import draw_work_document
 
@@ -56,7 +56,7 @@ def refuse_above(most: int, scenario: Any) -> Any:
         if len({item.job for tour in assignment.tours for item in tour}) > most:
             raise GaveUp(Fact("time over without a plan"))
         toured, spec = assign_tours(scenario, assignment.tours), find("prioritized")
-        draft = spec.load()(Task(scenario=toured, options=spec.settle({}), seed=seed))
+        draft = spec.load()(PlanRequest(scenario=toured, options=spec.settle({}), seed=seed))
         run = PlannerRun(name="prioritized", options={}, seed=seed)
         plan = Plan(scenario=toured, tracks=draft.tracks, run=run, unserved=assignment.unserved)
         return plan, check(plan)

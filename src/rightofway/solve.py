@@ -42,7 +42,7 @@ from rightofway.planners import (
     Feature,
     PlannerOptions,
     PlannerSpec,
-    Task,
+    PlanRequest,
     find,
 )
 from rightofway.planners.features import refuse_unknown
@@ -129,12 +129,12 @@ def solve(
             remedy = "leave it out; `improve` keeps the tours of a plan"
             raise InputError.at("start", f"is not for a scenario with jobs ({remedy})")
     settled = _settle_options(spec, options, named, seed)
-    task = Task(
+    request = PlanRequest(
         scenario=scenario, **settled, report=report or _discard_progress, keep_best=keep_best
     )
     if scenario.jobs is not None and scenario.tours is None:
-        return _run_rounds(spec, task, limit, seconds_per_visit, on_plan)
-    return _run(spec, task, limit, seconds_per_visit, on_plan, old=start)[0]
+        return _run_rounds(spec, request, limit, seconds_per_visit, on_plan)
+    return _run(spec, request, limit, seconds_per_visit, on_plan, old=start)[0]
 
 
 @checks_arguments
@@ -181,11 +181,13 @@ def improve(
         message = f"the plan has {judged.summary}; improving starts from a plan without faults"
         raise InputError.at("", f"{message} ({remedy})")
     settled = _settle_options(spec, options, named, seed)
-    task = Task(
+    request = PlanRequest(
         scenario=plan.scenario, **settled, report=report or _discard_progress, keep_best=keep_best
     )
-    task = replace(task, start=plan.tracks)
-    improved, judged = _run(spec, task, limit, seconds_per_visit, on_plan, unserved=plan.unserved)
+    request = replace(request, start=plan.tracks)
+    improved, judged = _run(
+        spec, request, limit, seconds_per_visit, on_plan, unserved=plan.unserved
+    )
     return plan if OF_BATTERIES.intersection(judged.counts) else improved
 
 
@@ -206,7 +208,7 @@ def _settle_options(
     named: dict[str, Any],
     seed: int,
 ) -> dict[str, Any]:
-    """Return the options and the seed of a task, checked."""
+    """Return the options and the seed of a request, checked."""
     if options is not None and named:
         message = f"are given twice, with {', '.join(named)} beside (give one of both)"
         raise InputError.at("options", message)
@@ -216,7 +218,7 @@ def _settle_options(
 
 def _run_rounds(
     spec: PlannerSpec,
-    task: Task,
+    request: PlanRequest,
     time_limit: float | None,
     seconds_per_visit: float,
     on_plan: Callable[[Plan], None] | None,
@@ -224,29 +226,31 @@ def _run_rounds(
     """Assign the jobs of a scenario, plan the tours, and keep the best plan."""
     from rightofway.plan_work import plan_work  # loads the native core
 
-    _refuse_unknown(spec, task)
+    _refuse_unknown(spec, request)
 
     def plan_tours(
         assignment: Assignment, deadline: Deadline, seed: int, offer: Callable[[Plan], None] | None
     ) -> tuple[Plan, Report]:
-        toured = replace(task, scenario=assign_tours(task.scenario, assignment.tours), seed=seed)
+        toured = replace(
+            request, scenario=assign_tours(request.scenario, assignment.tours), seed=seed
+        )
         limit = deadline.measure_seconds_left()
         return _run(spec, toured, limit, seconds_per_visit, offer, unserved=assignment.unserved)
 
     return plan_work(
-        task.scenario,
+        request.scenario,
         plan_tours,
         deadline=Deadline.after(time_limit),
-        seed=task.seed,
+        seed=request.seed,
         better=on_plan or (lambda _: None),
-        report=task.report,
+        report=request.report,
     )
 
 
-def _refuse_unknown(spec: PlannerSpec, task: Task) -> None:
+def _refuse_unknown(spec: PlannerSpec, request: PlanRequest) -> None:
     """Refuse a scenario that needs more than a planner can."""
     refuse_unknown(
-        task.scenario.problem,
+        request.scenario.problem,
         spec.features,
         f"planner {spec.name}",
         lambda needed: f"choose {name_able(needed)}",
@@ -255,7 +259,7 @@ def _refuse_unknown(spec: PlannerSpec, task: Task) -> None:
 
 def _run(
     spec: PlannerSpec,
-    task: Task,
+    request: PlanRequest,
     time_limit: float | None,
     seconds_per_visit: float,
     on_plan: Callable[[Plan], None] | None,
@@ -273,7 +277,7 @@ def _run(
     from rightofway.search import compute_least_completions
 
     seconds_per_visit = make_range(0, 3600).read_at("seconds_per_visit", seconds_per_visit)
-    _refuse_unknown(spec, task)
+    _refuse_unknown(spec, request)
     began, deadline = time.perf_counter(), Deadline.after(time_limit)
     with_plan: list[float] = []  # how long planning took until there was a plan [s]
 
@@ -281,32 +285,34 @@ def _run(
         with_plan.append(time.perf_counter() - began)
 
     with limit_work(deadline):
-        alone = compute_least_completions(task.scenario, time_limit=deadline.measure_seconds_left())
+        alone = compute_least_completions(
+            request.scenario, time_limit=deadline.measure_seconds_left()
+        )
         if alone is None:
             raise GaveUp(Fact("time over", doing=Fact("measuring distances")))
-        refuse_stranded(task.scenario, np.flatnonzero(alone < 0).tolist())
-        least_visits = _estimate_visits(task.scenario, alone.tolist())
-        task = replace(
-            task,
+        refuse_stranded(request.scenario, np.flatnonzero(alone < 0).tolist())
+        least_visits = _estimate_visits(request.scenario, alone.tolist())
+        request = replace(
+            request,
             alone=alone,
             deadline=deadline.bring_forward(seconds_per_visit * least_visits),
             has_plan=keep,
         )
         if on_plan is not None:
-            task = replace(task, better=_make_hand_over(on_plan, spec, task, unserved))
-        if task.start is not None:
+            request = replace(request, better=_make_hand_over(on_plan, spec, request, unserved))
+        if request.start is not None:
             keep()
         try:
-            draft = _make_draft(spec, task, old)
+            draft = _make_draft(spec, request, old)
         except GaveUp as error:
             error.lower_bound = max(int(alone.sum()), error.lower_bound or 0)
             raise
     keep()
-    start = None if old is None else compare_with_start(old, task.scenario, draft.tracks)
+    start = None if old is None else compare_with_start(old, request.scenario, draft.tracks)
     run = PlannerRun(
         name=spec.name,
-        options=_format_options(task),
-        seed=task.seed,
+        options=_format_options(request),
+        seed=request.seed,
         status=None if draft.status is None else Status.of(draft.status),
         seconds=with_plan[-1],
         first_plan_seconds=with_plan[0],
@@ -317,33 +323,33 @@ def _run(
         start=start,
         alone=tuple(alone.tolist()),
     )
-    plan = _make_plan(task, draft.tracks, run, unserved)
+    plan = _make_plan(request, draft.tracks, run, unserved)
     report = check(plan)
     may_have = {"swap conflict"} if draft.keeps_swaps else OF_BATTERIES
     if not may_have.issuperset(report.counts):
         raise InvalidPlan(f"{spec.name} made a plan with {report}")
-    outcome = _classify_outcome(spec, task, draft, plan, keeps_rules=report.ok)
+    outcome = _classify_outcome(spec, request, draft, plan, keeps_rules=report.ok)
     return replace(plan, run=replace(run, outcome=outcome)), report
 
 
 def _make_plan(
-    task: Task,
+    request: PlanRequest,
     tracks: Sequence[Track],
     run: PlannerRun,
     unserved: Sequence[tuple[int, UnservedReason]] = (),
 ) -> Plan:
     """Return the plan of a planner's tracks: robots wait before chains, not on them."""
-    driven = wait_before_chains(task.scenario.problem, tracks)
-    return Plan(scenario=task.scenario, tracks=driven, run=run, unserved=tuple(unserved))
+    driven = wait_before_chains(request.scenario.problem, tracks)
+    return Plan(scenario=request.scenario, tracks=driven, run=run, unserved=tuple(unserved))
 
 
 def _classify_outcome(
-    spec: PlannerSpec, task: Task, draft: Draft, plan: Plan, *, keeps_rules: bool
+    spec: PlannerSpec, request: PlanRequest, draft: Draft, plan: Plan, *, keeps_rules: bool
 ) -> Outcome:
     """Return the proof of a plan: by its planner, and by the robots alone."""
     if plan.scenario.jobs is not None:
         return derive_outcome(plan)  # other tours may be better, whatever is proven of these
-    alone, objective = plan.lower_bound, task.objective
+    alone, objective = plan.lower_bound, request.objective
     if objective.has_makespan:
         weights = plan.scenario.problem.weights
         alone = Tick(objective.compute_values(weights, plan.run.alone or ())[0])
@@ -360,30 +366,30 @@ def _classify_outcome(
     return classify_cost(cost, proof)
 
 
-def _format_options(task: Task) -> dict[str, Any]:
+def _format_options(request: PlanRequest) -> dict[str, Any]:
     """Return the options as files keep them: an exact number as a whole number or text."""
     return {
         name: format_number(value) if isinstance(value, Fraction) else value
-        for name, value in task.options.items()
+        for name, value in request.options.items()
     }
 
 
-def _make_draft(spec: PlannerSpec, task: Task, old: Plan | None) -> Draft:
+def _make_draft(spec: PlannerSpec, request: PlanRequest, old: Plan | None) -> Draft:
     """Return the draft of a planner, from an old plan where there is one that helps."""
     # Both load the native core: not for help.
     from rightofway.repair.impossible import refuse_closed_ways
     from rightofway.resume.warm_start import make_first_plan
 
-    tracks = None if old is None else make_first_plan(task, old)
+    tracks = None if old is None else make_first_plan(request, old)
     if tracks is None:
         if old is not None:
-            task.report(Fact("planning from nothing"))
-        refuse_closed_ways(task.scenario, task.deadline)
-        return spec.load()(task)
-    task.has_plan()
-    task.better(lambda: tracks)
+            request.report(Fact("planning from nothing"))
+        refuse_closed_ways(request.scenario, request.deadline)
+        return spec.load()(request)
+    request.has_plan()
+    request.better(lambda: tracks)
     try:
-        return spec.load()(replace(task, start=tracks))
+        return spec.load()(replace(request, start=tracks))
     except GaveUp:
         return Draft(tracks=tracks, status=Status("adapted"))
 
@@ -391,27 +397,27 @@ def _make_draft(spec: PlannerSpec, task: Task, old: Plan | None) -> Draft:
 def _make_hand_over(
     on_plan: Callable[[Plan], None],
     spec: PlannerSpec,
-    task: Task,
+    request: PlanRequest,
     unserved: Sequence[tuple[int, UnservedReason]],
 ) -> Callable[[Callable[[], Sequence[Track]]], None]:
     """Return a function that hands plans of a planner that goes on to the caller of `solve`.
 
     A planner that tries several methods calls it with the plan of each; only better ones go on.
     """
-    assert task.alone is not None, "it is measured before planning"
-    alone = tuple(task.alone.tolist())
+    assert request.alone is not None, "it is measured before planning"
+    alone = tuple(request.alone.tolist())
     run = PlannerRun(
         name=spec.name,
-        options=_format_options(task),
-        seed=task.seed,
+        options=_format_options(request),
+        seed=request.seed,
         status=Status("so far"),
         alone=alone,
     )
     least: list[tuple[Tick, Tick]] = []
 
     def hand_over(tracks: Callable[[], Sequence[Track]]) -> None:
-        plan = _make_plan(task, tracks(), run, unserved)
-        rating = task.measure_worth(plan.tracks)
+        plan = _make_plan(request, tracks(), run, unserved)
+        rating = request.measure_worth(plan.tracks)
         if not least or rating < least[-1]:
             least.append(rating)
             on_plan(plan)

@@ -12,69 +12,69 @@ from pathlib import Path
 
 from rightofway.errors import GaveUp
 from rightofway.model import Track
-from rightofway.planners import Draft, PlannerSpec, Task, find
+from rightofway.planners import Draft, PlannerSpec, PlanRequest, find
 
 __all__ = ["NAMES", "install"]
 
 
-def sleepy(task: Task) -> Draft:
+def sleepy(request: PlanRequest) -> Draft:
     """Leave a note of each try with who asked for it, and take half a second."""
     Path(f"try-{uuid.uuid4().hex}").write_text(str(os.getppid()), encoding="utf-8")
     time.sleep(0.5)
-    return settled(task)
+    return settled(request)
 
 
-def settled(task: Task) -> Draft:
+def settled(request: PlanRequest) -> Draft:
     spec = find("two-level")
-    draft = spec.load()(replace(task, options=spec.settle({})))
+    draft = spec.load()(replace(request, options=spec.settle({})))
     return Draft(tracks=draft.tracks, status="well rested")
 
 
-def chatty(task: Task) -> Draft:
+def chatty(request: PlanRequest) -> Draft:
     print("planning", flush=True)  # noqa: T201 (other people's planners print)
-    return settled(task)
+    return settled(request)
 
 
-def liar(task: Task) -> Draft:
-    homes = tuple(Track.of([robot.home], [0]) for robot in task.scenario.robots)
+def liar(request: PlanRequest) -> Draft:
+    homes = tuple(Track.of([robot.home], [0]) for robot in request.scenario.robots)
     return Draft(tracks=homes, status="nobody moves")
 
 
-def suicide(_: Task) -> Draft:
+def suicide(_: PlanRequest) -> Draft:
     os.kill(os.getpid(), signal.SIGKILL)
     raise AssertionError
 
 
-def patricide(_: Task) -> Draft:
+def patricide(_: PlanRequest) -> Draft:
     os.kill(os.getppid(), signal.SIGKILL)
     time.sleep(60)
     raise AssertionError
 
 
-def quitter(_: Task) -> Draft:
+def quitter(_: PlanRequest) -> Draft:
     os.write(2, b"assertion failed: x > 0\n")
     os._exit(3)
 
 
-def hungry(_: Task) -> Draft:
+def hungry(_: PlanRequest) -> Draft:
     raise MemoryError("no room for 1e12 bytes")
 
 
-def buggy(_: Task) -> Draft:
+def buggy(_: PlanRequest) -> Draft:
     raise RuntimeError('two\nlines, "quoted"')
 
 
-def lazy(_: Task) -> Draft:
+def lazy(_: PlanRequest) -> Draft:
     raise GaveUp("it is too hot")
 
 
-def stuck(_: Task) -> Draft:
+def stuck(_: PlanRequest) -> Draft:
     Path("stuck").write_text(str(os.getpid()), encoding="utf-8")
     time.sleep(600)
     raise AssertionError
 
 
-PLANNERS: tuple[Callable[[Task], Draft], ...] = (
+PLANNERS: tuple[Callable[[PlanRequest], Draft], ...] = (
     sleepy, chatty, liar, suicide, patricide, quitter, hungry, buggy, lazy, stuck,
 )  # fmt: skip
 NAMES = [planner.__name__ for planner in PLANNERS]

@@ -9,7 +9,7 @@ import rightofway
 from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.model import Rules, Scenario
 from rightofway.repair.impossible import refuse_blocked
-from rightofway.repair.task import Task
+from rightofway.repair.plan_request import PlanRequest
 from tests.builders.any_plan import QUICK
 from tests.builders.fleets import grid_fleet
 from tests.builders.laws import law, leave
@@ -55,7 +55,7 @@ def test_a_blocking_set_is_blocked_and_minimal(scenario: Scenario) -> None:
     if has_plan(scenario, everybody):
         leave("a plan exists")
     with pytest.raises(NoPlanExists) as proof:
-        refuse_blocked(Task(scenario=scenario))
+        refuse_blocked(PlanRequest(scenario=scenario))
     check_minimal(scenario, proof.value)
 
 

@@ -15,7 +15,7 @@ from rightofway.model import Plan, PlannerRun, Scenario, Track, find_stays
 from rightofway.model.stays import compute_drives
 from rightofway.planners.lns import lns
 from rightofway.planners.prioritized import prioritized
-from rightofway.repair.task import Task
+from rightofway.repair.plan_request import PlanRequest
 from tests.builders.any_fleet import any_fleet
 from tests.builders.laws import law, leave
 from tests.builders.timed import draw_arcs, draw_times
@@ -80,14 +80,16 @@ def test_plans_keep_the_order_of_stages_of_several_robots(scenario: Scenario, se
 
 
 def judge(scenario: Scenario, seed: int) -> None:
-    task = Task(scenario=scenario, options={"order": "shortest", "iterations": 50}, seed=seed)
+    request = PlanRequest(
+        scenario=scenario, options={"order": "shortest", "iterations": 50}, seed=seed
+    )
     try:
-        first = prioritized(task)
+        first = prioritized(request)
     except (GaveUp, NoPlanExists):
         leave("no plan was found")
     keeps_times(scenario, first.tracks)
     assert is_free_of_conflicts(scenario, first.tracks)
-    better = lns(task)
+    better = lns(request)
     keeps_times(scenario, better.tracks)
     assert is_free_of_conflicts(scenario, better.tracks)
-    assert task.measure_worth(better.tracks) <= task.measure_worth(first.tracks)
+    assert request.measure_worth(better.tracks) <= request.measure_worth(first.tracks)

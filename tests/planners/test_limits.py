@@ -17,7 +17,7 @@ from rightofway import search
 from rightofway.errors import GaveUp, InputError
 from rightofway.metrics import compute_alone_completions
 from rightofway.model import Robot, Rules, Scenario, Stop, Tick
-from rightofway.planners import Deadline, Task
+from rightofway.planners import Deadline, PlanRequest
 from rightofway.planners.priorities import fixed_priority
 from rightofway.planners.two_level import two_level
 from rightofway.site import VertexId, make_grid_roadmap
@@ -76,9 +76,11 @@ def test_distances_are_not_measured_beyond_the_time_limit(scenario: Scenario) ->
 
 def test_routes_are_not_chosen_beyond_the_time_limit(crowd: Scenario) -> None:
     for planner in (two_level, fixed_priority):
-        task = Task(scenario=crowd, options={"routes": "clear"}, deadline=Deadline.after(0))
+        request = PlanRequest(
+            scenario=crowd, options={"routes": "clear"}, deadline=Deadline.after(0)
+        )
         with pytest.raises(GaveUp, match="time ran out while choosing routes"):
-            planner(task)
+            planner(request)
 
 
 def test_a_circle_of_one_way_lanes_does_not_keep_a_call_for_ever() -> None:

@@ -13,7 +13,7 @@ from rightofway.errors import GaveUp
 from rightofway.facts import Fact
 from rightofway.metrics import measure
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Status, Track, compute_cost
-from rightofway.planners import Deadline, PrioritizedOptions, Task
+from rightofway.planners import Deadline, PlanRequest, PrioritizedOptions
 from rightofway.planners.lns import lns
 from rightofway.planners.prioritized import prioritized
 from rightofway.search import FleetSearch
@@ -24,8 +24,8 @@ CROWDED = random_fleet(5, size=10, robots=30, rules=Rules(occupancy="both"))
 
 def test_a_given_plan_is_where_it_starts_and_what_comes_out_is_no_worse() -> None:
     given = rightofway.solve(CROWDED, "two-level")
-    task = Task(scenario=CROWDED, options={"iterations": 40}, start=given.tracks)
-    draft = lns(task)
+    request = PlanRequest(scenario=CROWDED, options={"iterations": 40}, start=given.tracks)
+    draft = lns(request)
     better = Plan(scenario=CROWDED, tracks=draft.tracks, run=PlannerRun(name="lns"))
     assert rightofway.check(better).ok
     assert measure(better).flowtime < measure(given).flowtime
@@ -120,7 +120,7 @@ def test_robots_that_find_no_way_at_their_own_speeds_find_one_at_one_pace(
     for occupancy in ("one", "both"):
         rules = Rules(occupancy=occupancy, headway=Fraction(1, 2))
         fleet = random_fleet(8, size=9, robots=14, rules=rules)
-        draft = prioritized(Task(scenario=fleet, options={"order": "shortest"}))
+        draft = prioritized(PlanRequest(scenario=fleet, options={"order": "shortest"}))
         plan = Plan(scenario=fleet, tracks=draft.tracks, run=PlannerRun(name="prioritized"))
         assert rightofway.check(plan).ok
         assert draft.status == Status("in turn at one pace")
@@ -130,7 +130,7 @@ def test_without_time_it_gives_up() -> None:
     many = random_fleet(1, size=64, robots=300)
     deadline = Deadline.after(0.0)
     with pytest.raises(GaveUp):
-        lns(Task(scenario=many, options={"iterations": 0}, deadline=deadline))
+        lns(PlanRequest(scenario=many, options={"iterations": 0}, deadline=deadline))
 
 
 def test_robots_that_may_stay_at_home_are_sent_back_there() -> None:

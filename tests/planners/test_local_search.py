@@ -7,7 +7,7 @@ import pytest
 import rightofway
 from rightofway.metrics import measure
 from rightofway.model import Plan, Rules, Scenario, Status, Track
-from rightofway.planners import Task
+from rightofway.planners import PlanRequest
 from rightofway.planners.local_search import local_search
 from tests.builders.fleets import grid_fleet, random_fleet
 
@@ -50,7 +50,7 @@ def test_one_flip_lets_the_fast_robot_through_before_the_slow_one() -> None:
         Track.of([vertex(v) for v in ["N0", *corridor, "N7"]], [0, *range(10, 46, 5), 46]),
         Track.of([vertex(v) for v in ["N16", *corridor, "N23"]], range(0, 46, 5)),
     )
-    draft = local_search(Task(scenario=scenario, options={"rounds": 0}, start=behind))
+    draft = local_search(PlanRequest(scenario=scenario, options={"rounds": 0}, start=behind))
     assert [int(track.enter[-1]) for track in draft.tracks] == [9, 45]
     assert draft.status == Status("reversals", objective="flowtime", before=91, after=54)
 

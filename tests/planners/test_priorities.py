@@ -135,11 +135,11 @@ class Costs:
         self.orders.append(order)
         return order
 
-    def plan(self, task: rightofway.planners.Task, *_: object) -> Draft:
+    def plan(self, request: rightofway.planners.PlanRequest, *_: object) -> Draft:
         if not self.left:
             raise GaveUp("time ran out")
         cost = self.left.pop(0)
-        tracks = [Track.of([0], [0]) for _ in task.scenario.robots[1:]]
+        tracks = [Track.of([0], [0]) for _ in request.scenario.robots[1:]]
         return Draft(tracks=(Track.of([0], [cost]), *tracks), status=f"cost {cost}")
 
 
@@ -159,8 +159,10 @@ def pretend(monkeypatch: pytest.MonkeyPatch) -> Pretend:
 
 def drafted(planner: str, **options: int) -> Draft:
     spec = rightofway.planners.find(planner)
-    task = rightofway.planners.Task(scenario=random_fleet(0), options=spec.settle(options))
-    return spec.load()(task)
+    request = rightofway.planners.PlanRequest(
+        scenario=random_fleet(0), options=spec.settle(options)
+    )
+    return spec.load()(request)
 
 
 def moved(one: Sequence[int], other: Sequence[int]) -> int:

@@ -11,8 +11,8 @@ from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.model import Plan, Rules, Scenario, Status
 from rightofway.model.kept_facts import RerouteReason
 from rightofway.planners.two_level import replay_movement_groups
+from rightofway.repair.plan_request import PlanRequest
 from rightofway.repair.routing import choose_routes
-from rightofway.repair.task import Task
 from tests.builders.fleets import PAPER, grid_fleet, paper_scenario, random_fleet
 
 CASES = {case["name"]: case for case in PAPER}
@@ -137,7 +137,7 @@ def test_a_robot_planned_again_on_its_own_route_is_not_called_rerouted() -> None
     scenario = random_fleet(29, size=6, robots=8)
     plan = solve(scenario)
     assert plan.run.status == Status("re-routed", robots=["R7"])
-    _, routes = choose_routes(Task(scenario=scenario, options={"routes": "clear"}))
+    _, routes = choose_routes(PlanRequest(scenario=scenario, options={"routes": "clear"}))
     driven = [tuple(track.vertices.tolist()) for track in plan.tracks]
     other = [robot for robot, route in enumerate(routes) if driven[robot] != route.vertices]
     assert other == [reroute.robot for reroute in plan.run.reroutes] == [6]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from rightofway.model import Rules
-from rightofway.planners import Task
+from rightofway.planners import PlanRequest
 from rightofway.planners.two_level import plan_by_two_levels
 from rightofway.repair.conflict_resolution import PartialPlan
 from rightofway.repair.routing import find_shortest_routes
@@ -19,7 +19,7 @@ def test_a_deadlock_is_explained_by_its_circle() -> None:
     rules = Rules(occupancy="both", ends="none", turn=Fraction(0))
     scenario = grid_fleet(["..", ".."], trips, rules=rules)
     routes = find_shortest_routes(scenario, Distances(scenario.roadmap))
-    plan = PartialPlan(Task(scenario=scenario), routes)
+    plan = PartialPlan(PlanRequest(scenario=scenario), routes)
     plan.resolve_all(plan_by_two_levels)
     [why] = plan.deferred.values()
     apart, _, circle = str(why).partition(": in a circle, ")

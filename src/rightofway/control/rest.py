@@ -32,7 +32,7 @@ from rightofway.model import (
 from rightofway.model.route import make_route_through
 from rightofway.precedence import ReleaseGraph, build_graph
 from rightofway.repair.local_search import LocalSearch
-from rightofway.repair.task import Task
+from rightofway.repair.plan_request import PlanRequest
 from rightofway.resume.held import list_held
 from rightofway.resume.rest_of_fleet import MOST_ASIDE, RestOfFleet, StopToMake
 from rightofway.site import Roadmap
@@ -245,7 +245,9 @@ class RestPlanner:
             for visit in range(first, first + len(commitments[robot].part.vertices))
         }
         before = graph.compute_flowtime()
-        LocalSearch(Task(scenario=whole), graph, lambda visit: visit not in committed).descend()
+        LocalSearch(
+            PlanRequest(scenario=whole), graph, lambda visit: visit not in committed
+        ).descend()
         if (before - graph.compute_flowtime()) * SHARE < before:
             return None
         tracks = graph.build_tracks()

@@ -13,7 +13,7 @@ from rightofway.cyclic.problem import Candidate, CyclicProblem, RobotCycle
 from rightofway.cyclic.route import make_lap_rows
 from rightofway.errors import GaveUp
 from rightofway.model import Itinerary, Scenario, Tick, Track, make_lap, make_route
-from rightofway.planners import Task
+from rightofway.planners import PlanRequest
 from rightofway.planners.lacam import lacam
 from rightofway.planners.prioritized import prioritized
 
@@ -36,7 +36,7 @@ def repeat_plan(problem: CyclicProblem) -> Candidate | None:
     if context.is_apart:
         headway = scenario.problem.clock.convert_to_time(context.booking_rules.end(Tick(0)))
         part = replace(part, rules=replace(part.rules, headway=headway))
-    task = Task(
+    request = PlanRequest(
         scenario=part,
         options={"paths": "spread"},
         seed=problem.draw.randrange(2**31),
@@ -44,9 +44,9 @@ def repeat_plan(problem: CyclicProblem) -> Candidate | None:
     )
     try:
         if scenario.problem.resources.are_points:
-            tracks = lacam(task).tracks
+            tracks = lacam(request).tracks
         else:
-            tracks = prioritized(replace(task, options={"order": "shortest"})).tracks
+            tracks = prioritized(replace(request, options={"order": "shortest"})).tracks
     except GaveUp:
         return None
     factor = part.problem.clock.tick / scenario.problem.clock.tick

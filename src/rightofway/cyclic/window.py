@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from rightofway.cyclic.route import GroupContext
 from rightofway.model import Route, Tick
 from rightofway.native import BookedRows, bind_lists
-from rightofway.planners import Deadline, Task
+from rightofway.planners import Deadline, PlanRequest
 from rightofway.precedence import Meeting, PrecedenceGraph, Segment
 from rightofway.repair.conflict_resolution import PartialPlan
 from rightofway.site import VertexId
@@ -76,8 +76,10 @@ class Window:
             frozen=[visit for f, s, past in known for visit in range(f, f + len(past) - s)],
             rows=self._list_rows(),
         )
-        task = Task(scenario=context.scenario, options={"swaps": "resolve"}, deadline=deadline)
-        self.fleet = PartialPlan(task, self.routes, graph=self.graph)
+        request = PlanRequest(
+            scenario=context.scenario, options={"swaps": "resolve"}, deadline=deadline
+        )
+        self.fleet = PartialPlan(request, self.routes, graph=self.graph)
         self._ends = [visit - 1 for visit in first[1:]]
 
     def get_node(self, robot: int, number: int) -> int:

@@ -57,7 +57,7 @@ from rightofway.model.passing import wait_before_chains
 from rightofway.model.work import PATIENCE
 from rightofway.precedence import build_timetable
 from rightofway.repair.fleet_search import make_fleet_search
-from rightofway.repair.task import Task
+from rightofway.repair.plan_request import PlanRequest
 from rightofway.resume.commitment import list_closures_after
 from rightofway.resume.held import list_held
 from rightofway.search import Distances
@@ -302,7 +302,7 @@ class RoundPlanner:
     ) -> tuple[Track, ...] | None:
         """Return tracks that start from the old ones of robots with the same tours, improved."""
         judging = deadline.shorten(1 - SHARE_TO_JUDGE)
-        search = make_fleet_search(Task(scenario=toured, seed=seed, deadline=judging))
+        search = make_fleet_search(PlanRequest(scenario=toured, seed=seed, deadline=judging))
         tracks = _list_old_tracks(toured, old)
         try:
             search.start(tracks)

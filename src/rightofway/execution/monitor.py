@@ -26,7 +26,7 @@ from rightofway.model import NEVER, ExecutionTrace
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, RunBatch
 from rightofway.repair.local_search import LocalSearch
-from rightofway.repair.task import Task
+from rightofway.repair.plan_request import PlanRequest
 
 HORIZON = 2
 """Delays later than this multiple of the makespan, planned or actual, are ignored."""
@@ -202,8 +202,8 @@ def _switch_rights(forecast: Forecast) -> ActionDependencyGraph | None:
     """
     adg, booked = forecast.adg, forecast.booked
     mark = forecast.graph.checkpoint()
-    task = Task(scenario=adg.scenario)
-    LocalSearch(task, forecast.graph, lambda visit: not booked[visit]).descend()
+    request = PlanRequest(scenario=adg.scenario)
+    LocalSearch(request, forecast.graph, lambda visit: not booked[visit]).descend()
     order = adg.order_at(forecast.compute_times())
     # A visit that has begun must not wait for one that has not.
     first, second = order.T

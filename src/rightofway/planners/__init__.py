@@ -5,10 +5,10 @@ from rightofway.planners import options
 from rightofway.planners.features import ANY_FLEET, Feature
 from rightofway.planners.options import *  # noqa: F403
 from rightofway.planners.registry import DEFAULT_PLANNER, IMPROVER, PlannerSpec, find, find_all
-from rightofway.repair.task import (
+from rightofway.repair.plan_request import (
     Draft,
     Planner,
-    Task,
+    PlanRequest,
 )
 
 __all__ = [
@@ -18,9 +18,9 @@ __all__ = [
     "Deadline",
     "Draft",
     "Feature",
+    "PlanRequest",
     "Planner",
     "PlannerSpec",
-    "Task",
     "find",
     "find_all",
 ]

@@ -23,7 +23,7 @@ from rightofway.repair.bounds import compute_price_bound, finish_optimum
 from rightofway.repair.fleet_search import make_fleet_search
 from rightofway.repair.impossible import refuse_blocked
 from rightofway.repair.makespan import MakespanSearch, measure_alone
-from rightofway.repair.task import Draft, Task
+from rightofway.repair.plan_request import Draft, PlanRequest
 from rightofway.search import ConflictBasedSearch
 
 FEW = 60
@@ -43,80 +43,84 @@ LEAST_IDLE = 0.02
 """With a smaller part of the time left after the improvement, nothing more is proven."""
 
 
-def auto(task: Task) -> Draft:
+def auto(request: PlanRequest) -> Draft:
     """Plan by several methods, and improve the best plan or prove it; options: `AutoOptions`.
 
     With ``swaps=leave`` it is `paper`, for points only.
     """
-    if task.options["swaps"] == "leave":
-        if task.start is not None:
+    if request.options["swaps"] == "leave":
+        if request.start is not None:
             message = "leave cannot start from a plan (choose swaps=resolve)"
             raise InputError.at(("options", "swaps"), message)
-        refuse_with_swaps_left(task.scenario.problem)
-        return paper(task)
-    if task.scenario.problem.has_times:
-        return lns(task)  # the other methods do not know times
-    return finish_optimum(task, _find_best(task))
+        refuse_with_swaps_left(request.scenario.problem)
+        return paper(request)
+    if request.scenario.problem.has_times:
+        return lns(request)  # the other methods do not know times
+    return finish_optimum(request, _find_best(request))
 
 
-def _find_best(task: Task) -> Draft:
+def _find_best(request: PlanRequest) -> Draft:
     """Return the best plan of several methods, with its proof."""
-    prover = _Prover(task)
+    prover = _Prover(request)
     # Small fleets get the plan of the paper first, because each of its decisions has a reason.
-    first = _find_explained(task)
+    first = _find_explained(request)
     if first is not None:
-        nodes = min(FIRST_NODES, task.options["nodes"] or FIRST_NODES)
+        nodes = min(FIRST_NODES, request.options["nodes"] or FIRST_NODES)
         first = prover.prove(first, nodes, SHARE_OF_FIRST_NODES)
-        if _is_optimal(task, first):
+        if _is_optimal(request, first):
             return first
     try:
-        better = _improve_first(task, first)
+        better = _improve_first(request, first)
     except GaveUp:
         # A large fleet would only lose time in a tree that cannot be searched.
-        if len(task.scenario.robots) > FEW:
+        if len(request.scenario.robots) > FEW:
             raise
         optimum = prover.search()
         if optimum is None:
             raise
         return optimum
     is_interrupted = better.improvement is not None and better.improvement.interrupted
-    if is_interrupted or _is_optimal(task, better):
+    if is_interrupted or _is_optimal(request, better):
         return better
-    better = prover.prove(better, task.options["nodes"], SHARE_OF_NODES)
-    return better if _is_optimal(task, better) else prover.prove_by_prices(better)
+    better = prover.prove(better, request.options["nodes"], SHARE_OF_NODES)
+    return better if _is_optimal(request, better) else prover.prove_by_prices(better)
 
 
-def _find_explained(task: Task) -> Draft | None:
+def _find_explained(request: PlanRequest) -> Draft | None:
     """Return the plan of two-level for a small fleet, unless a plan given is better."""
-    if len(task.scenario.robots) > FEW:
+    if len(request.scenario.robots) > FEW:
         return None
-    options = {**task.options, "swaps": "resolve", "routes": "clear"}
-    hurried = replace(task, options=options, start=None, deadline=task.deadline.shorten(SHARE))
+    options = {**request.options, "swaps": "resolve", "routes": "clear"}
+    hurried = replace(
+        request, options=options, start=None, deadline=request.deadline.shorten(SHARE)
+    )
     try:
         explained = two_level(hurried)
     except GaveUp:
         return None
-    task.has_plan()
-    task.better(lambda: explained.tracks)
-    is_given = task.start is not None and explained.tracks != task.start
-    if is_given and task.measure_worth(task.start or ()) <= task.measure_worth(explained.tracks):
+    request.has_plan()
+    request.better(lambda: explained.tracks)
+    is_given = request.start is not None and explained.tracks != request.start
+    if is_given and request.measure_worth(request.start or ()) <= request.measure_worth(
+        explained.tracks
+    ):
         return None
     status = Status("by planner", planner="two-level", status=explained.status)
     return replace(explained, status=status)
 
 
-def _improve_first(task: Task, first: Draft | None) -> Draft:
+def _improve_first(request: PlanRequest, first: Draft | None) -> Draft:
     """Improve the first plan by large neighbourhood search; keep it where nothing is better."""
     if first is None:
-        return lns(task)
+        return lns(request)
     try:
-        if task.start is None:
-            better = improve_best(task, make_fleet_search(task), first=first)
+        if request.start is None:
+            better = improve_best(request, make_fleet_search(request), first=first)
         else:
-            better = replace(lns(replace(task, start=first.tracks)), proof=first.proof)
+            better = replace(lns(replace(request, start=first.tracks)), proof=first.proof)
     except GaveUp:
         return first
-    if task.measure_worth(better.tracks) < task.measure_worth(first.tracks):
+    if request.measure_worth(better.tracks) < request.measure_worth(first.tracks):
         return better
     return replace(first, status=better.status, improvement=better.improvement)
 
@@ -124,23 +128,23 @@ def _improve_first(task: Task, first: Draft | None) -> Draft:
 class _Prover:
     """Conflict-based search beside other methods: it goes on where it was."""
 
-    def __init__(self, task: Task) -> None:
-        self._task = task
-        self._whole = task.deadline.measure_seconds_left()
+    def __init__(self, request: PlanRequest) -> None:
+        self._request = request
+        self._whole = request.deadline.measure_seconds_left()
         self._search: ConflictBasedSearch | None = None
 
     def prove(self, draft: Draft, nodes: int, share: float = 1.0) -> Draft:
         """Return a plan with its proof, or the optimum."""
-        task, objective = self._task, self._task.objective
+        request, objective = self._request, self._request.objective
         if objective.has_makespan:
             return self._try_makespan_proof(draft, nodes, share)
-        search = self._run(nodes, share, upper=task.measure_worth(draft.tracks)[0])
+        search = self._run(nodes, share, upper=request.measure_worth(draft.tracks)[0])
         if search is None or search.bound is None:
             return draft
         proof = Proof(bound=search.bound, objective=objective)
         tracks, nodes = search.tracks, search.n_nodes
         if tracks is not None:
-            task.better(lambda: tracks)
+            request.better(lambda: tracks)
             status = Status("optimum found by search", nodes=nodes)
             return Draft(tracks=tracks, status=status, proof=proof)
         if search.is_proven:
@@ -149,17 +153,17 @@ class _Prover:
         return replace(draft, proof=proof)
 
     def _try_makespan_proof(self, draft: Draft, nodes: int, share: float) -> Draft:
-        task = self._task
+        request = self._request
         if not self._may_search():
             return draft
         search = MakespanSearch(
-            task=replace(task, deadline=task.deadline.shorten(share)),
-            trees=lambda latest: ConflictBasedSearch(task.scenario.problem, latest=latest),
+            request=replace(request, deadline=request.deadline.shorten(share)),
+            trees=lambda latest: ConflictBasedSearch(request.scenario.problem, latest=latest),
             tracks=draft.tracks,
             nodes=nodes,
         )
         search.run()
-        proof = Proof(bound=Tick(search.bound), objective=task.objective)
+        proof = Proof(bound=Tick(search.bound), objective=request.objective)
         if search.value == search.bound:
             status = Status("proven by search", nodes=search.n_nodes, status=draft.status)
             if search.tracks is not draft.tracks:
@@ -171,17 +175,17 @@ class _Prover:
 
     def prove_by_prices(self, draft: Draft) -> Draft:
         """Return a plan with a bound by prices of places, where that is higher."""
-        task = self._task
+        request = self._request
         if not self._has_time():
             return draft
-        objective = task.objective
+        objective = request.objective
         if objective is Objective.MAKESPAN:
             return draft  # prices add up what robots lose
-        least = compute_price_bound(task.scenario, task.deadline, task.options["nodes"])
+        least = compute_price_bound(request.scenario, request.deadline, request.options["nodes"])
         if objective is Objective.BOTH:
             # Prices bound the flowtime; the makespan is at least that of the last robot alone.
-            weight = sum(task.scenario.problem.weights)
-            least = Tick(least + weight * max(measure_alone(task)))
+            weight = sum(request.scenario.problem.weights)
+            least = Tick(least + weight * max(measure_alone(request)))
         if draft.proof is not None and draft.proof.bound >= least:
             return draft
         return replace(draft, proof=Proof(bound=least, objective=objective))
@@ -194,47 +198,47 @@ class _Prover:
         NoPlanExists
             If that is proven.
         """
-        task = self._task
-        search = self._run(task.options["nodes"], 1, upper=None)
+        request = self._request
+        search = self._run(request.options["nodes"], 1, upper=None)
         if search is None:
             return None
         if search.tracks is not None:
-            task.has_plan()
+            request.has_plan()
             status = Status("optimum found by search", nodes=search.n_nodes)
-            objective = task.objective
+            objective = request.objective
             if objective.has_makespan:
                 status = Status("found by search", nodes=search.n_nodes)
                 draft = Draft(tracks=search.tracks, status=status)
-                return self.prove(draft, task.options["nodes"])
+                return self.prove(draft, request.options["nodes"])
             proof = Proof(bound=search.bound or Tick(0), objective=objective)
             return Draft(tracks=search.tracks, status=status, proof=proof)
         if search.is_proven:
-            refuse_blocked(task)
+            refuse_blocked(request)
         return None
 
     def _run(self, nodes: int, share: float, upper: int | None) -> ConflictBasedSearch | None:
         """Search on; None where there is no time, or where the fleet is too large."""
-        task = self._task
+        request = self._request
         if not self._may_search():
             return None
         if self._search is None:
-            self._search = ConflictBasedSearch(task.scenario.problem)
-        limit = task.deadline.shorten(share).measure_seconds_left()
+            self._search = ConflictBasedSearch(request.scenario.problem)
+        limit = request.deadline.shorten(share).measure_seconds_left()
         try:
             self._search.run(upper=upper, nodes=nodes or None, time_limit=limit)
         except KeyboardInterrupt:
-            if not task.keep_best or upper is None:
+            if not request.keep_best or upper is None:
                 raise
         return self._search
 
     def _may_search(self) -> bool:
-        return len(self._task.scenario.robots) <= MOST_PROVEN and self._has_time()
+        return len(self._request.scenario.robots) <= MOST_PROVEN and self._has_time()
 
     def _has_time(self) -> bool:
-        left = self._task.deadline.measure_seconds_left()
+        left = self._request.deadline.measure_seconds_left()
         return left is None or left > LEAST_IDLE * (self._whole or 0)
 
 
-def _is_optimal(task: Task, draft: Draft) -> bool:
+def _is_optimal(request: PlanRequest, draft: Draft) -> bool:
     """Return whether a plan is proven to be optimal."""
-    return draft.proof is not None and task.measure_worth(draft.tracks)[0] == draft.proof.bound
+    return draft.proof is not None and request.measure_worth(draft.tracks)[0] == draft.proof.bound

@@ -44,7 +44,7 @@ from rightofway.repair.bounds import finish_optimum
 from rightofway.repair.fleet_search import make_fleet_search
 from rightofway.repair.impossible import refuse_blocked
 from rightofway.repair.makespan import MakespanSearch, measure_alone
-from rightofway.repair.task import Draft, Task
+from rightofway.repair.plan_request import Draft, PlanRequest
 from rightofway.search import ConflictBasedSearch
 
 SHARE = 0.25
@@ -64,28 +64,28 @@ factor above 1: the first turns gain most, and take about as long as the plan an
 """
 
 
-def cbs(task: Task) -> Draft:
+def cbs(request: PlanRequest) -> Draft:
     """Plan a fleet with least flowtime and surcharges, or makespan; options: `CbsOptions`."""
-    if task.objective.has_makespan:
-        first = _find_first_plan(task, partial(_is_within, task))
-        draft = _find_with_makespan(task, first or _Tree(task).finish(None))
+    if request.objective.has_makespan:
+        first = _find_first_plan(request, partial(_is_within, request))
+        draft = _find_with_makespan(request, first or _Tree(request).finish(None))
     else:
-        tree = _Tree(task)
-        draft = tree.finish(_find_first_plan(task, tree.prove))
-    return finish_optimum(task, draft)
+        tree = _Tree(request)
+        draft = tree.finish(_find_first_plan(request, tree.prove))
+    return finish_optimum(request, draft)
 
 
-def _search(task: Task, **limits: Any) -> ConflictBasedSearch:
+def _search(request: PlanRequest, **limits: Any) -> ConflictBasedSearch:
     return ConflictBasedSearch(
-        task.scenario.problem,
-        cardinal=task.options["cardinal"] == "first",
-        bypass=task.options["bypass"] == "yes",
-        clear=task.options["clear"] == "yes",
-        targets=task.options["targets"] == "yes",
-        disjoint=task.options["disjoint"] == "yes",
-        pairs=task.options["pairs"] == "yes",
-        pair_nodes=task.options["pair_nodes"],
-        joint_states=task.options["joint_states"],
+        request.scenario.problem,
+        cardinal=request.options["cardinal"] == "first",
+        bypass=request.options["bypass"] == "yes",
+        clear=request.options["clear"] == "yes",
+        targets=request.options["targets"] == "yes",
+        disjoint=request.options["disjoint"] == "yes",
+        pairs=request.options["pairs"] == "yes",
+        pair_nodes=request.options["pair_nodes"],
+        joint_states=request.options["joint_states"],
         **limits,
     )
 
@@ -93,10 +93,10 @@ def _search(task: Task, **limits: Any) -> ConflictBasedSearch:
 class _Tree:
     """A tree for the least flowtime: it grows in turn with a first plan, and then alone."""
 
-    def __init__(self, task: Task) -> None:
-        self._task = task
-        self._factor = Fraction(task.options["suboptimality"])
-        self._search = _search(task, factor=self._factor)
+    def __init__(self, request: PlanRequest) -> None:
+        self._request = request
+        self._factor = Fraction(request.options["suboptimality"])
+        self._search = _search(request, factor=self._factor)
 
     def prove(self, value: Tick, deadline: Deadline) -> bool:
         """Grow by a few nodes; return whether a plan of this cost, or another one, is proven."""
@@ -109,7 +109,7 @@ class _Tree:
         return search.is_proven or is_within
 
     def _search_tree(self, upper: int | None, nodes: int | None, deadline: Deadline) -> None:
-        if most := self._task.options["nodes"]:
+        if most := self._request.options["nodes"]:
             nodes = min(nodes or most, most - self._search.n_nodes)
         if nodes == 0 or self._is_over(upper):
             return
@@ -122,14 +122,14 @@ class _Tree:
 
     def finish(self, first: Draft | None) -> Draft:
         """Return the optimum, a plan within the factor, or the first plan with its proof."""
-        task, scenario, search = self._task, self._task.scenario, self._search
+        request, scenario, search = self._request, self._request.scenario, self._search
         upper = None if first is None else compute_cost(scenario, first.tracks)
         is_interrupted = first and first.improvement and first.improvement.interrupted
         try:
             if not is_interrupted:
-                self._search_tree(upper, None, task.deadline)
+                self._search_tree(upper, None, request.deadline)
         except KeyboardInterrupt:
-            if not task.keep_best or first is None:
+            if not request.keep_best or first is None:
                 raise
             return replace(first, status=Status("interrupted", status=first.status))
         nodes, claim = search.n_nodes, Status("optimal")
@@ -137,16 +137,16 @@ class _Tree:
             claim = Status("within factor", factor=self._factor)
         other = search.tracks
         if other is not None and (upper is None or compute_cost(scenario, other) < upper):
-            task.has_plan()
+            request.has_plan()
             tracks, status = other, Status("found", claim=claim, nodes=nodes)
-            task.better(lambda: tracks)
+            request.better(lambda: tracks)
         elif first is not None:
             tracks = first.tracks
             status = Status("nothing better", nodes=nodes, status=first.status)
             if self._is_over(upper):
                 status = Status("proven", claim=claim, nodes=nodes, status=first.status)
         elif search.is_proven:
-            refuse_blocked(task)
+            refuse_blocked(request)
         else:
             error = GaveUp(Fact("time over for an optimal plan", nodes=nodes))
             if choose_objective(scenario) is Objective.FLOWTIME:  # the message has a bound of that
@@ -160,14 +160,14 @@ class _Tree:
         return Draft(tracks=tracks, status=status, proof=proof)
 
 
-def _find_with_makespan(task: Task, first: Draft) -> Draft:
+def _find_with_makespan(request: PlanRequest, first: Draft) -> Draft:
     """Return the best plan by its makespan, or its makespan and flowtime, with its proof."""
-    objective, factor = task.objective, Fraction(task.options["suboptimality"])
+    objective, factor = request.objective, Fraction(request.options["suboptimality"])
     search = MakespanSearch(
-        task=task,
-        trees=lambda latest: _search(task, latest=latest),
+        request=request,
+        trees=lambda latest: _search(request, latest=latest),
         tracks=first.tracks,
-        nodes=task.options["nodes"],
+        nodes=request.options["nodes"],
         factor=factor,
     )
     search.run()
@@ -184,24 +184,28 @@ def _find_with_makespan(task: Task, first: Draft) -> Draft:
     return Draft(tracks=search.tracks, status=status, proof=proof)
 
 
-def _is_within(task: Task, value: Tick, _: Deadline) -> bool:
+def _is_within(request: PlanRequest, value: Tick, _: Deadline) -> bool:
     """Return whether a makespan is within the factor, which is above 1, as robots alone prove."""
-    factor = Fraction(task.options["suboptimality"])
-    alone = task.objective.compute_values(task.scenario.problem.weights, measure_alone(task))
+    factor = Fraction(request.options["suboptimality"])
+    alone = request.objective.compute_values(
+        request.scenario.problem.weights, measure_alone(request)
+    )
     return factor > 1 and value <= factor * alone[0]
 
 
-def _find_first_plan(task: Task, is_proven: Callable[[Tick, Deadline], bool]) -> Draft | None:
+def _find_first_plan(
+    request: PlanRequest, is_proven: Callable[[Tick, Deadline], bool]
+) -> Draft | None:
     """Return the plan given or one by large neighbourhood search, None where it finds none."""
-    if task.start is not None:
-        return Draft(tracks=task.start, status=Status("given"))
-    iterations = ITERATIONS_PER_ROBOT * len(task.scenario.robots)
+    if request.start is not None:
+        return Draft(tracks=request.start, status=Status("given"))
+    iterations = ITERATIONS_PER_ROBOT * len(request.scenario.robots)
     hurried = replace(
-        task,
-        options={"iterations": iterations, "objective": task.options["objective"]},
-        deadline=task.deadline.shorten(SHARE),
+        request,
+        options={"iterations": iterations, "objective": request.options["objective"]},
+        deadline=request.deadline.shorten(SHARE),
     )
-    turns = TURNS_WITHIN_FACTOR if Fraction(task.options["suboptimality"]) > 1 else 0
+    turns = TURNS_WITHIN_FACTOR if Fraction(request.options["suboptimality"]) > 1 else 0
 
     def is_enough(value: Tick) -> bool:
         nonlocal turns

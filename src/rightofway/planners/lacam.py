@@ -31,7 +31,7 @@ from rightofway.repair.impossible import (
 )
 from rightofway.repair.joint_states import plan_by_joint_states
 from rightofway.repair.moves import plan_by_moves
-from rightofway.repair.task import Draft, Task
+from rightofway.repair.plan_request import Draft, PlanRequest
 from rightofway.search import Distances, FleetSearch, plan_by_lacam
 
 SHARE_OF_TIME = 0.9
@@ -44,67 +44,69 @@ LEAST_EFFORT, EFFORT_PER_PLACE = 2_000_000, 8
 """Choices of the search by instants: the minimum, and the limit per robot and vertex above it."""
 
 
-def lacam(task: Task) -> Draft:
+def lacam(request: PlanRequest) -> Draft:
     """Plan the whole fleet at once; options: `LacamOptions`."""
-    return plan_fleet(task, spreads=task.options["paths"] == "spread")
+    return plan_fleet(request, spreads=request.options["paths"] == "spread")
 
 
-def plan_fleet(task: Task, *, spreads: bool = True) -> Draft:
+def plan_fleet(request: PlanRequest, *, spreads: bool = True) -> Draft:
     """Plan the whole fleet at once; ``spreads``: robots prefer paths that were spread before."""
-    scenario = task.scenario
+    scenario = request.scenario
     problem = scenario.problem
     if problem.is_open:
-        draft = plan_by_instants(task, spreads=spreads)
+        draft = plan_by_instants(request, spreads=spreads)
         if draft is not None:
             return draft
-    elif (draft := plan_by_joint_states(task)) is not None:
+    elif (draft := plan_by_joint_states(request)) is not None:
         return draft
     if not problem.resources.are_points:
-        task.report(Fact("planning single moves"))
-        search = FleetSearch(scenario.problem, seed=task.seed, alone=task.alone)
-        return plan_by_moves(task, search)
+        request.report(Fact("planning single moves"))
+        search = FleetSearch(scenario.problem, seed=request.seed, alone=request.alone)
+        return plan_by_moves(request, search)
     if problem.is_open:
-        task.report(Fact("planning moves without clocks"))
-        refuse_blocked_parts(task)
+        request.report(Fact("planning moves without clocks"))
+        refuse_blocked_parts(request)
     try:
         tracks = plan_by_lacam(
             problem.as_steps(),
-            seed=task.seed,
-            time_limit=task.deadline.measure_seconds_left(),
+            seed=request.seed,
+            time_limit=request.deadline.measure_seconds_left(),
             spreads=spreads and problem.is_open,
         )
     except NoPlanExists:
-        refuse_blocked(task)
+        refuse_blocked(request)
     if not problem.is_open:
         raise GaveUp(Fact("no plan in turn among barred edges"))
     if tracks is None:
         raise GaveUp(Fact("time over for the fleet"))
     in_time = build_timetable(problem, tracks)
     assert in_time is not None, "what took place in some order can take place in it again"
-    task.has_plan()
+    request.has_plan()
     return Draft(tracks=tuple(in_time), status=Status("moves"))
 
 
 def plan_by_instants(
-    task: Task, *, spreads: bool = True, effort: int | None = None
+    request: PlanRequest, *, spreads: bool = True, effort: int | None = None
 ) -> Draft | None:
     """Plan the whole fleet by the search by instants alone; None if it ends without a plan."""
-    scenario, robots, share = task.scenario, len(task.scenario.robots), SHARE_OF_TIME
+    scenario, robots, share = request.scenario, len(request.scenario.robots), SHARE_OF_TIME
     most_effort = max(LEAST_EFFORT, EFFORT_PER_PLACE * robots * scenario.roadmap.n_vertices)
     refuse_stranded(scenario, ())
     try:
         tracks = plan_by_lacam(
             scenario.problem,
-            seed=task.seed,
+            seed=request.seed,
             most_effort=most_effort if effort is None else min(effort, most_effort),
-            time_limit=task.deadline.shorten(share if robots <= MANY else 1).measure_seconds_left(),
+            time_limit=request.deadline.shorten(
+                share if robots <= MANY else 1
+            ).measure_seconds_left(),
             spreads=spreads,
         )
     except NoPlanExists:
         refuse_the_impossible(scenario, Distances(scenario.roadmap))
-        refuse_blocked_parts(task)
-        refuse_blocked(task)
+        refuse_blocked_parts(request)
+        refuse_blocked(request)
     if tracks is None:
         return None
-    task.has_plan()
+    request.has_plan()
     return Draft(tracks=tuple(tracks), status=Status("instants"))

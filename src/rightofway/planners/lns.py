@@ -26,7 +26,7 @@ from rightofway.planners.lacam import plan_by_instants, plan_fleet
 from rightofway.planners.prioritized import MOST_ROBOTS, plan_in_turn, plan_whole_fleet
 from rightofway.precedence import build_graph_of_plan
 from rightofway.repair.fleet_search import make_fleet_search
-from rightofway.repair.task import Draft, Task
+from rightofway.repair.plan_request import Draft, PlanRequest
 from rightofway.search import FleetSearch
 
 SHARE, SHARE_WITH_SIZES = 0.9, 0.2
@@ -62,16 +62,18 @@ IsEnough = Callable[[Tick], bool]
 """Tells whether a plan of some value is good enough; it may search for the proof each time."""
 
 
-def lns(task: Task) -> Draft:
+def lns(request: PlanRequest) -> Draft:
     """Find a plan or take the one given, and improve it till time is up; options: `LnsOptions`."""
-    search = make_fleet_search(task)
-    if task.start is not None:
-        return _run_improvement(task, search, Draft(tracks=task.start, status=Status("given")))
-    return improve_best(task, search)
+    search = make_fleet_search(request)
+    if request.start is not None:
+        return _run_improvement(
+            request, search, Draft(tracks=request.start, status=Status("given"))
+        )
+    return improve_best(request, search)
 
 
 def improve_best(
-    task: Task,
+    request: PlanRequest,
     search: FleetSearch,
     *,
     first: Draft | None = None,
@@ -81,94 +83,94 @@ def improve_best(
 
     It ends as soon as a plan is good enough, which is asked after every few neighbourhoods.
     """
-    problem = task.scenario.problem
+    problem = request.scenario.problem
     drafts: tuple[Draft | None, ...]
     if problem.has_times or not problem.is_open:
-        drafts = (first, _try_search(task, search, needed=first is None))
+        drafts = (first, _try_search(request, search, needed=first is None))
     elif len(problem.itineraries) > MOST_ROBOTS and problem.resources.are_points:
-        drafts = (first, _plan_together(task))
+        drafts = (first, _plan_together(request))
     else:
-        together = _plan_quickly_together(task)
+        together = _plan_quickly_together(request)
         has_plan = first is not None or together is not None
-        drafts = (first, together, _plan_in_turn(task, search, has_plan=has_plan))
+        drafts = (first, together, _plan_in_turn(request, search, has_plan=has_plan))
     plans = [plan for plan in drafts if plan is not None]
     if not plans:
         is_simple = problem.resources.are_points and problem.is_open and not problem.has_times
-        together = _plan_together(task) if is_simple else plan_whole_fleet(task)
+        together = _plan_together(request) if is_simple else plan_whole_fleet(request)
         plans = [together] if together is not None else []
     if not plans:
-        is_over = task.deadline.measure_seconds_left() == 0
+        is_over = request.deadline.measure_seconds_left() == 0
         raise GaveUp(Fact("time over without a plan" if is_over else "no first plan"))
-    best = min(plans, key=lambda plan: task.measure_worth(plan.tracks))
+    best = min(plans, key=lambda plan: request.measure_worth(plan.tracks))
     proof = None if first is None else first.proof
-    return _run_improvement(task, search, replace(best, proof=proof), is_enough)
+    return _run_improvement(request, search, replace(best, proof=proof), is_enough)
 
 
-def _try_search(task: Task, search: FleetSearch, *, needed: bool) -> Draft | None:
+def _try_search(request: PlanRequest, search: FleetSearch, *, needed: bool) -> Draft | None:
     """Plan robots one after another; where a plan is there already, finding none is no error."""
     try:
-        return plan_in_turn(task, search, "shortest")
+        return plan_in_turn(request, search, "shortest")
     except GaveUp:
         if needed:
             raise
         return None
 
 
-def _plan_together(task: Task) -> Draft | None:
+def _plan_together(request: PlanRequest) -> Draft | None:
     """Plan by LaCAM in all the time left, by instants and then without clocks."""
     try:
-        draft = plan_fleet(task)
+        draft = plan_fleet(request)
     except GaveUp:
         return None
-    task.better(lambda: draft.tracks)
+    request.better(lambda: draft.tracks)
     return replace(draft, status=Status("together"))
 
 
-def _plan_quickly_together(task: Task) -> Draft | None:
+def _plan_quickly_together(request: PlanRequest) -> Draft | None:
     """Plan by LaCAM: in an instant, or not at all, as in long narrow lanes."""
-    share = SHARE if task.scenario.problem.resources.are_points else SHARE_WITH_SIZES
-    hurried = replace(task, deadline=task.deadline.shorten(share))
-    draft = plan_by_instants(hurried, effort=EFFORT * len(task.scenario.robots))
+    share = SHARE if request.scenario.problem.resources.are_points else SHARE_WITH_SIZES
+    hurried = replace(request, deadline=request.deadline.shorten(share))
+    draft = plan_by_instants(hurried, effort=EFFORT * len(request.scenario.robots))
     if draft is None:
         return None
-    task.better(lambda: draft.tracks)
+    request.better(lambda: draft.tracks)
     return replace(draft, status=Status("together"))
 
 
-def _plan_in_turn(task: Task, search: FleetSearch, *, has_plan: bool) -> Draft | None:
+def _plan_in_turn(request: PlanRequest, search: FleetSearch, *, has_plan: bool) -> Draft | None:
     """Plan robots one after another; without a plan, LaCAM needs time for a second attempt."""
-    if not has_plan and task.scenario.problem.resources.are_points:
-        task = replace(task, deadline=task.deadline.shorten(SHARE_IN_TURN))
-    draft = plan_in_turn(task, search, "shortest", has_plan=has_plan)
+    if not has_plan and request.scenario.problem.resources.are_points:
+        request = replace(request, deadline=request.deadline.shorten(SHARE_IN_TURN))
+    draft = plan_in_turn(request, search, "shortest", has_plan=has_plan)
     if draft is not None:
-        task.better(lambda: draft.tracks)
+        request.better(lambda: draft.tracks)
     return draft
 
 
 def _run_improvement(
-    task: Task, search: FleetSearch, first: Draft, is_enough: IsEnough | None = None
+    request: PlanRequest, search: FleetSearch, first: Draft, is_enough: IsEnough | None = None
 ) -> Draft:
     """Improve a plan until time, iterations or gains are used up, or nothing can be better.
 
-    An interrupt ends it too where the task keeps the best plan.
+    An interrupt ends it too where the request keeps the best plan.
     """
-    task.better(lambda: first.tracks)
+    request.better(lambda: first.tracks)
     search.start(first.tracks)
-    is_open = task.scenario.problem.closures is None
+    is_open = request.scenario.problem.closures is None
     retiming = RETIMING if is_open else RETIMING_AMONG_CLOSURES
-    deadline = task.deadline.bring_forward(retiming * sum(map(len, first.tracks)))
-    objective = task.objective
-    weights, fastest = task.scenario.problem.weights, search.compute_alone().tolist()
+    deadline = request.deadline.bring_forward(retiming * sum(map(len, first.tracks)))
+    objective = request.objective
+    weights, fastest = request.scenario.problem.weights, search.compute_alone().tolist()
     alone, least_cost = objective.compute_values(weights, fastest)
     bound = alone if first.proof is None else max(alone, first.proof.bound)
     # Plans of one makespan may differ in flowtime.
     goal = (bound, least_cost if objective is Objective.MAKESPAN else None)
-    if task.scenario.problem.minimizes_service:
+    if request.scenario.problem.minimizes_service:
         bound, goal = 0, (-1, None)  # alone robots are no bound of service
     before = search.value, search.cost
-    patience = PATIENCE * len(task.scenario.robots)
-    iterations = task.options["iterations"] or UNLIMITED
-    turn = ITERATIONS_PER_TURN * len(task.scenario.robots) if is_enough else iterations
+    patience = PATIENCE * len(request.scenario.robots)
+    iterations = request.options["iterations"] or UNLIMITED
+    turn = ITERATIONS_PER_TURN * len(request.scenario.robots) if is_enough else iterations
     done, look, is_interrupted = 0, 0, False
     try:
         # A report on progress comes by the clock; it is no look at the proof.
@@ -184,18 +186,20 @@ def _run_improvement(
             )
             rate = (done - done_before) / (time.perf_counter() - began)
             if (search.value, search.cost) < reached:
-                task.better(search.list_tracks)
-            task.report(_describe_progress(task, search, bound, rate))
+                request.better(search.list_tracks)
+            request.report(_describe_progress(request, search, bound, rate))
             if search.idle >= patience or deadline.measure_seconds_left() == 0:
                 break
     except KeyboardInterrupt:
-        if not task.keep_best:
+        if not request.keep_best:
             raise
         is_interrupted = True
-    tracks = _take_found(task, search, first.tracks, is_better=(search.value, search.cost) < before)
-    rated = task.measure_worth
+    tracks = _take_found(
+        request, search, first.tracks, is_better=(search.value, search.cost) < before
+    )
+    rated = request.measure_worth
     status = Status("as fast as alone", status=first.status)
-    if rated(tracks)[1] != least_cost or task.scenario.problem.minimizes_service:
+    if rated(tracks)[1] != least_cost or request.scenario.problem.minimizes_service:
         is_better = rated(tracks) != before
         status = Status(
             "improved" if is_better else "not improved", neighbourhoods=done, status=first.status
@@ -214,39 +218,39 @@ def _is_over(search: FleetSearch, goal: tuple[int, int | None], is_enough: IsEno
     return is_enough is not None and is_enough(search.value)
 
 
-def _describe_progress(task: Task, search: FleetSearch, bound: int, rate: float) -> Fact:
+def _describe_progress(request: PlanRequest, search: FleetSearch, bound: int, rate: float) -> Fact:
     """Return the value that the search has reached, its gap, and its attempts per second."""
-    objective, cost = task.objective.value, search.value
-    work = task.scenario.problem.work
-    if work is not None and task.scenario.problem.minimizes_service:  # in other units there
-        service = task.measure_worth(search.list_tracks())[0]
+    objective, cost = request.objective.value, search.value
+    work = request.scenario.problem.work
+    if work is not None and request.scenario.problem.minimizes_service:  # in other units there
+        service = request.measure_worth(search.list_tracks())[0]
         objective, cost = "service", Tick(service // work.late.denominator)
     values = {"objective": objective, "value": cost, "rate": round(rate)}
     if not bound:
-        return Fact("value reached", task.scenario, **values)
-    return Fact("value and gap reached", task.scenario, **values, gap=cost / bound - 1)
+        return Fact("value reached", request.scenario, **values)
+    return Fact("value and gap reached", request.scenario, **values, gap=cost / bound - 1)
 
 
 def _take_found(
-    task: Task, search: FleetSearch, first: tuple[Track, ...], *, is_better: bool
+    request: PlanRequest, search: FleetSearch, first: tuple[Track, ...], *, is_better: bool
 ) -> tuple[Track, ...]:
     """Return what the search found, with the tracks given wherever these are as good."""
     if not is_better:
-        return search.list_tracks() if task.start is None else first
-    if task.start is not None:
+        return search.list_tracks() if request.start is None else first
+    if request.start is not None:
         search.restore(first)
-    return _compute_retimed(task, search)
+    return _compute_retimed(request, search)
 
 
-def _compute_retimed(task: Task, search: FleetSearch) -> tuple[Track, ...]:
+def _compute_retimed(request: PlanRequest, search: FleetSearch) -> tuple[Track, ...]:
     """Return every visit at the earliest time that keeps the order at each vertex.
 
     LNS replaces tracks, not waits.
     """
-    problem = task.scenario.problem
+    problem = request.scenario.problem
     if problem.closures is None:
         search.retime()
     if problem.closures is None or problem.has_times:  # the graph does not know times
         return search.list_tracks()
-    graph = build_graph_of_plan(task.scenario.problem, search.list_tracks())
+    graph = build_graph_of_plan(request.scenario.problem, search.list_tracks())
     return tuple(graph.build_tracks())

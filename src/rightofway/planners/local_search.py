@@ -6,25 +6,25 @@ from rightofway.model import Improvement, Status, Tick
 from rightofway.planners.two_level import two_level
 from rightofway.precedence import build_graph_of_plan
 from rightofway.repair.local_search import LocalSearch
-from rightofway.repair.task import Draft, Task
+from rightofway.repair.plan_request import Draft, PlanRequest
 
 
-def local_search(task: Task) -> Draft:
+def local_search(request: PlanRequest) -> Draft:
     """Improve a plan without changing its routes; options: `LocalSearchOptions`.
 
     `two_level` makes the plan to start from where none is given.
     """
-    first = Draft(tracks=task.start) if task.start else two_level(task)
-    task.has_plan()
-    task.better(lambda: first.tracks)
-    graph = build_graph_of_plan(task.scenario.problem, first.tracks)
-    search = LocalSearch(task, graph)
+    first = Draft(tracks=request.start) if request.start else two_level(request)
+    request.has_plan()
+    request.better(lambda: first.tracks)
+    graph = build_graph_of_plan(request.scenario.problem, first.tracks)
+    search = LocalSearch(request, graph)
     old = search.measure()
-    search.run(rounds=int(task.options["rounds"]))
+    search.run(rounds=int(request.options["rounds"]))
     new = search.measure()
     status = Status(
         "reversals",
-        objective=task.objective.value,
+        objective=request.objective.value,
         before=int(old[0]),
         after=int(new[0]),
     )

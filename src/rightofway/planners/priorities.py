@@ -46,35 +46,35 @@ from rightofway.repair.conflict_resolution import (
     Rule,
     list_rights_if_waits,
 )
+from rightofway.repair.plan_request import Draft, PlanRequest
 from rightofway.repair.routing import choose_routes
-from rightofway.repair.task import Draft, Task
 
 TRYING = Fact("trying orders of robots")
 
 Worth = tuple[Tick, Tick]
-"""The value of a plan, and its cost, as `Task.measure_worth` returns them [ticks]."""
+"""The value of a plan, and its cost, as `PlanRequest.measure_worth` returns them [ticks]."""
 
 Order = Sequence[int]
 """The robots, that of highest priority first."""
 
 
-def fixed_priority(task: Task) -> Draft:
+def fixed_priority(request: PlanRequest) -> Draft:
     """Plan with the robots' numbers as priorities, the first robot's the highest."""
-    distances, routes = choose_routes(task)
-    return plan_by_rule(task, distances, routes, plan_by_priority(range(len(routes))))
+    distances, routes = choose_routes(request)
+    return plan_by_rule(request, distances, routes, plan_by_priority(range(len(routes))))
 
 
-def random_priority(task: Task) -> Draft:
+def random_priority(request: PlanRequest) -> Draft:
     """Plan with random priorities, several times, and keep the best plan."""
 
     def search(plan: Callable[[Order], Worth], listed: range, draw: random.Random) -> None:
-        for _ in range(task.options["restarts"]):
+        for _ in range(request.options["restarts"]):
             plan(draw.sample(listed, len(listed)))
 
-    return _find_best_of(task, search)
+    return _find_best_of(request, search)
 
 
-def priority_search(task: Task) -> Draft:
+def priority_search(request: PlanRequest) -> Draft:
     """Plan with priorities that are improved by hill climbing, several times.
 
     A climb swaps two robots in the order as long as that is not worse; the first climb starts from
@@ -82,10 +82,10 @@ def priority_search(task: Task) -> Draft:
     """
 
     def search(plan: Callable[[Order], Worth], listed: range, draw: random.Random) -> None:
-        for climb in range(task.options["restarts"]):
+        for climb in range(request.options["restarts"]):
             order: Order = draw.sample(listed, len(listed)) if climb else listed
             worth = plan(order)
-            for _ in range(task.options["rounds"] - 1):
+            for _ in range(request.options["rounds"] - 1):
                 other = list(order)
                 if len(other) > 1:
                     first, another = draw.sample(listed, 2)
@@ -94,7 +94,7 @@ def priority_search(task: Task) -> Draft:
                 if other_worth <= worth:
                     order, worth = other, other_worth
 
-    return _find_best_of(task, search)
+    return _find_best_of(request, search)
 
 
 def plan_by_priority(order: Order) -> Rule:
@@ -127,31 +127,31 @@ def _try_wait(
 
 
 def _find_best_of(
-    task: Task, search: Callable[[Callable[[Order], Worth], range, random.Random], None]
+    request: PlanRequest, search: Callable[[Callable[[Order], Worth], range, random.Random], None]
 ) -> Draft:
     """Let a search try orders until it ends or time is over, and return the best plan.
 
     The search gets the function that plans by an order and returns how good the plan is, the robots
     in the order of the scenario, and a source of random numbers.
     """
-    distances, routes = choose_routes(task)
+    distances, routes = choose_routes(request)
     tried, best, least = 0, None, (Tick(0), Tick(0))
 
     def plan(order: Order) -> Worth:
         nonlocal tried, best, least
-        task.deadline.check(TRYING)
-        draft = plan_by_rule(task, distances, routes, plan_by_priority(order))
-        reached = task.measure_worth(draft.tracks)
+        request.deadline.check(TRYING)
+        draft = plan_by_rule(request, distances, routes, plan_by_priority(order))
+        reached = request.measure_worth(draft.tracks)
         tried += 1
         if best is None or reached < least:
             best, least = draft, reached
-            task.better(lambda: draft.tracks)
-            values = {"order": tried, "objective": task.objective.value}
-            task.report(Fact("value of order", task.scenario, **values, value=reached[0]))
+            request.better(lambda: draft.tracks)
+            values = {"order": tried, "objective": request.objective.value}
+            request.report(Fact("value of order", request.scenario, **values, value=reached[0]))
         return reached
 
     try:
-        search(plan, range(len(routes)), random.Random(task.seed))  # noqa: S311 (no secret)
+        search(plan, range(len(routes)), random.Random(request.seed))  # noqa: S311 (no secret)
     except GaveUp:
         if best is None:
             raise

@@ -23,7 +23,7 @@ from rightofway.model import Scenario, Status, Stop, compute_cost
 from rightofway.planners.lacam import plan_fleet
 from rightofway.precedence import build_graph_of_plan, build_timetable
 from rightofway.repair.fleet_search import make_fleet_search
-from rightofway.repair.task import Draft, Task
+from rightofway.repair.plan_request import Draft, PlanRequest
 from rightofway.repair.waves import plan_in_waves
 from rightofway.search import FleetSearch
 
@@ -51,80 +51,84 @@ HEADWAYS_PER_EDGE = 8
 """The headway of robots at one pace, as a part of the shortest edge."""
 
 
-def prioritized(task: Task) -> Draft:
+def prioritized(request: PlanRequest) -> Draft:
     """Plan one robot after another; options: `PrioritizedOptions`."""
-    draft = plan_in_turn(task, make_fleet_search(task), task.options["order"])
+    draft = plan_in_turn(request, make_fleet_search(request), request.options["order"])
     if draft is not None:
         return draft
-    task.deadline.check(Fact("planning in turn"))
-    together = plan_whole_fleet(task)
+    request.deadline.check(Fact("planning in turn"))
+    together = plan_whole_fleet(request)
     status = Status("together after in turn")
-    return together if task.scenario.problem.has_times else replace(together, status=status)
+    return together if request.scenario.problem.has_times else replace(together, status=status)
 
 
-def plan_whole_fleet(task: Task) -> Draft:
+def plan_whole_fleet(request: PlanRequest) -> Draft:
     """Plan the whole fleet at once, in waves where stages have times."""
-    if task.scenario.problem.has_times:
-        return plan_in_waves(task, plan_fleet)
-    return plan_fleet(task)
+    if request.scenario.problem.has_times:
+        return plan_in_waves(request, plan_fleet)
+    return plan_fleet(request)
 
 
 def plan_in_turn(
-    task: Task, search: FleetSearch, order: str, *, has_plan: bool = False
+    request: PlanRequest, search: FleetSearch, order: str, *, has_plan: bool = False
 ) -> Draft | None:
     """Plan robots one after another, at their own speeds or else at one pace.
 
     None if no plan was found, or no time is left; that proves nothing.
     """
-    if len(task.scenario.robots) > MOST_ROBOTS or task.deadline.measure_seconds_left() == 0:
+    if len(request.scenario.robots) > MOST_ROBOTS or request.deadline.measure_seconds_left() == 0:
         return None
-    turns = _choose_order(task.scenario, search, order, task.seed)
-    problem = task.scenario.problem
+    turns = _choose_order(request.scenario, search, order, request.seed)
+    problem = request.scenario.problem
     if problem.has_times:
-        return _in_time(task, search, turns, SHARE_WITH_PLAN if has_plan else SHARE_WITH_SIZES)
+        return _in_time(request, search, turns, SHARE_WITH_PLAN if has_plan else SHARE_WITH_SIZES)
     if not problem.resources.are_points or problem.closures is not None:
         return _plan_patiently(
-            task, search, turns, SHARE_WITH_PLAN if has_plan else SHARE_WITH_SIZES
+            request, search, turns, SHARE_WITH_PLAN if has_plan else SHARE_WITH_SIZES
         )
-    searches, deadline = SEARCHES * len(turns), task.deadline
+    searches, deadline = SEARCHES * len(turns), request.deadline
     if search.prioritize(
         turns,
         searches=searches,
         time_limit=_measure_part(deadline, SHARE),
         with_fallback=_measure_part(deadline, SHARE_WITH_FALLBACK),
     ):
-        return _plan_at_own_speeds(task, search)
-    drafts = [_plan_at_one_pace(task, turns)]
+        return _plan_at_own_speeds(request, search)
+    drafts = [_plan_at_one_pace(request, turns)]
     if search.resume(searches=searches, time_limit=_measure_part(deadline, SHARE_OF_MORE)):
-        drafts.append(_plan_at_own_speeds(task, search))
+        drafts.append(_plan_at_own_speeds(request, search))
     finished = [draft for draft in drafts if draft is not None]
-    return min(finished, key=lambda draft: compute_cost(task.scenario, draft.tracks), default=None)
+    return min(
+        finished, key=lambda draft: compute_cost(request.scenario, draft.tracks), default=None
+    )
 
 
 def _plan_patiently(
-    task: Task, search: FleetSearch, turns: Sequence[int], share: float
+    request: PlanRequest, search: FleetSearch, turns: Sequence[int], share: float
 ) -> Draft | None:
     """Plan robots one after another at their own speeds only.
 
     One pace gains nothing for robots with a size, which book ahead; and closures are at times.
     """
     searches = SEARCHES_WITH_SIZES * len(turns)
-    limit = _measure_part(task.deadline, share)
+    limit = _measure_part(request.deadline, share)
     is_complete = search.prioritize(turns, searches=searches, time_limit=limit)
-    return _plan_at_own_speeds(task, search) if is_complete else None
+    return _plan_at_own_speeds(request, search) if is_complete else None
 
 
-def _in_time(task: Task, search: FleetSearch, turns: Sequence[int], share: float) -> Draft | None:
+def _in_time(
+    request: PlanRequest, search: FleetSearch, turns: Sequence[int], share: float
+) -> Draft | None:
     """Plan robots whose stages have times one after another, or else let one move at a time."""
     searches = SEARCHES_WITH_SIZES * len(turns)
-    limit = _measure_part(task.deadline, share)
+    limit = _measure_part(request.deadline, share)
     status = Status("in turn")
     if not search.prioritize(turns, searches=searches, time_limit=limit):
-        limit = task.deadline.measure_seconds_left()
+        limit = request.deadline.measure_seconds_left()
         if not search.move_one_at_a_time(time_limit=limit):
             return None
         status = Status("one at a time")
-    task.has_plan()
+    request.has_plan()
     return Draft(tracks=search.list_tracks(), status=status)
 
 
@@ -132,28 +136,28 @@ def _measure_part(deadline: Deadline, share: float) -> float | None:
     return deadline.shorten(share).measure_seconds_left()
 
 
-def _plan_at_own_speeds(task: Task, search: FleetSearch) -> Draft:
+def _plan_at_own_speeds(request: PlanRequest, search: FleetSearch) -> Draft:
     tracks = search.list_tracks()
-    problem = task.scenario.problem
+    problem = request.scenario.problem
     if problem.closures is not None:  # a robot may have waited for a kept home
-        tracks = tuple(build_graph_of_plan(task.scenario.problem, tracks).build_tracks())
-    task.has_plan()
+        tracks = tuple(build_graph_of_plan(request.scenario.problem, tracks).build_tracks())
+    request.has_plan()
     return Draft(tracks=tracks, status=Status("in turn"))
 
 
-def _plan_at_one_pace(task: Task, turns: Sequence[int]) -> Draft | None:
-    if task.deadline.measure_seconds_left() == 0:
+def _plan_at_one_pace(request: PlanRequest, turns: Sequence[int]) -> Draft | None:
+    if request.deadline.measure_seconds_left() == 0:
         return None
-    paced = _make_paced(task.scenario)
+    paced = _make_paced(request.scenario)
     # One thread: the greedy attempt is not needed here, and would slow this one on a busy machine.
-    search = FleetSearch(paced.problem, seed=task.seed, threads=1)
+    search = FleetSearch(paced.problem, seed=request.seed, threads=1)
     searches = SEARCHES_AT_ONE_PACE * len(turns)
-    limit = _measure_part(task.deadline, SHARE_AT_ONE_PACE)
+    limit = _measure_part(request.deadline, SHARE_AT_ONE_PACE)
     if not search.prioritize(turns, searches=searches, time_limit=limit):
         return None
-    tracks = build_timetable(task.scenario.problem, search.list_tracks())
+    tracks = build_timetable(request.scenario.problem, search.list_tracks())
     assert tracks is not None, "what robots of one pace do in some order, others can do in it"
-    task.has_plan()
+    request.has_plan()
     status = Status("in turn at one pace")
     return Draft(tracks=tuple(tracks), status=status)
 

@@ -14,7 +14,7 @@ from rightofway.extras import load_plugins
 from rightofway.planners import options
 from rightofway.planners.features import ANY_FLEET, Feature
 from rightofway.planners.options import Option, PlannerOptions, Value
-from rightofway.repair.task import Planner
+from rightofway.repair.plan_request import Planner
 
 GROUP = "rightofway.planners"
 """Entry points of this group are further planners."""

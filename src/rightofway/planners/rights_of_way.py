@@ -19,36 +19,40 @@ from rightofway.planners.prioritized import plan_in_turn
 from rightofway.precedence import build_graph_of_plan
 from rightofway.repair.conflict_resolution import PartialPlan, Rule
 from rightofway.repair.fleet_search import make_fleet_search
+from rightofway.repair.plan_request import Draft, PlanRequest
 from rightofway.repair.rerouting import reroute
-from rightofway.repair.task import Draft, Task
 from rightofway.search import Distances
 
 SHARE = 0.8
 """The part of the time for rights of way; the rest is for planning the whole fleet."""
 
 
-def plan_by_rule(task: Task, distances: Distances, routes: Sequence[Route], rule: Rule) -> Draft:
+def plan_by_rule(
+    request: PlanRequest, distances: Distances, routes: Sequence[Route], rule: Rule
+) -> Draft:
     """Plan a fleet by rights of way, and where time is short for that by `lacam`."""
     try:
-        hurried = replace(task, deadline=task.deadline.shorten(SHARE))
+        hurried = replace(request, deadline=request.deadline.shorten(SHARE))
         return plan_on_routes(hurried, distances, PartialPlan(hurried, routes), rule)
     except GaveUp:
         because = RerouteReason("short time")
-        return _plan_together(task, because)
+        return _plan_together(request, because)
 
 
-def plan_on_routes(task: Task, distances: Distances, plan: PartialPlan, rule: Rule) -> Draft:
+def plan_on_routes(
+    request: PlanRequest, distances: Distances, plan: PartialPlan, rule: Rule
+) -> Draft:
     """Resolve all conflicts, then reroute the robots that were deferred."""
     plan.resolve_all(rule)
     tracks = {r: t for r, t in enumerate(plan.graph.build_tracks()) if r not in plan.deferred}
-    made_way = reroute(task, distances, tracks, list(plan.deferred))
+    made_way = reroute(request, distances, tracks, list(plan.deferred))
     if made_way is None:
         because = RerouteReason("no way in turn")
-        return _plan_together(task, because)
+        return _plan_together(request, because)
     ordered = [track for _, track in sorted(tracks.items())]
-    status, names = Status("waits only"), [robot.name for robot in task.scenario.robots]
+    status, names = Status("waits only"), [robot.name for robot in request.scenario.robots]
     if made_way:  # shift the visits of robots that waited for a robot on its former route
-        ordered = build_graph_of_plan(task.scenario.problem, ordered).build_tracks()
+        ordered = build_graph_of_plan(request.scenario.problem, ordered).build_tracks()
     rerouted = [
         robot
         for robot in sorted(made_way)
@@ -76,13 +80,13 @@ def _for(names: Sequence[str], robot: int | None) -> RerouteReason:
     return RerouteReason("makes way for", robot=names[robot])
 
 
-def _plan_together(task: Task, because: RerouteReason) -> Draft:
-    robots, problem = range(len(task.scenario.robots)), task.scenario.problem
+def _plan_together(request: PlanRequest, because: RerouteReason) -> Draft:
+    robots, problem = range(len(request.scenario.robots)), request.scenario.problem
     draft = None
     if not problem.resources.are_points or not problem.is_open:
-        draft = plan_in_turn(task, make_fleet_search(task), "shortest")
+        draft = plan_in_turn(request, make_fleet_search(request), "shortest")
     return replace(
-        draft or plan_fleet(task),
+        draft or plan_fleet(request),
         status=Status("re-routed together"),
         reroutes=tuple(Reroute(robot=robot, because=because) for robot in robots),
     )

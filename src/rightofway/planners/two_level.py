@@ -40,8 +40,8 @@ from rightofway.repair.conflict_resolution import (
     Right,
     list_rights_if_waits,
 )
+from rightofway.repair.plan_request import Draft, PlanRequest
 from rightofway.repair.routing import choose_routes
-from rightofway.repair.task import Draft, Task
 from rightofway.search import Distances
 
 
@@ -70,25 +70,25 @@ class _MovementGroup:
     value: tuple[int, int]
 
 
-def two_level(task: Task) -> Draft:
+def two_level(request: PlanRequest) -> Draft:
     """Plan a fleet by the method of the paper, without swaps; options: `TwoLevelOptions`."""
-    if task.options.get("swaps") == "leave":
-        refuse_with_swaps_left(task.scenario.problem)
-        return paper(task)
-    distances, routes = choose_routes(task)
-    return plan_by_rule(task, distances, routes, plan_by_two_levels)
+    if request.options.get("swaps") == "leave":
+        refuse_with_swaps_left(request.scenario.problem)
+        return paper(request)
+    distances, routes = choose_routes(request)
+    return plan_by_rule(request, distances, routes, plan_by_two_levels)
 
 
-def paper(task: Task) -> Draft:
+def paper(request: PlanRequest) -> Draft:
     """Plan a fleet by the method as published; the plan may hold swaps. It has no options."""
-    distances, plan = _make_published(task)
-    return plan_on_routes(task, distances, plan, plan_by_two_levels)
+    distances, plan = _make_published(request)
+    return plan_on_routes(request, distances, plan, plan_by_two_levels)
 
 
-def _make_published(task: Task) -> tuple[Distances, PartialPlan]:
+def _make_published(request: PlanRequest) -> tuple[Distances, PartialPlan]:
     """Return a fleet on shortest routes, in which swaps are no conflicts."""
-    distances, routes = choose_routes(replace(task, options={"routes": "shortest"}))
-    return distances, PartialPlan(task, routes, sees_swaps=False)
+    distances, routes = choose_routes(replace(request, options={"routes": "shortest"}))
+    return distances, PartialPlan(request, routes, sees_swaps=False)
 
 
 def plan_by_two_levels(plan: PartialPlan, meeting: Meeting) -> Resolution | None:
@@ -149,7 +149,9 @@ def replay_movement_groups(
         When time ran out.
     """
     options = {"routes": "clear", "swaps": "resolve", **plan.run.options}
-    task = Task(scenario=plan.scenario, options=options, deadline=Deadline.after(time_limit))
+    request = PlanRequest(
+        scenario=plan.scenario, options=options, deadline=Deadline.after(time_limit)
+    )
     groups: list[MovementGroup | None] = []
 
     def by_two_levels_again(partial: PartialPlan, meeting: Meeting) -> Resolution | None:
@@ -159,10 +161,10 @@ def replay_movement_groups(
         return resolution
 
     if plan.run.name == "paper" or options["swaps"] == "leave":
-        _, replayed = _make_published(task)
+        _, replayed = _make_published(request)
     else:
-        _, routes = choose_routes(task)
-        replayed = PartialPlan(task, routes)
+        _, routes = choose_routes(request)
+        replayed = PartialPlan(request, routes)
     replayed.resolve_all(by_two_levels_again)
     if not groups:
         message = f"{plan.run.name} has no movement groups (plan with paper, two-level or auto)"
@@ -210,11 +212,11 @@ def _follow(plan: PartialPlan, i: int, j: int, *, on_tie: int) -> _MovementGroup
         rights += chosen.rights
     completions = graph.get_completion(i), graph.get_completion(j)
     graph.rollback(mark)
-    weights = [plan.task.scenario.problem.itineraries[robot].weight for robot in (i, j)]
+    weights = [plan.request.scenario.problem.itineraries[robot].weight for robot in (i, j)]
     return _MovementGroup(
         resolution=Resolution(decisions=tuple(decisions), rights=tuple(rights)),
         completion_sum=sum(completions),
-        value=plan.task.objective.compute_values(weights, completions),
+        value=plan.request.objective.compute_values(weights, completions),
     )
 
 

@@ -30,7 +30,7 @@ from rightofway.model import (
 )
 from rightofway.model.outcome import choose_objective
 from rightofway.repair.makespan import measure_alone
-from rightofway.repair.task import Draft, Task
+from rightofway.repair.plan_request import Draft, PlanRequest
 from rightofway.search import ConflictBasedSearch, PriceAscent, find_fewest_actions
 
 SHARE = 0.3
@@ -69,18 +69,18 @@ def prove_bound(
     return Proof(bound=least, objective=choose_objective(scenario)), is_reached
 
 
-def finish_optimum(task: Task, draft: Draft) -> Draft:
+def finish_optimum(request: PlanRequest, draft: Draft) -> Draft:
     """Return an optimal plan with few drives and waits, and the forced losses that prove it.
 
     Other plans as they are. A plan whose decisions are explained keeps its tracks.
     """
-    return _explain(task, _act_less(task, draft))
+    return _explain(request, _act_less(request, draft))
 
 
-def _act_less(task: Task, draft: Draft) -> Draft:
-    objective, scenario = task.objective, task.scenario
-    states = task.options.get("joint_states", STATES_OF_ACTIONS)
-    is_optimal = draft.proof and task.measure_worth(draft.tracks)[0] == draft.proof.bound
+def _act_less(request: PlanRequest, draft: Draft) -> Draft:
+    objective, scenario = request.objective, request.scenario
+    states = request.options.get("joint_states", STATES_OF_ACTIONS)
+    is_optimal = draft.proof and request.measure_worth(draft.tracks)[0] == draft.proof.bound
     if not is_optimal or draft.decisions or states == 0:
         return draft
     latest = None
@@ -91,17 +91,17 @@ def _act_less(task: Task, draft: Draft) -> Draft:
         draft.tracks,
         latest=latest,
         states=states,
-        time_limit=task.deadline.measure_seconds_left(),
+        time_limit=request.deadline.measure_seconds_left(),
     )
     return replace(draft, tracks=tracks)
 
 
-def _explain(task: Task, draft: Draft) -> Draft:
+def _explain(request: PlanRequest, draft: Draft) -> Draft:
     """Return a plan with its forced losses, where it is proven to be optimal.
 
     A bounded number of steps finds that: without a time limit reached the same losses each time.
     """
-    proof, scenario, deadline = draft.proof, task.scenario, task.deadline
+    proof, scenario, deadline = draft.proof, request.scenario, request.deadline
     if proof is None or proof.objective.compute_cost(scenario, draft.tracks) > proof.bound:
         return draft
     losses: tuple[ForcedLoss, ...] = ()
@@ -112,7 +112,7 @@ def _explain(task: Task, draft: Draft) -> Draft:
             scenario, makespan, time_limit=limit, pairs=PAIRS, states=STATES
         )
     completions = compute_completions(scenario, draft.tracks)
-    may_lose = list(completions) != measure_alone(task) or scenario.roadmap.has_surcharges
+    may_lose = list(completions) != measure_alone(request) or scenario.roadmap.has_surcharges
     if proof.objective is not Objective.MAKESPAN and may_lose:
         limit = deadline.measure_seconds_left()
         losses += find_forced_losses(scenario, time_limit=limit, pairs=PAIRS, states=STATES)

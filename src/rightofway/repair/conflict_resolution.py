@@ -24,7 +24,7 @@ from rightofway.precedence import (
     find_rotation,
     make_crossing,
 )
-from rightofway.repair.task import Task
+from rightofway.repair.plan_request import PlanRequest
 
 Right = tuple[int, int]
 """Two visits of the graph, of which the first goes first."""
@@ -60,27 +60,27 @@ class PartialPlan:
 
     def __init__(
         self,
-        task: Task,
+        request: PlanRequest,
         routes: Sequence[Route],
         *,
         sees_swaps: bool = True,
         graph: PrecedenceGraph | None = None,
     ) -> None:
-        self.task = task
+        self.request = request
         self.routes = routes
         self.sees_swaps = sees_swaps
         self.settled = np.zeros(len(routes), np.uint8)
         self.deferred: dict[int, RerouteReason] = {}
         self.decisions: list[Decision] = []
-        self.graph = graph or build_graph(task.scenario.problem, routes, forbid_swaps=sees_swaps)
+        self.graph = graph or build_graph(request.scenario.problem, routes, forbid_swaps=sees_swaps)
 
     def resolve_all(self, rule: Rule) -> None:
         """Resolve the earliest conflict until none is left; defer where the rule cannot."""
         while True:
-            self.task.deadline.check(GIVING)
+            self.request.deadline.check(GIVING)
             meeting = self.graph.find_next_meeting()
             if meeting is None:
-                rotation = find_rotation(self.task.scenario.problem, self._list_tracks())
+                rotation = find_rotation(self.request.scenario.problem, self._list_tracks())
                 if not rotation:
                     return
                 self.defer(rotation, self._name_rotation(rotation))
@@ -124,12 +124,12 @@ class PartialPlan:
 
     def _name_rotation(self, rotation: Sequence[int]) -> RerouteReason:
         """Name the robots that would move round a circle at one instant."""
-        names = [self.task.scenario.robots[robot].name for robot in rotation]
+        names = [self.request.scenario.robots[robot].name for robot in rotation]
         return RerouteReason("rotation", robots=names)
 
     def explain_deadlock(self, meeting: Meeting) -> RerouteReason:
         """Name the two robots, and the cycle of robots that one of them would close by waiting."""
-        scenario, segment = self.task.scenario, self.find_segment(meeting)
+        scenario, segment = self.request.scenario, self.find_segment(meeting)
         names = [scenario.robots[robot].name for robot in meeting.robots]
         place = scenario.roadmap.name(self.graph.get_vertex(meeting.visits[0]))
         mark = self.graph.checkpoint()

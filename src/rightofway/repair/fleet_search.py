@@ -1,22 +1,22 @@
-"""The search for tracks of a fleet, one robot at a time, bound to a task."""
+"""The search for tracks of a fleet, one robot at a time, bound to a request."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from rightofway.repair.impossible import refuse_stranded
-from rightofway.repair.task import Task
+from rightofway.repair.plan_request import PlanRequest
 from rightofway.search import FleetSearch
 
 
-def make_fleet_search(task: Task) -> FleetSearch:
+def make_fleet_search(request: PlanRequest) -> FleetSearch:
     """Return the search for a fleet; `NoPlanExists` if a robot cannot do its trip alone."""
-    scenario = task.scenario
+    scenario = request.scenario
     search = FleetSearch(
         scenario.problem,
-        seed=task.seed,
-        alone=task.alone,
-        objective=task.objective,
+        seed=request.seed,
+        alone=request.alone,
+        objective=request.objective,
     )
     refuse_stranded(scenario, np.flatnonzero(search.compute_alone() < 0).tolist())
     return search

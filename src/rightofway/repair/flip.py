@@ -16,7 +16,7 @@ from rightofway.model import Plan, Tick, Track, compute_completions
 from rightofway.precedence import PrecedenceGraph, build_graph_of_plan
 from rightofway.repair.fleet_search import make_fleet_search
 from rightofway.repair.local_search import LocalSearch
-from rightofway.repair.task import Task
+from rightofway.repair.plan_request import PlanRequest
 
 SEARCHES = 100
 """Searches for both robots and those that are in their way."""
@@ -64,7 +64,7 @@ def flip_right_of_way(
     judged = check(plan)
     if not judged.ok:
         raise GaveUp(Fact("plan with faults", faults=judged.total))
-    task = Task(scenario=scenario, deadline=Deadline.after(time_limit))
+    request = PlanRequest(scenario=scenario, deadline=Deadline.after(time_limit))
     graph = build_graph_of_plan(scenario.problem, plan.tracks)
     rights = [
         (first, second)
@@ -74,10 +74,10 @@ def flip_right_of_way(
     if not rights:
         raise GaveUp(Fact("never waits for", scenario, waits=waits, goes_first=goes_first))
     first, second = min(rights, key=lambda right: (abs(graph.enter(right[1]) - tick), right))
-    search = LocalSearch(task, graph)
+    search = LocalSearch(request, graph)
     if search.reverse(first, second) and search.resolve():
         return Flipped(tracks=tuple(graph.build_tracks()), keeps_routes=True)
-    tracks = _plan_on_other_routes(task, plan, waits, goes_first)
+    tracks = _plan_on_other_routes(request, plan, waits, goes_first)
     if tracks is None:
         why = _explain_order(graph, first, second)
         fact = Fact("cannot go before", scenario, waits=waits, goes_first=goes_first, why=why)
@@ -96,15 +96,15 @@ def _explain_order(graph: PrecedenceGraph, first: int, second: int) -> Fact:
 
 
 def _plan_on_other_routes(
-    task: Task, plan: Plan, waits: int, goes_first: int
+    request: PlanRequest, plan: Plan, waits: int, goes_first: int
 ) -> tuple[Track, ...] | None:
     """Return a plan in which one robot is planned before another; None if it is not home sooner."""
-    search = make_fleet_search(task)
+    search = make_fleet_search(request)
     old_tracks = [
         None if robot in {waits, goes_first} else track for robot, track in enumerate(plan.tracks)
     ]
     search.start(old_tracks)
-    limit = task.deadline.measure_seconds_left()
+    limit = request.deadline.measure_seconds_left()
     if not search.repair([waits, goes_first], searches=SEARCHES, time_limit=limit):
         return None
     tracks = search.list_tracks()

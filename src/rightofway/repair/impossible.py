@@ -27,7 +27,7 @@ from rightofway.model import Outcome, OutcomeKind, Plan, PlannerRun, Scenario, S
 from rightofway.model.closures import Closure
 from rightofway.model.resources import measure_distance
 from rightofway.native import find_clashes
-from rightofway.repair.task import Task
+from rightofway.repair.plan_request import PlanRequest
 from rightofway.search import (
     Bookings,
     Distances,
@@ -191,7 +191,7 @@ def _describe_closure(scenario: Scenario, closure: Closure) -> Fact:
     return Fact("closed between", way=place, begin=begin, end=clock.count_ticks(closure.until))
 
 
-def refuse_blocked_parts(task: Task) -> None:
+def refuse_blocked_parts(request: PlanRequest) -> None:
     """Raise if robots in one of several parts of a map, which no edge joins, have no plan.
 
     A search over the whole fleet tries each move of the robots of one part with all moves of the
@@ -203,17 +203,17 @@ def refuse_blocked_parts(task: Task) -> None:
     NoPlanExists
         With a small set of robots that block each other.
     """
-    scenario = task.scenario
+    scenario = request.scenario
     parts, groups = RoadmapParts(scenario.roadmap), defaultdict[frozenset[int], list[int]](list)
     for robot, itinerary in enumerate(scenario.problem.itineraries):
         groups[parts.find_part(itinerary.home)].append(robot)
     for robots in sorted(groups.values(), key=len) if len(groups) > 1 else ():
         effort = EFFORT // len(groups)
-        if _is_blocked(task, robots, effort):
-            refuse_blocked(task, robots)
+        if _is_blocked(request, robots, effort):
+            refuse_blocked(request, robots)
 
 
-def refuse_blocked(task: Task, robots: Iterable[int] | None = None) -> NoReturn:
+def refuse_blocked(request: PlanRequest, robots: Iterable[int] | None = None) -> NoReturn:
     """Raise for robots that are proven to have no plan, by default all: with a small set of them.
 
     Raises
@@ -226,14 +226,14 @@ def refuse_blocked(task: Task, robots: Iterable[int] | None = None) -> NoReturn:
     Deterministic, as long as there is time. That the set has no plan is proven. It is minimal where
     no trial without one of its robots ended undecided.
     """
-    scenario = task.scenario
+    scenario = request.scenario
     everybody = list(range(len(scenario.robots)) if robots is None else robots)
     effort = EFFORT // min(len(everybody), MOST_TRIALS)
 
     def is_blocked(fewer: Sequence[int]) -> bool:
-        return _is_blocked(task, fewer, effort)
+        return _is_blocked(request, fewer, effort)
 
-    task.report(Fact("looking for blockages"))
+    request.report(Fact("looking for blockages"))
     blocked = find_smallest_set(everybody, is_blocked)
     blockage = _describe_blocked(scenario, blocked)
     raise NoPlanExists([blockage], scenario)
@@ -314,16 +314,16 @@ def put_fleet_at_home(scenario: Scenario) -> Plan:
     )
 
 
-def _is_blocked(task: Task, robots: Sequence[int], effort: int) -> bool:
+def _is_blocked(request: PlanRequest, robots: Sequence[int], effort: int) -> bool:
     """Return whether it is proven that some robots of a fleet have no plan."""
     if len(robots) < 2:  # noqa: PLR2004 (a robot alone is never blocked)
         return False
-    left = task.deadline.measure_seconds_left()
-    fleet = make_fleet_of(task.scenario, robots)
+    left = request.deadline.measure_seconds_left()
+    fleet = make_fleet_of(request.scenario, robots)
     try:
         plan_by_lacam(
             fleet.problem.as_steps(),
-            seed=task.seed,
+            seed=request.seed,
             most_effort=effort,
             time_limit=left,
             spreads=False,

@@ -28,7 +28,7 @@ from rightofway.errors import GaveUp
 from rightofway.facts import Fact
 from rightofway.model import Status
 from rightofway.repair.impossible import refuse_without_room
-from rightofway.repair.task import Draft, Task
+from rightofway.repair.plan_request import Draft, PlanRequest
 
 if TYPE_CHECKING:
     from rightofway.search import JointPlan
@@ -40,7 +40,7 @@ SHARE = 0.3
 """The part of the time for it."""
 
 
-def plan_by_joint_states(task: Task) -> Draft | None:
+def plan_by_joint_states(request: PlanRequest) -> Draft | None:
     """Plan a few robots by a search over their joint states; None where it ends undecided.
 
     Raises
@@ -51,7 +51,7 @@ def plan_by_joint_states(task: Task) -> Draft | None:
     # Most fleets never come here: importing the planner must not import the search.
     from rightofway.search import ConflictBasedSearch
 
-    scenario, deadline = task.scenario, task.deadline.shorten(SHARE)
+    scenario, deadline = request.scenario, request.deadline.shorten(SHARE)
     everybody = range(len(scenario.robots))
     if len(everybody) > FEW_ROBOTS:
         return None
@@ -72,5 +72,5 @@ def plan_by_joint_states(task: Task) -> Draft | None:
         refuse_without_room(scenario, is_blocked)
     if plan.tracks is None:
         return None
-    task.has_plan()
+    request.has_plan()
     return Draft(tracks=plan.tracks, status=Status("joint states"))

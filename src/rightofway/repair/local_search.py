@@ -31,7 +31,7 @@ from rightofway.facts import Fact
 from rightofway.model import Objective
 from rightofway.precedence import Meeting, PrecedenceGraph, find_rotation
 from rightofway.repair.conflict_resolution import list_rights_if_waits
-from rightofway.repair.task import Task
+from rightofway.repair.plan_request import PlanRequest
 
 REVERSING = Fact("reversing rights of way")
 
@@ -61,16 +61,16 @@ class LocalSearch:
 
     def __init__(
         self,
-        task: Task,
+        request: PlanRequest,
         graph: PrecedenceGraph,
         may_wait: Callable[[int], bool] = lambda _: True,
     ) -> None:
-        self.task = task
+        self.request = request
         self.graph = graph
         self.may_wait = may_wait
-        self.draw = random.Random(task.seed)  # noqa: S311 (no secret depends on it)
+        self.draw = random.Random(request.seed)  # noqa: S311 (no secret depends on it)
         self.alone = [sum(map(route.compute_least, range(len(route)))) for route in graph.routes]
-        self._objective, self._weights = task.objective, task.scenario.problem.weights
+        self._objective, self._weights = request.objective, request.scenario.problem.weights
 
     def measure(self) -> Value:
         """Return how good the plan is: less is better. More rights of way never make it less."""
@@ -86,7 +86,7 @@ class LocalSearch:
             # Iterated local search (Lourenço, Martin & Stützle 2003): descend to a local optimum,
             # then perturb and descend again; what is not better is taken back.
             self.descend()
-            self.task.better(self.graph.build_tracks)
+            self.request.better(self.graph.build_tracks)
             for _ in range(rounds):
                 if self.graph.compute_flowtime() == sum(self.alone):  # nobody is late
                     return
@@ -99,7 +99,7 @@ class LocalSearch:
                     if self.measure() > before:
                         self.graph.rollback(mark)
                 if self.measure() < before:
-                    self.task.better(self.graph.build_tracks)
+                    self.request.better(self.graph.build_tracks)
         except GaveUp:
             return
 
@@ -128,7 +128,7 @@ class LocalSearch:
             critical = list(self.list_critical_rights())
             self.draw.shuffle(critical)
             for first, second in critical:
-                self.task.deadline.check(REVERSING)
+                self.request.deadline.check(REVERSING)
                 improved |= self.flip(first, second)
 
     def list_critical_rights(self) -> Iterator[tuple[int, int]]:
@@ -178,7 +178,7 @@ class LocalSearch:
             if meeting is None:
                 # Without meetings the plan is whole; where rotations are forbidden, the result
                 # decides.
-                return not find_rotation(self.task.scenario.problem, self.graph.build_tracks())
+                return not find_rotation(self.request.scenario.problem, self.graph.build_tracks())
             if not self.resolve_one(meeting, preference):
                 return False
         return False

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from rightofway.model import Objective, Tick, Track, compute_completions
-from rightofway.repair.task import Task
+from rightofway.repair.plan_request import PlanRequest
 from rightofway.search import ConflictBasedSearch, compute_least_completions
 
 SHARE_OF_TREE = 0.5
@@ -21,11 +21,11 @@ Trees = Callable[[int | None], ConflictBasedSearch]
 """Makes a tree whose tracks may not complete after a tick; None for any tick."""
 
 
-def measure_alone(task: Task) -> list[int]:
+def measure_alone(request: PlanRequest) -> list[int]:
     """Return the least completion of each robot without the others [ticks]."""
-    alone = task.alone
+    alone = request.alone
     if alone is None:
-        alone = compute_least_completions(task.scenario)
+        alone = compute_least_completions(request.scenario)
     assert alone is not None, "there is no time limit"
     return [int(ticks) for ticks in alone]
 
@@ -44,7 +44,7 @@ class MakespanSearch:
         The nodes of all trees.
     """
 
-    task: Task
+    request: PlanRequest
     trees: Trees
     tracks: tuple[Track, ...]
     nodes: int
@@ -52,9 +52,9 @@ class MakespanSearch:
     n_nodes: int = 0
 
     def __post_init__(self) -> None:
-        alone = measure_alone(self.task)
-        self._objective = self.task.objective
-        self._weights = self.task.scenario.problem.weights
+        alone = measure_alone(self.request)
+        self._objective = self.request.objective
+        self._weights = self.request.scenario.problem.weights
         self._longest = max(alone)
         self.bound = self._objective.compute_values(self._weights, alone)[0]
         self._left = self.nodes or None
@@ -62,7 +62,7 @@ class MakespanSearch:
     @property
     def value(self) -> Tick:
         """The value of the plan [ticks]."""
-        return self.task.measure_worth(self.tracks)[0]
+        return self.request.measure_worth(self.tracks)[0]
 
     def run(self) -> None:
         """Search until the plan is proven, or time or nodes are used up."""
@@ -72,7 +72,7 @@ class MakespanSearch:
             else:
                 self._search_downwards()
         except KeyboardInterrupt:
-            if not self.task.keep_best:
+            if not self.request.keep_best:
                 raise
 
     def _search_by_halves(self) -> None:
@@ -121,14 +121,14 @@ class MakespanSearch:
             if tree.tracks is None:
                 return
             self._take(tree.tracks)
-            latest = max(compute_completions(self.task.scenario, tree.tracks)) - 1
+            latest = max(compute_completions(self.request.scenario, tree.tracks)) - 1
             if latest < self._longest:
                 self.bound = self.value
                 return
 
     def _make_grown_tree(self, latest: int | None, upper: int | None) -> ConflictBasedSearch | None:
         """Return a tree that is grown; None where no time or no node is left."""
-        seconds = self.task.deadline.shorten(SHARE_OF_TREE).measure_seconds_left()
+        seconds = self.request.deadline.shorten(SHARE_OF_TREE).measure_seconds_left()
         if seconds == 0 or (self._left is not None and self._left <= 1):
             return None
         tree = self.trees(latest)
@@ -139,6 +139,6 @@ class MakespanSearch:
 
     def _take(self, tracks: tuple[Track, ...]) -> None:
         """Keep a plan where it is better."""
-        if self.task.measure_worth(tracks) < self.task.measure_worth(self.tracks):
+        if self.request.measure_worth(tracks) < self.request.measure_worth(self.tracks):
             self.tracks = tracks
-            self.task.better(lambda: tracks)
+            self.request.better(lambda: tracks)

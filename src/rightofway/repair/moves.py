@@ -35,7 +35,7 @@ from rightofway.facts import Fact
 from rightofway.model import Scenario, Status, Tick, Track, compute_least_dwell
 from rightofway.native import list_excluded
 from rightofway.repair.impossible import make_fleet_of, refuse_without_room
-from rightofway.repair.task import Draft, Task
+from rightofway.repair.plan_request import Draft, PlanRequest
 from rightofway.search import Distances, FleetSearch
 from rightofway.site import VertexId
 
@@ -66,7 +66,7 @@ class Move(NamedTuple):
     edge: int
 
 
-def plan_by_moves(task: Task, search: FleetSearch) -> Draft:
+def plan_by_moves(request: PlanRequest, search: FleetSearch) -> Draft:
     """Plan robots with a size by an order of single moves.
 
     Raises
@@ -77,17 +77,17 @@ def plan_by_moves(task: Task, search: FleetSearch) -> Draft:
         After too many states, or when time ran out. With closures the moves are a proof only,
         because they have no times.
     """
-    moves = _find_moves(task, SingleMoves(task.scenario), MOST_STATES)
-    if task.scenario.problem.closures is not None:
+    moves = _find_moves(request, SingleMoves(request.scenario), MOST_STATES)
+    if request.scenario.problem.closures is not None:
         raise GaveUp(Fact("no plan in turn among closures"))
-    search.start(_place_in_sequence(task, moves))
+    search.start(_place_in_sequence(request, moves))
     search.retime()
-    task.has_plan()
+    request.has_plan()
     return Draft(tracks=search.list_tracks(), status=Status("moves"))
 
 
 def find_tracks_by_moves(
-    task: Task, *, ends_anywhere: Collection[int], most_states: int
+    request: PlanRequest, *, ends_anywhere: Collection[int], most_states: int
 ) -> list[Track]:
     """Return tracks in which robots with a size make one move after another.
 
@@ -99,28 +99,28 @@ def find_tracks_by_moves(
         After too many states, or when time ran out.
     """
     return _place_in_sequence(
-        task, _find_moves(task, SingleMoves(task.scenario, ends_anywhere), most_states)
+        request, _find_moves(request, SingleMoves(request.scenario, ends_anywhere), most_states)
     )
 
 
-def _find_moves(task: Task, floor: SingleMoves, most_states: int) -> list[Move]:
+def _find_moves(request: PlanRequest, floor: SingleMoves, most_states: int) -> list[Move]:
     """Return moves that bring all robots through their trips, at no times."""
-    moves = _search(floor, most_states, task.deadline)
+    moves = _search(floor, most_states, request.deadline)
     if moves is None:
-        _refuse_without_order(task, floor)
+        _refuse_without_order(request, floor)
     return moves
 
 
-def _refuse_without_order(task: Task, floor: SingleMoves) -> NoReturn:
+def _refuse_without_order(request: PlanRequest, floor: SingleMoves) -> NoReturn:
     """Raise for a fleet that has no order of moves: with a small set of robots, where proven."""
     if not floor.is_proof:
         raise GaveUp(Fact("no order of single moves"))
 
     def is_blocked(robots: Sequence[int]) -> bool:
-        fleet = make_fleet_of(task.scenario, robots)
-        return _search(SingleMoves(fleet), MOST_STATES_OF_FEWER, task.deadline) is None
+        fleet = make_fleet_of(request.scenario, robots)
+        return _search(SingleMoves(fleet), MOST_STATES_OF_FEWER, request.deadline) is None
 
-    refuse_without_room(task.scenario, None if floor.ends_anywhere else is_blocked)
+    refuse_without_room(request.scenario, None if floor.ends_anywhere else is_blocked)
 
 
 def _search(floor: SingleMoves, most_states: int, deadline: Deadline) -> list[Move] | None:
@@ -238,13 +238,13 @@ class SingleMoves:
         return self._excluded[row]
 
 
-def _place_in_sequence(task: Task, moves: list[Move]) -> list[Track]:
+def _place_in_sequence(request: PlanRequest, moves: list[Move]) -> list[Track]:
     """Return tracks in which the robots make their moves one after another."""
-    roadmap, itineraries = task.scenario.roadmap, task.scenario.problem.itineraries
+    roadmap, itineraries = request.scenario.roadmap, request.scenario.problem.itineraries
     vertices = [[itinerary.home] for itinerary in itineraries]
     enter, rules = (
         [[Tick(0)] for _ in itineraries],
-        task.scenario.problem.booking_rules,
+        request.scenario.problem.booking_rules,
     )
     stages, now, edges = [0] * len(itineraries), 0, [-1] * len(itineraries)
     for robot, head, edge in moves:

@@ -8,8 +8,8 @@ from collections.abc import Iterable
 
 from rightofway.facts import Fact
 from rightofway.model import Tick, Track
+from rightofway.repair.plan_request import PlanRequest
 from rightofway.repair.routing import find_shortest_track
-from rightofway.repair.task import Task
 from rightofway.search import Booking, Bookings, Distances, find_earliest_track
 
 REROUTING = Fact("rerouting")
@@ -24,9 +24,11 @@ START_HOLD = 4
 class _Reservations:
     """The tracks of some robots of a fleet, and their bookings."""
 
-    def __init__(self, task: Task, distances: Distances, tracks: dict[int, Track]) -> None:
-        scenario = task.scenario
-        self.task = task
+    def __init__(
+        self, request: PlanRequest, distances: Distances, tracks: dict[int, Track]
+    ) -> None:
+        scenario = request.scenario
+        self.request = request
         self.distances = distances
         self.itineraries = scenario.problem.itineraries
         self.tracks = tracks
@@ -47,7 +49,7 @@ class _Reservations:
     def place(self, robot: int) -> bool:
         """Give a robot its earliest track among the others, if there is one."""
         self.bookings.release(robot)
-        left = self.task.deadline.measure_seconds_left()
+        left = self.request.deadline.measure_seconds_left()
         track = find_earliest_track(robot, self.bookings, self.distances, time_limit=left)
         if track is None:
             self.hold_home(robot)
@@ -80,7 +82,7 @@ class _Reservations:
 
 
 def reroute(
-    task: Task, distances: Distances, tracks: dict[int, Track], deferred: list[int]
+    request: PlanRequest, distances: Distances, tracks: dict[int, Track], deferred: list[int]
 ) -> dict[int, int | None] | None:
     """Add a track among the others to ``tracks`` for each robot without one.
 
@@ -98,16 +100,16 @@ def reroute(
     GaveUp
         When time ran out.
     """
-    table = _Reservations(task, distances, tracks)
+    table = _Reservations(request, distances, tracks)
     waiting, made_way = deque(deferred), dict[int, int | None].fromkeys(deferred)
     failures: Counter[int] = Counter()
-    draw = random.Random(task.seed)  # noqa: S311 (no secret depends on it)
+    draw = random.Random(request.seed)  # noqa: S311 (no secret depends on it)
     for robot in deferred:
         table.hold_home(robot)
     for _ in range(TRIES_PER_ROBOT * len(table.itineraries)):
         if not waiting:
             return made_way
-        task.deadline.check(REROUTING)
+        request.deadline.check(REROUTING)
         robot = waiting.popleft()
         if table.place(robot):
             continue

@@ -11,7 +11,7 @@ from rightofway.errors import GaveUp, InputError
 from rightofway.facts import Fact
 from rightofway.model import Itinerary, Route, Scenario, Track, join_route, join_track, make_route
 from rightofway.repair.impossible import refuse_stranded, refuse_the_impossible
-from rightofway.repair.task import Task
+from rightofway.repair.plan_request import PlanRequest
 from rightofway.search import Bookings, Congestion, Distances, find_earliest_track
 from rightofway.search.distances import Path
 from rightofway.site import Roadmap, VertexId
@@ -19,30 +19,30 @@ from rightofway.site import Roadmap, VertexId
 ROUTING = Fact("choosing routes")
 
 
-def choose_routes(task: Task) -> tuple[Distances, list[Route]]:
+def choose_routes(request: PlanRequest) -> tuple[Distances, list[Route]]:
     """Return the tables of a roadmap, and the routes of the fleet as the option ``routes`` asks."""
-    checkpoint = partial(task.deadline.check, ROUTING)
-    distances = Distances(task.scenario.roadmap, checkpoint=checkpoint)
-    if task.scenario.problem.closures is not None:
-        return distances, choose_routes_among_closures(task, distances)
-    choose = clear_routes if task.options["routes"] == "clear" else find_shortest_routes
-    return distances, choose(task.scenario, distances)
+    checkpoint = partial(request.deadline.check, ROUTING)
+    distances = Distances(request.scenario.roadmap, checkpoint=checkpoint)
+    if request.scenario.problem.closures is not None:
+        return distances, choose_routes_among_closures(request, distances)
+    choose = clear_routes if request.options["routes"] == "clear" else find_shortest_routes
+    return distances, choose(request.scenario, distances)
 
 
-def choose_routes_among_closures(task: Task, distances: Distances) -> list[Route]:
+def choose_routes_among_closures(request: PlanRequest, distances: Distances) -> list[Route]:
     """Return the best route of each robot as if it were alone, but for closures.
 
     A route that closures cut off for a while may have no times at all; these have some. Raises
     `GaveUp` where a robot finds none with the headway of planning.
     """
-    refuse_the_impossible(task.scenario, distances)
-    bookings, routes = Bookings(task.scenario.problem), list[Route]()
-    for robot, itinerary in enumerate(task.scenario.problem.itineraries):
-        left = task.deadline.measure_seconds_left()
+    refuse_the_impossible(request.scenario, distances)
+    bookings, routes = Bookings(request.scenario.problem), list[Route]()
+    for robot, itinerary in enumerate(request.scenario.problem.itineraries):
+        left = request.deadline.measure_seconds_left()
         track = find_earliest_track(robot, bookings, distances, time_limit=left)
         if track is None:
-            raise GaveUp(Fact("no way with headway of planning", task.scenario, robot=robot))
-        routes.append(make_route(task.scenario.roadmap, itinerary, track))
+            raise GaveUp(Fact("no way with headway of planning", request.scenario, robot=robot))
+        routes.append(make_route(request.scenario.roadmap, itinerary, track))
     return routes
 
 

@@ -21,17 +21,17 @@ from rightofway.errors import GaveUp, NoPlanExists
 from rightofway.facts import Fact
 from rightofway.model import Robot, Scenario, Status, Stop, Tick, Track
 from rightofway.model.stays import compute_completions, find_stays
-from rightofway.repair.task import Draft, Task
+from rightofway.repair.plan_request import Draft, PlanRequest
 from rightofway.site import VertexId
 
-PlanWave = Callable[[Task], Draft]
+PlanWave = Callable[[PlanRequest], Draft]
 """Plans a fleet without times; raises `GaveUp` or `NoPlanExists`."""
 
 HALF_TURN = 180
 """The most that a robot turns before a drive [degrees]."""
 
 
-def plan_in_waves(task: Task, plan_wave: PlanWave) -> Draft:
+def plan_in_waves(request: PlanRequest, plan_wave: PlanWave) -> Draft:
     """Plan a fleet with tours in waves.
 
     Raises
@@ -41,7 +41,7 @@ def plan_in_waves(task: Task, plan_wave: PlanWave) -> Draft:
     GaveUp
         If no plan of a wave was found, a stage would end too late, or the scenario has closures.
     """
-    scenario, itineraries = task.scenario, task.scenario.problem.itineraries
+    scenario, itineraries = request.scenario, request.scenario.problem.itineraries
     if scenario.closures:
         raise GaveUp(Fact("no first plan"))
     waves = _Waves(scenario)
@@ -57,7 +57,7 @@ def plan_in_waves(task: Task, plan_wave: PlanWave) -> Draft:
             continue
         wave = waves.make_scenario(counts)
         try:
-            tracks = plan_wave(replace(task, scenario=wave, start=None, alone=None)).tracks
+            tracks = plan_wave(replace(request, scenario=wave, start=None, alone=None)).tracks
         except NoPlanExists:
             if waves.has_stages or any(itinerary.ends_anywhere for itinerary in itineraries):
                 raise GaveUp(Fact("no first plan")) from None  # other tours may have one
@@ -75,7 +75,7 @@ def plan_in_waves(task: Task, plan_wave: PlanWave) -> Draft:
     )
     if not _is_in_time(scenario, tracks):
         raise GaveUp(Fact("no first plan"))
-    task.has_plan()
+    request.has_plan()
     return Draft(tracks=tracks, status=Status("in waves"))
 
 

@@ -17,7 +17,7 @@ from rightofway.native import find_clashes
 from rightofway.precedence import build_timetable
 from rightofway.repair.fleet_search import make_fleet_search
 from rightofway.repair.moves import find_tracks_by_moves
-from rightofway.repair.task import Task
+from rightofway.repair.plan_request import PlanRequest
 from rightofway.resume.commitment import Commitment, Stages, make_rest
 from rightofway.search import Distances, plan_by_lacam
 from rightofway.site import VertexId
@@ -85,11 +85,11 @@ def _by_turns(
 ) -> Sequence[Track] | None:
     """Return the plan for robots one after another, or else of single moves, or by LaCAM."""
     problem = rest.problem
-    task = Task(scenario=rest, seed=seed, deadline=deadline)
+    request = PlanRequest(scenario=rest, seed=seed, deadline=deadline)
     tracks: Sequence[Track] = ()
     ends = [itinerary.last for itinerary in problem.itineraries]
     if not any(find_clashes(problem.resources, ends)):
-        search = make_fleet_search(task)
+        search = make_fleet_search(request)
         turns = sorted(range(len(rest.robots)), key=search.compute_alone().tolist().__getitem__)
         searches, limit = SEARCHES * len(turns), deadline.shorten(SHARE).measure_seconds_left()
         if search.prioritize(turns, searches=searches, time_limit=limit):
@@ -98,7 +98,7 @@ def _by_turns(
         return tracks
     if problem.resources.are_points:  # its order of visits may keep the closures
         return _together(rest, cut_off, seed, deadline)
-    return find_tracks_by_moves(task, ends_anywhere=cut_off, most_states=MOST_STATES)
+    return find_tracks_by_moves(request, ends_anywhere=cut_off, most_states=MOST_STATES)
 
 
 def _choices(

@@ -47,7 +47,7 @@ from rightofway.model import (
 from rightofway.precedence import build_graph, find_rotation
 from rightofway.repair.fleet_search import make_fleet_search
 from rightofway.repair.impossible import refuse_closed_ways
-from rightofway.repair.task import Task
+from rightofway.repair.plan_request import PlanRequest
 from rightofway.search import FleetSearch
 from rightofway.site import Roadmap, VertexId
 
@@ -73,7 +73,7 @@ class _Kept:
     has_changed: bool  # whether its times, or what it books, may be others than before
 
 
-def make_first_plan(task: Task, old: Plan) -> tuple[Track, ...] | None:
+def make_first_plan(request: PlanRequest, old: Plan) -> tuple[Track, ...] | None:
     """Return a valid plan that keeps what it can of the old one; None if the repair found none.
 
     Raises
@@ -81,18 +81,20 @@ def make_first_plan(task: Task, old: Plan) -> tuple[Track, ...] | None:
     NoPlanExists
         If closures leave a robot no way.
     """
-    old_routes = dict(_list_kept_routes(task.scenario, old))
+    old_routes = dict(_list_kept_routes(request.scenario, old))
     changed = [robot for robot, old_route in old_routes.items() if old_route.has_changed]
     unchanged = [robot for robot, old_route in old_routes.items() if not old_route.has_changed]
-    others = [robot for robot in range(len(task.scenario.robots)) if robot not in old_routes]
-    refuse_closed_ways(task.scenario, task.deadline, others)
-    hurried = replace(task, deadline=task.deadline.shorten(SHARE))
+    others = [robot for robot in range(len(request.scenario.robots)) if robot not in old_routes]
+    refuse_closed_ways(request.scenario, request.deadline, others)
+    hurried = replace(request, deadline=request.deadline.shorten(SHARE))
     search = make_fleet_search(hurried)
     drafts = [_plan_repair(hurried, search, old_routes, [*unchanged, *changed])]
     if changed and hurried.deadline.measure_seconds_left() != 0:
         drafts.append(_plan_repair(hurried, search, old_routes, unchanged))
-    valid = [tracks for tracks in drafts if tracks is not None and _is_valid(task.scenario, tracks)]
-    return min(valid, key=lambda tracks: compute_cost(task.scenario, tracks), default=None)
+    valid = [
+        tracks for tracks in drafts if tracks is not None and _is_valid(request.scenario, tracks)
+    ]
+    return min(valid, key=lambda tracks: compute_cost(request.scenario, tracks), default=None)
 
 
 def compare_with_start(old: Plan, scenario: Scenario, tracks: Sequence[Track]) -> StartPlan:
@@ -224,11 +226,11 @@ def _make_closed_test(scenario: Scenario) -> Callable[..., bool]:
 
 
 def _plan_repair(
-    task: Task, search: FleetSearch, old_routes: Mapping[int, _Kept], order: Sequence[int]
+    request: PlanRequest, search: FleetSearch, old_routes: Mapping[int, _Kept], order: Sequence[int]
 ) -> tuple[Track, ...] | None:
     """Return a plan that keeps as many as it can of some routes; None if it finds none."""
-    in_time = _keep_old_order(task, old_routes, order)
-    tracks = [in_time.get(robot) for robot in range(len(task.scenario.robots))]
+    in_time = _keep_old_order(request, old_routes, order)
+    tracks = [in_time.get(robot) for robot in range(len(request.scenario.robots))]
     left = [robot for robot, track in enumerate(tracks) if track is None]
     if not left:
         return tuple(in_time[robot] for robot in range(len(tracks)))
@@ -240,13 +242,13 @@ def _plan_repair(
     is_repaired = search.repair(
         sorted(left, key=lambda robot: alone[robot]),
         searches=SEARCHES * (len(left) + len(tracks) // 10),
-        time_limit=task.deadline.measure_seconds_left(),
+        time_limit=request.deadline.measure_seconds_left(),
     )
     return search.list_tracks() if is_repaired else None
 
 
 def _keep_old_order(
-    task: Task, old_routes: Mapping[int, _Kept], order: Sequence[int]
+    request: PlanRequest, old_routes: Mapping[int, _Kept], order: Sequence[int]
 ) -> Mapping[int, Track]:
     """Return the tracks of robots in the earliest timetable that keeps the old order of visits.
 
@@ -254,18 +256,18 @@ def _keep_old_order(
     bisection, because an order stays possible if a robot is taken out.
     """
     fits, left = list[int](), list(order)
-    tracks = _make_timetable(task.scenario, old_routes, left)
+    tracks = _make_timetable(request.scenario, old_routes, left)
     for _ in range(MOST_REFUSED):
-        if tracks is not None or task.deadline.measure_seconds_left() == 0:
+        if tracks is not None or request.deadline.measure_seconds_left() == 0:
             break
         low, high = 0, len(left)
         while high - low > 1:
             middle = (low + high) // 2
-            tried = _make_timetable(task.scenario, old_routes, [*fits, *left[:middle]])
+            tried = _make_timetable(request.scenario, old_routes, [*fits, *left[:middle]])
             low, high = (low, middle) if tried is None else (middle, high)
         fits, left = [*fits, *left[:low]], left[low + 1 :]
-        tracks = _make_timetable(task.scenario, old_routes, [*fits, *left])
-    return tracks or _make_timetable(task.scenario, old_routes, fits) or {}
+        tracks = _make_timetable(request.scenario, old_routes, [*fits, *left])
+    return tracks or _make_timetable(request.scenario, old_routes, fits) or {}
 
 
 def _make_timetable(

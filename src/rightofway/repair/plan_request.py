@@ -30,7 +30,7 @@ from rightofway.model.stays import compute_service
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Task:
+class PlanRequest:
     """A scenario and the means to plan it.
 
     Attributes
@@ -131,8 +131,8 @@ class Draft:
     forced_losses: tuple[ForcedLoss, ...] = ()
 
 
-Planner = Callable[[Task], Draft]
-"""Turns a task into a draft.
+Planner = Callable[[PlanRequest], Draft]
+"""Turns a request into a draft.
 
 Raises `NoPlanExists` if it is proven that there is no plan, and `GaveUp` if none was found.
 """
