@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from itertools import permutations
 from typing import Any
 
 import numpy as np
@@ -11,8 +12,8 @@ import pytest
 
 from rightofway import FleetBuilder
 from rightofway.assign import AssignmentSearch, Travel, measure_travel
-from rightofway.model import Battery, Job, JobStop, Robot, RobotState, Rules, Scenario
-from rightofway.search import Distances
+from rightofway.model import Battery, Job, JobStop, Robot, RobotState, Rules, Scenario, Stop
+from rightofway.search import Distances, compute_least_completions
 from rightofway.site import VertexId
 
 V = VertexId
@@ -104,3 +105,21 @@ def test_the_jobs_of_a_scenario_get_tours(ends: Any, flowtime: int) -> None:
     search.improve(50)
     assert search.cost.value == flowtime
     assert not search.assignment.unserved
+
+
+@pytest.mark.parametrize("rate", [30, 90, 400])
+def test_times_with_a_turn_rate_are_those_of_a_robot_that_drives_alone(rate: int) -> None:
+    """From each place to each other one; the first drive needs no turn."""
+    roadmap = FleetBuilder(grid=["....", ".@@.", "....", "@..."]).build_roadmap()
+    places = [V(vertex) for vertex in (0, 2, 4, 8, 12)]
+    jobs = tuple(Job(name=f"J{place}", stops=(JobStop(at=place),)) for place in places)
+    robot = Robot(name="R1", home=places[0], turn_rate=Fraction(rate))
+    scenario = make_work(roadmap=roadmap, robots=(robot,), jobs=jobs)
+    travel, tick = measure(scenario), scenario.problem.clock.tick
+    for tail, head in permutations(places, 2):
+        trip = replace(robot, home=tail, stops=(Stop(at=head),), ends="none")
+        alone = Scenario(roadmap=roadmap, robots=(trip,), rules=Rules(turn=Fraction(0)))
+        least = compute_least_completions(alone)
+        assert least is not None
+        time = find_ticks(travel, tail, head) * tick
+        assert time == int(least[0]) * alone.problem.clock.tick

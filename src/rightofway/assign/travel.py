@@ -1,8 +1,8 @@
 """Travel times and energies between the places that jobs use, measured once.
 
 Robots of one pace share a table, and so do robots with batteries of one kind. Times are exact for a
-robot alone on the roads that need not turn: one-way lanes, speeds, limits and barred lanes count.
-With a turn rate they are lower bounds.
+robot alone on the roads: one-way lanes, speeds, limits, barred lanes and turns on the way count. Of
+the turn before the first drive nothing is known here, so with a turn rate times are lower bounds.
 """
 
 from __future__ import annotations
@@ -17,14 +17,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.model import Problem, Tick
+from rightofway.model.turning import Turning
 from rightofway.model.work import LARGEST_BATTERY, BoundBattery, BoundRobot, Work
 from rightofway.search import Distances
 from rightofway.site import VertexId
 
 __all__ = ["BatteryKind", "Travel", "measure_travel"]
 
-_Pace = tuple[tuple[Tick, ...], Tick]
-"""Ticks for an edge of each class, and of turning at a stop."""
+_Pace = tuple[tuple[Tick, ...], Tick, Fraction | None]
+"""Ticks for an edge of each class, and of turning at a stop; the turn rate [degrees per tick]."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -124,16 +125,22 @@ def measure_travel(problem: Problem, distances: Distances) -> Travel:
     work = problem.work
     assert work is not None, "the problem has jobs"
     vertices = (*_list_places(work), *(robot.start for robot in work.robots))
+    turnings = {
+        None if own.turning is None else own.turning.rate: own.turning
+        for own in problem.itineraries
+    }
     paces = [
-        (itinerary.edge_ticks, robot.turn)
+        (itinerary.edge_ticks, robot.turn, itinerary.turning.rate if itinerary.turning else None)
         for itinerary, robot in zip(problem.itineraries, work.robots, strict=True)
     ]
     kinds = list(dict.fromkeys(paces))
-    distances.prepare((vertex, ticks) for ticks, _ in kinds for vertex in vertices)
+    distances.prepare((vertex, ticks) for ticks, *_ in kinds for vertex in vertices)
     n_used = len(vertices) - len(work.robots)
     travel = Travel(
         vertices=vertices,
-        ticks=np.array([_measure_ticks(vertices, n_used, pace, distances) for pace in kinds]),
+        ticks=np.array(
+            [_measure_ticks(vertices, n_used, pace, turnings[pace[2]], distances) for pace in kinds]
+        ),
         kind_of=tuple(kinds.index(pace) for pace in paces),
         batteries=(),
         battery_of=(),
@@ -150,11 +157,18 @@ def _list_places(work: Work) -> list[VertexId]:
 
 
 def _measure_ticks(
-    vertices: Sequence[VertexId], n_used: int, pace: _Pace, distances: Distances
+    vertices: Sequence[VertexId],
+    n_used: int,
+    pace: _Pace,
+    turning: Turning | None,
+    distances: Distances,
 ) -> NDArray[np.int32]:
-    edge_ticks, turn = pace
+    edge_ticks, turn, _ = pace
     at = np.array(vertices, np.int32)
     by_target = {vertex: distances.to(vertex, edge_ticks)[at] for vertex in set(vertices)}
+    if turning is not None:  # starts are no targets
+        for vertex in set(vertices[:n_used]):
+            by_target[vertex] = distances.to_with_turns(vertex, edge_ticks, turning)[at]
     ticks = np.stack([by_target[vertex] for vertex in vertices], axis=1)
     turns = (at[:, None] != at[None, :]) & (ticks >= 0)
     turns[n_used:] = False
@@ -175,7 +189,7 @@ def _add_batteries(
         for full, group in _group_by_full(members, robots):
             for index in group:
                 battery_of[index] = len(batteries)
-            robot, (edge_ticks, _) = robots[group[0]], paces[group[0]]
+            robot, (edge_ticks, *_) = robots[group[0]], paces[group[0]]
             batteries.append(_measure_battery(travel, robot, full, edge_ticks, distances))
     return replace(travel, batteries=tuple(batteries), battery_of=tuple(battery_of))
 

@@ -14,6 +14,8 @@ from rightofway import _core
 from rightofway.errors import InputError
 from rightofway.kinds.table import require_index
 from rightofway.model import Tick
+from rightofway.model.turning import Turning
+from rightofway.search.turning_distances import TurningDistances
 from rightofway.site import Roadmap, VertexId
 
 Path = tuple[VertexId, ...]
@@ -48,7 +50,8 @@ class Distances:
     def __init__(self, roadmap: Roadmap, *, checkpoint: Callable[[], None] = lambda: None) -> None:
         self.roadmap = roadmap
         self.checkpoint = checkpoint
-        self._tables: dict[tuple[int, tuple[Tick, ...]], NDArray[np.int32]] = {}
+        self._tables: dict[tuple[object, ...], NDArray[np.int32]] = {}
+        self._turns: dict[tuple[object, ...], TurningDistances] = {}
         self._lock = Lock()
         self._edges: dict[tuple[Tick, ...], NDArray[np.int32]] = {}
         self._symmetric: dict[tuple[Tick, ...], bool] = {}
@@ -82,7 +85,39 @@ class Distances:
             self._keep(key, table)
         return table
 
-    def _keep(self, key: tuple[VertexId, tuple[Tick, ...]], table: NDArray[np.int32]) -> None:
+    def to_with_turns(
+        self, target: VertexId, edge_ticks: tuple[Tick, ...], turning: Turning
+    ) -> NDArray[np.int32]:
+        """Return the least ticks from every vertex to ``target``, with turns on the way.
+
+        The turn before the first drive, which depends on the heading, is left out.
+
+        Parameters
+        ----------
+        target
+            The vertex to reach.
+        edge_ticks
+            Ticks for an edge of each class, -1 for one that is barred.
+        turning
+            How long the robot turns between two edges.
+
+        Returns
+        -------
+        ndarray of int32, shape (V,)
+            Ticks, -1 from where the target cannot be reached.
+        """
+        key = (target, edge_ticks, turning.rate)
+        table = self._tables.get(key)
+        if table is None:
+            self.checkpoint()
+            if key[1:] not in self._turns:
+                ticks = self.compute_edge_ticks(edge_ticks)
+                self._turns[key[1:]] = TurningDistances(self.roadmap, ticks, turning)
+            table = self._turns[key[1:]].to(target)
+            self._keep(key, table)
+        return table
+
+    def _keep(self, key: tuple[object, ...], table: NDArray[np.int32]) -> None:
         """Keep a table, and forget the oldest ones where all would take too much memory."""
         with self._lock:
             while self._tables and (len(self._tables) + 1) * len(table) > MOST_ENTRIES:
