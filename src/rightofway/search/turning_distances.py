@@ -18,17 +18,7 @@ LAST = 1
 
 
 class TurningDistances:
-    """Distances of one pace and turn rate.
-
-    Parameters
-    ----------
-    roadmap
-        The graph that robots drive on.
-    edge_ticks
-        Ticks of each edge, -1 where it is barred; int32, shape (E,).
-    turning
-        How long the robot turns between two edges.
-    """
+    """Distances of one pace and turn rate, from the ticks of each edge, -1 where it is barred."""
 
     def __init__(self, roadmap: Roadmap, edge_ticks: NDArray[np.int32], turning: Turning) -> None:
         self._indptr, self._edge_ticks = roadmap.indptr, edge_ticks
@@ -51,13 +41,7 @@ class TurningDistances:
         self._kernel = _core.DistanceTables(states.astype(np.int32), heads.astype(np.int32))
 
     def to(self, target: VertexId) -> NDArray[np.int32]:
-        """Return the least ticks from every vertex to a target, -1 without a way; int32[V].
-
-        Parameters
-        ----------
-        target
-            The vertex to reach.
-        """
+        """Return the least ticks from every vertex to a target, -1 without a way; int32[V]."""
         behind = self._kernel.to(self._n_edges + target, self._ticks)[: self._n_edges]
         is_way = (behind >= 0) & (self._edge_ticks >= 0)
         most = np.iinfo(np.int32).max
