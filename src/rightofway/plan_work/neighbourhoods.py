@@ -97,13 +97,7 @@ class Neighbourhoods:
         return _core.RoutedMoves(**self.make_arguments(work))
 
     def make_arguments(self, work: Work) -> dict[str, Any]:
-        """Return the arguments of that search.
-
-        Parameters
-        ----------
-        work
-            The jobs of the plan.
-        """
+        """Return the arguments of that search; ``work`` are the jobs of the plan."""
         scenario = assign_tours(self.plan.scenario, self._list_tours())
         problem = replace(scenario.problem, after=())  # the tours know which jobs follow others
         fleet = FleetSearch(problem, seed=self._seed, threads=1)
