@@ -106,3 +106,10 @@ def test_a_late_robot_waits_before_a_closure_until_it_ends() -> None:
     late = hold_shift(scenario, delays="stop:R1@1+5")
     assert late.jobs["J1"].ended == 22
     assert check(late.make_plan()).ok
+
+
+def test_a_job_that_ends_at_the_end_of_the_shift_is_done() -> None:
+    """R1 is at N4 after 4 ticks."""
+    scenario = make_scenario(["....."], {"R1": "N0"}, jobs=[{"name": "J1", "at": "N4"}])
+    assert hold_shift(scenario, until=Tick(4)).jobs["J1"].ended == 4
+    assert hold_shift(scenario, until=Tick(3)).jobs["J1"].ended is None

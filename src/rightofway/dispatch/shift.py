@@ -159,7 +159,8 @@ class _Shift:
         )
 
     def make_record(self) -> ShiftRecord:
-        """Return what has happened."""
+        """Return what has happened, at the last tick, too."""
+        self._note_works()
         return ShiftRecord(
             scenario=self._scenario,
             until=self._now,
@@ -178,11 +179,7 @@ class _Shift:
 
     def _note_events(self) -> None:
         """Note what has happened on the floor until now, and which jobs have become known."""
-        past = [event for event in self._floor.events if event.tick <= self._now]
-        self._floor.events = [event for event in self._floor.events if event.tick > self._now]
-        for event in sorted(past):
-            self._note_work(event)
-        if past or not self._is_still:
+        if self._note_works() or not self._is_still:
             self._n_still = 0
         lost = {k for k, own in enumerate(self._floor.robots) if (own.lost or NEVER) <= self._now}
         self._is_due |= lost != self._lost
@@ -192,6 +189,14 @@ class _Shift:
             self._jobs[job.name] = JobRecord(job=job, known=self._now)
             self._apply(PoolEvent(kind="job known", at=self._now, name=job.name, job=job))
             self._is_due = True
+
+    def _note_works(self) -> bool:
+        """Note the work that has begun and ended until now; return whether there was any."""
+        past = [event for event in self._floor.events if event.tick <= self._now]
+        self._floor.events = [event for event in self._floor.events if event.tick > self._now]
+        for event in sorted(past):
+            self._note_work(event)
+        return bool(past)
 
     def _note_work(self, event: FloorEvent) -> None:
         own, tick = self._jobs[event.job], Tick(event.tick)
