@@ -237,7 +237,8 @@ def _run_rounds(
         limit = deadline.measure_seconds_left()
         return _run(spec, toured, limit, seconds_per_visit, offer, unserved=assignment.unserved)
 
-    return plan_work(
+    began = time.perf_counter()
+    plan = plan_work(
         request.scenario,
         plan_tours,
         deadline=Deadline.after(time_limit),
@@ -245,6 +246,7 @@ def _run_rounds(
         better=on_plan or (lambda _: None),
         report=request.report,
     )
+    return replace(plan, run=replace(plan.run, seconds=time.perf_counter() - began))
 
 
 def _refuse_unknown(spec: PlannerSpec, request: PlanRequest) -> None:

@@ -18,10 +18,12 @@ import pytest
 
 import rightofway
 from rightofway import _core
-from rightofway.assign import AssignmentSearch
+from rightofway.assign import AssignmentSearch, measure_travel
 from rightofway.cyclic import find_best_timetable
 from rightofway.errors import NoPlanExists, RightOfWayError
+from rightofway.io import parse_scenario
 from rightofway.model import BookingRules, Lap, Plan, Rules, Scenario, Tick
+from rightofway.plan_work.neighbourhoods import Neighbourhoods
 from rightofway.planners import find_all
 from rightofway.precedence import ActionDependencyGraph, DelayModel, TimedEventGraph
 from rightofway.repair.flip import flip_right_of_way
@@ -43,6 +45,7 @@ from tests.builders.any_work import draw_work
 from tests.builders.fleets import grid_fleet, random_fleet
 from tests.builders.periodic import random_timetable
 from tests.builders.timed import with_problem
+from tests.builders.work_scenarios import draw_work_document
 
 LIMITS = [0.0, -0.0, -1.0, -1e-9, 1e-9, 1e-4]
 
@@ -131,6 +134,24 @@ def search_tours(limit: float, *, has_first: bool) -> None:
     search.improve(10**9, limit)
 
 
+@cache
+def find_neighbourhoods() -> Neighbourhoods:
+    """Return neighbourhoods of a plan of eight jobs by three robots."""
+    scenario = parse_scenario(draw_work_document(5, n_robots=3, n_jobs=8))
+    work = scenario.problem.work
+    assert work is not None, "the scenario has jobs"
+    travel = measure_travel(scenario.problem, Distances(scenario.roadmap))
+    search = AssignmentSearch(work, travel, weights=scenario.problem.weights)
+    return Neighbourhoods(rightofway.solve(scenario, "prioritized"), search, travel, 0)
+
+
+def move_jobs(limit: float) -> None:
+    near = find_neighbourhoods()
+    assert near.plan.scenario.problem.work is not None, "the plan has jobs"
+    arguments = near.make_arguments(near.plan.scenario.problem.work)
+    _core.RoutedMoves(**arguments).run(10**12, 10**12, limit)
+
+
 def track(scenario: Scenario, limit: float) -> None:
     bookings, distances = Bookings(scenario.problem), Distances(scenario.roadmap)
     find_earliest_track(0, bookings, distances, time_limit=limit)
@@ -217,6 +238,7 @@ CALLS: dict[str, Callable[[Scenario, float], object]] = {
     "PeriodicBookings.find_route": find_route,
     "PeriodicBookings.search": search,
     "PriceAscent.run": raise_prices,
+    "RoutedMoves.run": lambda _, limit: move_jobs(limit),
     "TourSearch.construct": lambda _, limit: search_tours(limit, has_first=False),
     "TourSearch.improve": lambda _, limit: search_tours(limit, has_first=True),
     "critical_circuit": lambda _, limit: event_graph().find_critical_circuit(time_limit=limit),

@@ -135,6 +135,7 @@ class _Rounds:
         self._start: Assignment | None = None  # from which the next search for tours starts
         self._fewer: Assignment | None = None  # the next assignment, after one without a plan
         self._n_refused = 0  # plans that the judge has refused since the last good one
+        self._is_offered = False  # whether the best plan was handed over by a planner at work
         self.best: tuple[WorkCost, Plan] | None = None
 
     def count_unserved(self) -> int:
@@ -167,7 +168,8 @@ class _Rounds:
             return None
         self._start, self._n_refused = assignment, 0
         cost = measure_work(plan)
-        if self.best is not None and self.best[0] <= cost:
+        is_offered, self._is_offered = self._is_offered, False
+        if self.best is not None and (self.best[0], is_offered) < (cost, True):
             return None
         self.best = cost, plan
         return plan
@@ -176,7 +178,7 @@ class _Rounds:
         """Keep a plan that the first round has on its way, so that there is one at once."""
         cost = measure_work(plan)
         if check(plan).ok and (self.best is None or cost < self.best[0]):
-            self.best = cost, plan
+            self.best, self._is_offered = (cost, plan), True
             self._better(plan)
 
     def _choose_next(self, assignment: Assignment) -> bool:
