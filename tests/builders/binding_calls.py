@@ -17,12 +17,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.assign import AssignmentSearch, measure_travel
-from rightofway.io import parse_scenario
 from rightofway.plan_work.neighbourhoods import Neighbourhoods
-from rightofway.search import Distances
-from rightofway.solve import solve
-from tests.builders.work_scenarios import draw_work_document
+from tests.builders.neighbourhoods import make_arguments, make_neighbourhoods
 
 if TYPE_CHECKING:
     from rightofway import _core
@@ -503,21 +499,12 @@ def _works() -> Part:
 
 
 @cache
-def _find_moves_of_jobs() -> Neighbourhoods:
-    """Return neighbourhoods of a plan of three jobs by two robots."""
-    scenario = parse_scenario(draw_work_document(7, n_jobs=3))
-    work = scenario.problem.work
-    assert work is not None, "the scenario has jobs"
-    travel = measure_travel(scenario.problem, Distances(scenario.roadmap))
-    search = AssignmentSearch(work, travel, weights=scenario.problem.weights)
-    return Neighbourhoods(solve(scenario, "prioritized"), search, travel, 0)
+def _find_neighbourhoods() -> Neighbourhoods:
+    return make_neighbourhoods(7, n_robots=2, n_jobs=3)
 
 
 def _moves_of_jobs(_: random.Random) -> Arguments:
-    near = _find_moves_of_jobs()
-    work = near.plan.scenario.problem.work
-    assert work is not None, "the plan has jobs"
-    return near.make_arguments(work)
+    return make_arguments(_find_neighbourhoods())
 
 
 PARTS = (

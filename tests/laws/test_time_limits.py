@@ -18,10 +18,9 @@ import pytest
 
 import rightofway
 from rightofway import _core
-from rightofway.assign import AssignmentSearch, measure_travel
+from rightofway.assign import AssignmentSearch
 from rightofway.cyclic import find_best_timetable
 from rightofway.errors import NoPlanExists, RightOfWayError
-from rightofway.io import parse_scenario
 from rightofway.model import BookingRules, Lap, Plan, Rules, Scenario, Tick
 from rightofway.plan_work.neighbourhoods import Neighbourhoods
 from rightofway.planners import find_all
@@ -43,9 +42,9 @@ from rightofway.search import (
 from rightofway.site import VertexId
 from tests.builders.any_work import draw_work
 from tests.builders.fleets import grid_fleet, random_fleet
+from tests.builders.neighbourhoods import make_arguments, make_neighbourhoods
 from tests.builders.periodic import random_timetable
 from tests.builders.timed import with_problem
-from tests.builders.work_scenarios import draw_work_document
 
 LIMITS = [0.0, -0.0, -1.0, -1e-9, 1e-9, 1e-4]
 
@@ -136,19 +135,11 @@ def search_tours(limit: float, *, has_first: bool) -> None:
 
 @cache
 def find_neighbourhoods() -> Neighbourhoods:
-    """Return neighbourhoods of a plan of eight jobs by three robots."""
-    scenario = parse_scenario(draw_work_document(5, n_robots=3, n_jobs=8))
-    work = scenario.problem.work
-    assert work is not None, "the scenario has jobs"
-    travel = measure_travel(scenario.problem, Distances(scenario.roadmap))
-    search = AssignmentSearch(work, travel, weights=scenario.problem.weights)
-    return Neighbourhoods(rightofway.solve(scenario, "prioritized"), search, travel, 0)
+    return make_neighbourhoods(5, n_robots=3, n_jobs=8)
 
 
 def move_jobs(limit: float) -> None:
-    near = find_neighbourhoods()
-    assert near.plan.scenario.problem.work is not None, "the plan has jobs"
-    arguments = near.make_arguments(near.plan.scenario.problem.work)
+    arguments = make_arguments(find_neighbourhoods())
     _core.RoutedMoves(**arguments).run(10**12, 10**12, limit)
 
 
