@@ -1,4 +1,4 @@
-"""Deliveries of robots with batteries, beside the best that Open-RMF's task planner could assign.
+"""Deliveries of robots with batteries, compared with the best assignment of Open-RMF's planner.
 
 ``python -m benchmarks.deliveries_with_batteries [--seconds S]`` plans a case from the tests of
 https://github.com/open-rmf/rmf_task: two robots on a grid of 4 x 4 vertices, 1 000 m apart, with 11

@@ -38,7 +38,7 @@ TIME_OF_JOB = 240
 
 
 def hold_league_shift(path: str, steps: int, seconds: float, seed: int) -> list[str]:
-    """Return a row of the table: what a team does in some steps."""
+    """Return a row of the table: the tasks that a team finishes in some steps."""
     loaded = load_with_notes(path)
     scenario = loaded.scenario
     reveal = Reveal(scenario.jobs or (), scenario.problem.clock, first=loaded.reveal)
@@ -80,7 +80,7 @@ def draw_warehouse(
     grid = [line.replace("T", "@") for line in lines[4:] if line]
     columns = len(grid[0])
     free = [(r, c) for r, line in enumerate(grid) for c, cell in enumerate(line) if cell == "."]
-    # Every second column of both sides, so that a robot at home blocks nobody.
+    # Every second column of both sides, so that a robot at home is in no other robot's way.
     sides = {*range(0, 6, 2), *range(columns - 1, columns - 7, -2)}
     homes = [list(place) for place in free if place[1] in sides]
     random.shuffle(homes)

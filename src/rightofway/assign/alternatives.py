@@ -1,4 +1,4 @@
-"""Why a robot does a job: what the job would cost on each robot that may do it."""
+"""Why a robot does a job: the cost of the job on each robot that may do it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ __all__ = ["JobCost", "list_job_costs"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JobCost:
-    """What a job adds to the objective on one robot.
+    """The cost that a job adds to the objective on one robot.
 
     Attributes
     ----------

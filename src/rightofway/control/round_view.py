@@ -1,7 +1,7 @@
 """The fleet of a control as a round sees it, and the plan of a round as routes to drive.
 
 Each robot keeps a part of its route, at least all that is released to it. What is kept goes first
-in the new order, so commitments wait for nobody.
+in the new order, so commitments wait for no robot.
 """
 
 from __future__ import annotations

@@ -48,7 +48,7 @@ def assign_overdue(
     old
         The tours to start from.
     overdue
-        Indices of overdue jobs that nobody has begun, the oldest first.
+        Indices of overdue jobs that no robot has begun, the oldest first.
     weights
         The weights of the robots.
     deadline

@@ -116,7 +116,7 @@ class RoundRecord:
     stands
         Whether the old plan stood.
     facts
-        What it had to tell.
+        Its facts.
     """
 
     begin: Tick
@@ -146,7 +146,7 @@ class ShiftRecord:
     events
         What has happened to jobs, in the order in which it was noted.
     facts
-        What the shift has to tell, with the tick: standstills, and robots that do not go on.
+        The facts of the shift, with the tick: standstills, and robots that do not go on.
     """
 
     scenario: Scenario

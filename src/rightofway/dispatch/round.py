@@ -94,9 +94,9 @@ UNLIMITED = 2**31 - 1
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Given:
-    """What a round plans: the scenario of the round, and how its indices belong to the fleet.
+    """The input of a round: its scenario, and how its indices belong to the fleet.
 
-    ``able`` are the robots of the fleet that are in it, ``overdue`` its overdue jobs that nobody
+    ``able`` are the robots of the fleet that are in it, ``overdue`` its overdue jobs that no robot
     has begun, the oldest first.
     """
 

@@ -1,4 +1,4 @@
-"""What a round reads and returns: the fleet forecast for the takeover, and a plan behind it.
+"""The input and the result of a round: the fleet forecast for the takeover, and a plan behind it.
 
 A round begins at `FleetView.now`; its plan takes over at `FleetView.takeover`. Until then the old
 plan stands. Each robot keeps the part of its route that it has begun by then, its *kept part*, and

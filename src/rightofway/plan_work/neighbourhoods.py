@@ -167,7 +167,7 @@ class Neighbourhoods:
 
 
 def _scale_jobs(work: Work, tours: Sequence[Tour]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return what a tick of the end of each job costs in searches; empty without service."""
+    """Return the cost of a tick of the end of each job in searches; empty without service."""
     if work.objective != "service" or not work.jobs:
         return np.zeros(0, np.int64), np.zeros(0, np.int64)
     exact = [(job.weight, job.weight * work.late * (job.due is not None)) for job in work.jobs]
