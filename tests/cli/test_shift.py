@@ -58,6 +58,13 @@ def test_jobs_become_known_before_their_earliest(cli: Cli, scenario: Path, tmp_p
         assert {job["name"]: job["known"] for job in data["jobs"]}["J3"] == ticks
 
 
+def test_jobs_arrive_at_random_by_a_seed(cli: Cli, scenario: Path) -> None:
+    args = ("shift", scenario, "--lead", "0", "--json", "--known", "poisson:1/20", "--seed")
+    first, again, other = (json.loads(cli(*args, seed).out) for seed in ("4", "4", "5"))
+    known = [[job["known"] for job in data["jobs"]] for data in (first, again, other)]
+    assert known[0] == known[1] != known[2]
+
+
 def test_a_shift_ends_at_its_time(cli: Cli, scenario: Path) -> None:
     data = json.loads(cli("shift", scenario, "--until", "8", "--lead", "0", "--json").out)
     assert data["until"] == 8

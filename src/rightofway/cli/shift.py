@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
@@ -35,15 +32,12 @@ from rightofway.cli.terminal import (
     show_progress,
 )
 
-if TYPE_CHECKING:
-    from rightofway.model import Scenario
-
 EXAMPLES = """\b
 Examples:
   rightofway shift warehouse.yaml --until 28800 --page shift.html
   rightofway shift warehouse.yaml --delays exponential:0.1,breaks:0.05
   rightofway shift league.json --until 500 --lead 0
-  rightofway shift warehouse.yaml --known 600 --json
+  rightofway shift warehouse.yaml --known poisson:1/30 --seed 7 --json
 """
 
 
@@ -51,9 +45,27 @@ def _read_round_time(_context: click.Context, _parameter: click.Parameter, given
     return read_positive(given, "give seconds")
 
 
+def _list_known_and_delays(formatter: click.HelpFormatter) -> None:
+    from rightofway.dispatch.known import ARRIVALS
+
+    rows = [
+        ("600", "this long before their earliest [time unit]"),
+        ("known.csv", "at the times of a CSV file with columns name and known"),
+        *((arrivals.example, arrivals.meaning) for arrivals in ARRIVALS.values()),
+    ]
+    with formatter.section("When jobs become known"):
+        formatter.write_dl(rows)
+        formatter.write_paragraph()
+        formatter.write_text(
+            "With a distribution, jobs arrive in the order of the scenario. Their earliest is then"
+            " when they become known; due and latest keep their distance from it."
+        )
+    list_delays(formatter)
+
+
 @click.command(
     cls=ListingCommand,
-    listing=list_delays,
+    listing=_list_known_and_delays,
     epilog=EXAMPLES,
     short_help="Simulate a shift of a SCENARIO with jobs.",
 )
@@ -64,9 +76,8 @@ def _read_round_time(_context: click.Context, _parameter: click.Parameter, given
 @click.option("--reveal", type=Whole(1), metavar="N",
               help="Jobs become known when they are among the first N unfinished ones; those with"
               " a robot are counted for each robot.")  # fmt: skip
-@click.option("--known", metavar="FILE|T",
-              help="When jobs become known: a CSV file with columns name and known, or how long"
-              " before their earliest [time unit]; by default at their earliest.")  # fmt: skip
+@click.option("--known", metavar="KNOWN",
+              help="When jobs become known, see below; by default at their earliest.")  # fmt: skip
 @make_delays_option("none")
 @seed_option
 @click.option("--round-time", default="1", show_default=True, callback=_read_round_time,
@@ -104,9 +115,8 @@ def shift(
     refuse_outputs(scenario, output, as_json=as_json)
     if reveal is not None and known is not None:
         raise click.UsageError("--reveal and --known both say when jobs become known (give one)")
-    from rightofway.dispatch import Reveal, ShiftRules, run_shift
+    from rightofway.dispatch import ShiftSettings
     from rightofway.dispatch.record_file import dump_shift
-    from rightofway.execution.delays import delay_model_of, read_delays
     from rightofway.io import load_with_notes
     from rightofway.report.plan_data import describe_measures
     from rightofway.report.shift import make_shift_data, report_shift
@@ -115,25 +125,17 @@ def shift(
     opened = note_loaded(loaded, scenario)
     if opened.jobs is None:
         raise click.UsageError(f"{scenario} has no jobs (a shift needs jobs: [], at least)")
-    clock = opened.problem.clock
-    first = reveal if reveal is not None or known is not None else loaded.reveal
-    causes = read_delays(delay_texts(delays), opened)
-    rules = ShiftRules(
-        until=None if until is None else clock.count_ticks(until),
-        step=clock.count_ticks(max(Fraction(1), lead or Fraction(0))),
-        lead=clock.count_ticks(_choose_lead(opened, round_time) if lead is None else lead),
-        time_limit=round_time,
+    settings = ShiftSettings(
+        until=until,
+        reveal=reveal if reveal is not None or known is not None else loaded.reveal,
+        known=known,
+        delays=tuple(delay_texts(delays)),
+        round_time=round_time,
+        lead=lead,
         seed=seed,
     )
-    times = None if known is None else _read_known(known, opened)
     with show_progress() as reported:
-        record = run_shift(
-            opened,
-            Reveal(opened.jobs, clock, known=times, first=first),
-            rules,
-            delays=delay_model_of(causes, opened) if causes else None,
-            report=reported,
-        )
+        record = settings.simulate(opened, report=reported)
     if as_json:
         put_json({**describe_measures(opened), **make_shift_data(record)})
     elif output != "-":
@@ -146,39 +148,3 @@ def shift(
         write_shift_page(record, page, title=make_title(scenario))
         say_written(page)
     return 0
-
-
-def _choose_lead(scenario: Scenario, round_time: float) -> Fraction:
-    """Return the time of a round in time units; a unit that is not known counts as a second."""
-    seconds = scenario.units.seconds or Fraction(1)
-    return Fraction(str(round_time)) / seconds
-
-
-def _read_known(given: str, scenario: Scenario) -> Mapping[str, Fraction]:
-    """Return when jobs become known [time unit], by their names."""
-    from rightofway.kinds.table import NOT_NEGATIVE
-
-    if given.lower().endswith(".csv"):
-        return _read_known_times(Path(given), [job.name for job in scenario.jobs or ()])
-    before = NOT_NEGATIVE.read_at("known", given)
-    return {job.name: max(job.earliest - before, Fraction(0)) for job in scenario.jobs or ()}
-
-
-def _read_known_times(path: Path, names: Sequence[str]) -> Mapping[str, Fraction]:
-    from rightofway.errors import InputError, quote
-    from rightofway.io.tables import read_csv
-    from rightofway.kinds.table import NOT_NEGATIVE
-
-    rows, locate = read_csv(path, ("known",))
-    columns = {text.lower(): column for column, text in next(rows, (1, {}))[1].items()}
-    if set(columns) != {"name", "known"}:
-        raise InputError.at("known", f"{path} has not the headings name and known (give both)")
-    times = {}
-    for number, row in rows:
-        name = row.get(columns["name"], "")
-        if name not in names:
-            message = f"{quote(name)} is no job of the scenario (take the row out)"
-            raise InputError.at(locate(number, columns["name"]), message)
-        at = locate(number, columns["known"])
-        times[name] = NOT_NEGATIVE.read_at(at, row.get(columns["known"], ""))
-    return times

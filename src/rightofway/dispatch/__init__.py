@@ -10,6 +10,7 @@ from rightofway.dispatch.pool import Pool, PooledJob, PoolEvent
 from rightofway.dispatch.record import ShiftRecord
 from rightofway.dispatch.reveal import Reveal
 from rightofway.dispatch.round import RoundPlanner
+from rightofway.dispatch.settings import ShiftSettings
 from rightofway.dispatch.shift import ShiftRules, run_shift
 from rightofway.dispatch.view import (
     FleetView,
@@ -31,6 +32,7 @@ __all__ = [
     "RoundPlanner",
     "ShiftRecord",
     "ShiftRules",
+    "ShiftSettings",
     "make_whole_tracks",
     "run_shift",
 ]
