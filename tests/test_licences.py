@@ -26,16 +26,20 @@ def files_of_others() -> set[Path]:
     return {path for entry in CARRIED for pattern in entry["files"] for path in ROOT.glob(pattern)}
 
 
-def test_the_expression_names_the_licence_of_all_that_is_carried() -> None:
-    carried = {spdx for entry in CARRIED for spdx in entry["spdx"]}
+def test_the_expression_names_the_licences_of_what_the_wheel_holds_and_no_other() -> None:
+    carried = {spdx for entry in CARRIED if entry["wheel"] for spdx in entry["spdx"]}
     assert set(PROJECT["license"].split(" AND ")) == {"MIT", *carried}
 
 
 @pytest.mark.parametrize("entry", CARRIED, ids=lambda entry: str(entry["name"]))
-def test_the_text_of_each_licence_is_in_the_metadata(entry: dict[str, Any]) -> None:
-    """`license-files` are copied into every wheel and sdist."""
+def test_the_text_of_a_licence_is_in_the_metadata_if_the_wheel_holds_the_files(
+    entry: dict[str, Any],
+) -> None:
+    """`license-files` are copied into every wheel; an sdist has all texts."""
     kept = {path for pattern in PROJECT["license-files"] for path in ROOT.glob(pattern)}
-    assert ROOT / entry["text"] in kept
+    in_the_wheel = {other["text"] for other in CARRIED if other["wheel"]}
+    assert (ROOT / entry["text"] in kept) == (entry["text"] in in_the_wheel)
+    assert (ROOT / entry["text"]).is_file()
     assert all(list(ROOT.glob(pattern)) for pattern in entry["files"])
 
 

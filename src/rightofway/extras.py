@@ -16,7 +16,7 @@ from rightofway.kinds.table import make_words
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
-__all__ = ["EXTRAS", "PluginWarning", "load_library", "load_plugins", "need"]
+__all__ = ["EXTRAS", "PluginWarning", "list_plugins", "load_library", "load_plugins", "need"]
 
 T = TypeVar("T")
 
@@ -26,6 +26,9 @@ EXTRAS = {
     "openpyxl": "xlsx",
 }
 """Optional libraries, and the extra that installs each."""
+
+GROUPS = ("rightofway.planners", "rightofway.layouts")
+"""Groups of entry points by which other packages add to this one."""
 
 
 class PluginWarning(UserWarning):
@@ -72,6 +75,22 @@ def load_plugins(group: str, kind: type[T]) -> dict[str, T]:
         else:
             plugins.setdefault(point.name, plugin)
     return plugins
+
+
+def list_plugins() -> list[dict[str, str]]:
+    """Return the entry points of other packages: name, group, package and its version."""
+    from importlib.metadata import entry_points
+
+    return [
+        {
+            "name": point.name,
+            "group": point.group,
+            "package": point.dist.name if point.dist else "",
+            "version": point.dist.version if point.dist else "",
+        }
+        for group in GROUPS
+        for point in entry_points(group=group)
+    ]
 
 
 def _describe_failure(point: EntryPoint, error: BaseException) -> str:

@@ -84,7 +84,7 @@ def test_the_script_for_bash_fills_in_what_is_offered(tmp_path: Path) -> None:
     """The shell's own function is called as Bash calls it when Tab is pressed."""
     path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
     script = (
-        'eval "$(_RIGHTOFWAY_COMPLETE=bash_source rightofway)";'
+        'eval "$(rightofway completion bash)";'
         " COMP_WORDS=(rightofway plan --option swaps = l); COMP_CWORD=5;"
         ' _rightofway_completion rightofway; echo "${COMPREPLY[@]}"'
     )

@@ -81,7 +81,8 @@ def command_lines(page: Path) -> Iterator[list[str]]:
 @pytest.mark.parametrize("page", PAGES, ids=title_of)
 def test_every_command_and_option_in_code_exists(page: Path) -> None:
     for words in command_lines(page):
-        command = commands.commands.get(words[0])
+        is_option = words[0].startswith("-")
+        command = commands if is_option else commands.commands.get(words[0])
         assert command is not None, f"{title_of(page)}: rightofway {words[0]}"
         for word in words:
             if word.startswith("--"):

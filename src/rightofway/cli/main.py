@@ -33,7 +33,7 @@ import click
 
 from rightofway import __version__
 from rightofway.cli.parts import GROUPS, MODULES, load_command
-from rightofway.cli.terminal import add_shared_options, complain, say, speak_utf8
+from rightofway.cli.terminal import add_shared_options, complain, put_json, say, speak_utf8
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists, describe_error
 
 MANY = 1000
@@ -100,12 +100,16 @@ class _Commands(click.Group):
     commands=_Modules(),
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 80},
     epilog=START,
+    invoke_without_command=True,
+    no_args_is_help=True,
+    subcommand_metavar="COMMAND [ARGS]...",
 )
-@click.version_option(__version__, "-V", "--version", prog_name="rightofway")
+@click.option("-V", "--version", is_flag=True, help="Show the version and exit.")
+@click.option("--json", "as_json", is_flag=True, help="Print the version as JSON.")
 @add_shared_options
 @click.option("--debug", is_flag=True, help="Show where an unexpected error comes from.")
 @click.pass_context
-def commands(context: click.Context, *, debug: bool) -> None:
+def commands(context: click.Context, *, version: bool, as_json: bool, debug: bool) -> None:
     """Plan fleets of mobile robots that go out, work and come home.
 
     Results go to standard output or to the file of -o, everything else to standard error. Exit
@@ -113,6 +117,15 @@ def commands(context: click.Context, *, debug: bool) -> None:
     130 interrupted.
     """
     context.ensure_object(_Session).debug = debug
+    if version:
+        put_json(_describe_program()) if as_json else click.echo(
+            f"rightofway, version {__version__}"
+        )
+        context.exit()
+    if as_json:
+        raise click.UsageError("--json belongs to --version, or after a command.", context)
+    if context.invoked_subcommand is None:
+        raise click.UsageError("Missing command.", context)
 
 
 def main(args: Sequence[str] | None = None) -> NoReturn:
@@ -143,6 +156,20 @@ def main(args: Sequence[str] | None = None) -> NoReturn:
     if is_process:
         _end_quickly(code)
     sys.exit(code)
+
+
+def _describe_program() -> dict[str, Any]:
+    """Return the versions that a report of a defect needs."""
+    import platform
+
+    from rightofway.extras import list_plugins
+
+    return {
+        "version": __version__,
+        "python": platform.python_version(),
+        "platform": platform.platform(),
+        "plugins": list_plugins(),
+    }
 
 
 def _end_quickly(code: int) -> None:

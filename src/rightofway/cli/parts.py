@@ -37,6 +37,7 @@ GROUPS: dict[str, dict[str, str]] = {
     },
     "Compare": {"bench": "cli.bench", "paper": "cli.paper"},
     "Formats": {"convert": "cli.formats", "schema": "cli.formats"},
+    "Help": {"help": "cli.manual", "completion": "cli.manual"},
 }
 """The commands with their modules in the package, by purpose, in the order of help."""
 
