@@ -139,8 +139,9 @@ def test_a_job_that_has_changed_is_done_where_it_is_now() -> None:
 
 
 def test_an_urgent_job_is_begun_before_others_that_are_not_due() -> None:
+    """R1 drives six edges to N14, of which at most four are released to it."""
     shift = Shift()
-    shift.ask("add", name="A1", pickup="N12", dropoff="N10", robot="R1")
+    shift.ask("add", name="A1", pickup="N14", dropoff="N10", load=2, robot="R1")
     shift.ask("add", name="A2", pickup="N12", dropoff="N2", robot="R1", urgent=True)
     shift.drive(120)
     done = shift.list_done()
@@ -248,6 +249,26 @@ def test_a_job_withdrawn_during_a_round_is_not_done_by_its_plan() -> None:
     shift.drive(120)
     assert "A1/0" not in shift.list_done()
     assert len(shift.pool.left) == 4
+
+
+def test_rounds_plan_routes_for_the_next_two_stops_of_long_tours() -> None:
+    """As in shifts: the other stops are in the tour, and a later round plans their routes."""
+    shift = Shift()
+    shift.drive(60)
+    names = ["A1", "A2", "A3", "A4"]
+    for name, place in zip(names, ["N2", "N12", "N5", "N14"], strict=True):
+        shift.ask("add", name=name, at=place, robot="R1")
+    ahead = [item for item in shift.dispatcher.ledger.robots[0].route.all_jobs if find_stop(item)]
+    assert len(ahead) == 2
+    jobs = shift.ask("list")["jobs"]
+    assert [(job["name"], job["state"], job["robot"]) for job in jobs] == [
+        (name, "planned", "R1") for name in names
+    ]
+    assert not shift.rounds.list_waiting()
+    shift.drive(60)
+    assert {name: shift.pool.left.get(name) for name in names} == dict.fromkeys(names, "done")
+    assert shift.dispatcher.control.is_done
+    assert shift.rounds.is_over
 
 
 def test_a_robot_taken_off_the_floor_is_placed_again_and_ends_its_job() -> None:

@@ -255,9 +255,15 @@ class _Demo:
                 self._deliver(self._end.make_letters(self._supervisor.take_turn()))
             elif agenda:
                 _, number = heapq.heappop(agenda)
-                self._robots[number].end_step(self._now)
-                self._may_begin.add(number)
-                self._deliver([self._robots[number].report_state(self._now)])
+                self._end_step(number)
+
+    def _end_step(self, number: int) -> None:
+        """End what a robot does, and tell the control."""
+        self._robots[number].end_step(self._now)
+        self._may_begin.add(number)
+        self._deliver([self._robots[number].report_state(self._now)])
+        if self._dispatcher.rounds is not None:  # routes may end soon
+            self._deliver(self._end.make_letters(self._dispatcher.follow_time()))
 
     def _find_next_change(self) -> int | None:
         """Return when time may let robots go on [ticks]; None if it lets none."""

@@ -205,7 +205,7 @@ def _is_replaced(key: str, given: Mapping[str, Any]) -> bool:
 
 
 def list_pooled_jobs(
-    ledger: Ledger, reasons: Mapping[str, UnservedReason | None]
+    ledger: Ledger, planned: Mapping[str, int], reasons: Mapping[str, UnservedReason | None]
 ) -> list[dict[str, Any]]:
     """Return the jobs of a pool in the order in which they became known: name, place, state, robot.
 
@@ -213,30 +213,24 @@ def list_pooled_jobs(
     ----------
     ledger
         Has the pool.
+    planned
+        The number of the robot that has each job in its tour, by name.
     reasons
         Why jobs are in no tour, by name.
     """
-    planned = {
-        stop[0]: ledger.names[robot]
-        for robot, own in enumerate(ledger.robots)
-        if not own.is_off
-        for item in own.route.all_jobs
-        if (stop := find_stop(item))
-    }
     failed = {stop[0] for own in ledger.robots for item in own.failed if (stop := find_stop(item))}
     rows = []
     for name, own in ledger.pool.jobs.items():
-        robot = planned.get(name) if own.robot is None else ledger.names[own.robot]
-        state = "waiting" if robot is None else "planned"
-        state = "begun" if own.is_begun else state
+        number = planned.get(name) if own.robot is None else own.robot
+        state = "begun" if own.is_begun else "waiting" if number is None else "planned"
         next_stop = own.job.stops[min(own.done, len(own.job.stops) - 1)]
         rows.append(
             {
                 "name": name,
                 "at": ledger.roadmap.name(next_stop.at),
                 "state": "failed" if name in failed else state,
-                "robot": robot,
-                "reason": reasons.get(name) if robot is None else None,
+                "robot": None if number is None else ledger.names[number],
+                "reason": reasons.get(name) if number is None else None,
             }
         )
     return rows

@@ -168,7 +168,7 @@ class Operator:
         rounds, kind = self._dispatcher.rounds, command["kind"]
         assert rounds is not None, "a plan with jobs has rounds"
         if kind == "list":
-            rows = list_pooled_jobs(self._ledger, rounds.reasons)
+            rows = list_pooled_jobs(self._ledger, rounds.map_robots(), rounds.reasons)
             return [], {"done": True, "fact": None, "jobs": rows}
         given = {key: value for key, value in command.items() if key != "kind"}
         name, now = str(given.get("name", "")), rounds.read_ticks()

@@ -26,7 +26,7 @@ from rightofway.control.round_view import (
 from rightofway.control.round_worker import RoundRequest, Rounds
 from rightofway.control.routes import RouteToDrive
 from rightofway.control.work_items import find_charge_step, find_stop
-from rightofway.dispatch import PoolEvent, Round
+from rightofway.dispatch import STOPS_AHEAD, PoolEvent, Round, StopsLater
 from rightofway.errors import InputError
 from rightofway.facts import Fact
 from rightofway.model import Scenario, Tick, UnservedReason
@@ -101,6 +101,7 @@ class RoundDriver:
         self._batteries = FleetBatteries(self.scenario)
         self._short_graph: ReleaseGraph | None = None  # of a plan that batteries do not last for
         self._tried: object = None  # what was known when a round was last wanted for idle robots
+        self._later: dict[int, StopsLater] = {}  # what robots do behind the ends of their routes
 
     @property
     def is_under_way(self) -> bool:
@@ -110,26 +111,32 @@ class RoundDriver:
     @property
     def is_over(self) -> bool:
         """Whether nothing is planned, and no more is to plan."""
-        return not self.is_wanted and not self.is_under_way
+        return not self.is_wanted and not self.is_under_way and not any(self._later.values())
 
     def want(self) -> None:
         """Begin a round as soon as none is under way."""
         self.is_wanted, self._pause = True, 0
 
+    def map_robots(self) -> dict[str, int]:
+        """Return the robot that has each job in its tour, by name; without those that are off."""
+        planned = dict[str, int]()
+        for robot, own in enumerate(self._control.ledger.robots):
+            if not own.is_off:
+                stops = filter(None, map(find_stop, own.route.all_jobs))
+                names = (name for name, _ in (*stops, *self._later.get(robot, ())))
+                planned |= dict.fromkeys(names, robot)
+        return planned
+
     def list_waiting(self) -> list[str]:
         """Return the jobs of the pool that are in no tour and not begun."""
-        planned = {
-            stop[0]
-            for own in self._control.ledger.robots
-            if not own.is_off
-            for item in own.route.all_jobs
-            if (stop := find_stop(item))
-        }
-        pool = self._control.ledger.pool
+        planned, pool = self.map_robots(), self._control.ledger.pool
         return [name for name, own in pool.jobs.items() if not own.is_begun and name not in planned]
 
     def look(self) -> None:
-        """Want a round where jobs wait for robots, or a battery will not last; each second."""
+        """Want a round where jobs wait for robots, or a battery or a route will not last long.
+
+        Call it every second.
+        """
         self._pause = max(0, self._pause - 1)
         ledger, waiting = self._control.ledger, self.list_waiting()
         robots = ledger.robots
@@ -141,8 +148,16 @@ class RoundDriver:
         known = waiting, idle, len(ledger.pool.left)
         if waiting and idle and known != self._tried:
             self._tried, self.is_wanted = known, True
+        self.is_wanted |= any(map(self._is_near_end, self._later))
         if ledger.graph is not self._short_graph and any(map(self._is_short, range(len(robots)))):
             self._short_graph, self.is_wanted = ledger.graph, True  # once for each plan
+
+    def _is_near_end(self, robot: int) -> bool:
+        """Return whether a robot has little left to do on its route, and more to do behind it."""
+        own = self._control.ledger.robots[robot]
+        left = (item for item in own.route.all_jobs - own.finished if not own.is_sent(item))
+        is_near = sum(find_charge_step(item) != "end" for item in left) < STOPS_AHEAD
+        return is_near and bool(self._later[robot]) and not own.is_off
 
     def _is_short(self, robot: int) -> bool:
         """Return whether a robot is expected below its reserve before its next charge."""
@@ -200,6 +215,7 @@ class RoundDriver:
             charges=control.charges,
             unable=() if ignores_closures else self.unable,
             closed=() if ignores_closures else self.list_closed(),
+            later=self._later,
             now=now,
             takeover=now + lead,
         )
@@ -238,6 +254,7 @@ class RoundDriver:
             messages = control.splice(routes, graph, withdrawn=moved, notes=notes)
         except InputError as error:  # the guard: no round ends the control
             return self._keep_old(str(error))
+        self._later = dict(zip(seen.present, planned.later, strict=False))
         self._tell_reasons(dict(planned.unserved), planned.postponed)
         self.report(None, True)
         return messages

@@ -17,7 +17,7 @@ from rightofway.control.ledger import Edge, Ledger
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive
 from rightofway.control.work_items import find_charge_step, find_stop, name_charge, name_stop
-from rightofway.dispatch import FleetView, PlannedStep, PooledJob, RobotView, Round
+from rightofway.dispatch import FleetView, PlannedStep, PooledJob, RobotView, Round, StopsLater
 from rightofway.model import Scenario, Tick, Track
 from rightofway.precedence import Part
 from rightofway.site import VertexId
@@ -99,6 +99,7 @@ def view_fleet(
     charges: Mapping[int, float],
     unable: Collection[int],
     closed: Collection[Edge],
+    later: Mapping[int, StopsLater],
     now: int,
     takeover: int,
 ) -> ViewOfRound:
@@ -118,6 +119,8 @@ def view_fleet(
         Robots that do not go on: what they hold is a closure.
     closed
         Edges that robots shall not enter, as names of their vertices.
+    later
+        What robots do behind the ends of their routes, as the last round had it.
     now, takeover
         When the round begins, and when its plan takes over [ticks].
     """
@@ -162,6 +165,9 @@ def view_fleet(
                     step
                     for step in _list_old_steps(ledger.robots[robot], kept_parts[robot], scenario)
                     if step.job in jobs and step.job not in ledger.outdated
+                ),
+                later=tuple(
+                    stop for stop in later.get(robot, ()) if stop[0] not in ledger.outdated
                 ),
             )
         )

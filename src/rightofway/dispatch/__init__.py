@@ -6,6 +6,7 @@ the same rounds.
 
 from __future__ import annotations
 
+from rightofway.dispatch.horizon import STOPS_AHEAD
 from rightofway.dispatch.pool import Pool, PooledJob, PoolEvent
 from rightofway.dispatch.record import ShiftRecord
 from rightofway.dispatch.reveal import Reveal
@@ -17,10 +18,12 @@ from rightofway.dispatch.view import (
     PlannedStep,
     RobotView,
     Round,
+    StopsLater,
     make_whole_tracks,
 )
 
 __all__ = [
+    "STOPS_AHEAD",
     "FleetView",
     "PlannedStep",
     "Pool",
@@ -33,6 +36,7 @@ __all__ = [
     "ShiftRecord",
     "ShiftRules",
     "ShiftSettings",
+    "StopsLater",
     "make_whole_tracks",
     "run_shift",
 ]

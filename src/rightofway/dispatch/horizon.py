@@ -14,7 +14,11 @@ from dataclasses import dataclass, replace
 
 from rightofway.model import Assignment, Itinerary, Scenario, Tick, Tour, Work, assign_tours
 
-__all__ = ["CutTours", "cut_tours"]
+__all__ = ["STOPS_AHEAD", "CutTours", "cut_tours"]
+
+STOPS_AHEAD = 2
+"""Stops of each tour that a round makes routes for; a robot that has fewer of them left, and more
+behind them, needs a round."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

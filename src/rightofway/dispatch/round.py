@@ -23,7 +23,7 @@ from fractions import Fraction
 from rightofway.assign import AssignmentSearch, measure_travel
 from rightofway.check import check
 from rightofway.deadline import Deadline
-from rightofway.dispatch.horizon import cut_tours
+from rightofway.dispatch.horizon import STOPS_AHEAD, cut_tours
 from rightofway.dispatch.overdue import assign_overdue, has_choice
 from rightofway.dispatch.pool import PooledJob
 from rightofway.dispatch.view import (
@@ -31,6 +31,7 @@ from rightofway.dispatch.view import (
     PlannedStep,
     RobotView,
     Round,
+    StopsLater,
     make_whole_tracks,
 )
 from rightofway.errors import GaveUp, InputError, NoPlanExists
@@ -117,18 +118,17 @@ class RoundPlanner:
     planner
         The name of the planner where planning around old tracks fails.
     stops_ahead
-        How many stops and charges of each tour a round makes routes for; None for all. Then
+        How many stops and charges of each tour a round makes routes for; None for all.
         `Round.later` has what is left.
     """
 
     def __init__(
-        self, scenario: Scenario, planner: str = "auto", stops_ahead: int | None = None
+        self, scenario: Scenario, planner: str = "auto", stops_ahead: int | None = STOPS_AHEAD
     ) -> None:
         clock = scenario.problem.clock
         self._scenario = replace(scenario, jobs=(), clock=clock, tours=None)
         self._planner = planner
         self._stops_ahead = stops_ahead
-        self._later: dict[int, tuple[tuple[str, int], ...]] = {}
         self._distances: Distances | None = None
 
     def plan(
@@ -171,8 +171,8 @@ class RoundPlanner:
         seed: int,
     ) -> Round:
         given = self._make_scenario(view, jobs, over)
-        plan = self._find_plan(given, view, deadline, seed)
-        return self._judge(view, given, plan)
+        plan, later = self._find_plan(given, view, deadline, seed)
+        return replace(self._judge(view, given, plan), later=later)
 
     # --- the scenario of the round ---------------------------------------------------------------
 
@@ -230,8 +230,10 @@ class RoundPlanner:
 
     # --- tours and routes ------------------------------------------------------------------------
 
-    def _find_plan(self, given: _Given, view: FleetView, deadline: Deadline, seed: int) -> Plan:
-        """Return a judged plan of the round, at first with the old tracks."""
+    def _find_plan(
+        self, given: _Given, view: FleetView, deadline: Deadline, seed: int
+    ) -> tuple[Plan, tuple[StopsLater, ...]]:
+        """Return a judged plan of the round, at first with the old tracks, and what is later."""
         old = [view.robots[robot] for robot in given.able]
         assignment, ends = self._assign(given, old, deadline, seed)
         lead = Tick(HORIZON_IN_LEADS * (view.takeover - view.now))
@@ -245,26 +247,11 @@ class RoundPlanner:
                 scenario=cut.toured, tracks=driven, run=PlannerRun(), unserved=assignment.unserved
             )
             if (frozenset() if cut.is_whole else BEHIND_CUT).issuperset(check(plan).counts):
-                self._keep_later(given, cut.later)
-                return plan
+                return plan, _list_later(given, cut.later, len(view.robots))
         left = deadline.measure_seconds_left()
         if left == 0:
             raise GaveUp(Fact("time over without a plan"))
-        self._keep_later(given, ())
-        return solve(given.scenario, self._planner, time_limit=left, seed=seed)
-
-    def _keep_later(self, given: _Given, later: Sequence[Tour]) -> None:
-        """Remember the steps behind the horizon: the next round starts from them."""
-        names = [job.name for job in given.scenario.jobs or ()]
-        self._later = {
-            robot: tuple(
-                (names[item.job], item.stop)
-                for item in tour
-                if item.job is not None and item.stop is not None
-            )
-            for robot, tour in zip(given.able, later, strict=False)
-            if tour
-        }
+        return solve(given.scenario, self._planner, time_limit=left, seed=seed), ()
 
     def _assign(
         self,
@@ -280,8 +267,7 @@ class RoundPlanner:
             self._distances = Distances(scenario.roadmap)
         travel = measure_travel(scenario.problem, self._distances)
         weights = scenario.problem.weights
-        later = [self._later.get(robot, ()) for robot in given.able]
-        old_tours = _make_old_assignment(scenario, old, later)
+        old_tours = _make_old_assignment(scenario, old)
         hurried = deadline.shorten(SHARE_OF_TOURS)
         if given.overdue:
             first = deadline.shorten(SHARE_OF_TOURS / 2)
@@ -342,10 +328,6 @@ class RoundPlanner:
             steps=tuple(steps.get(robot, ()) for robot in range(len(view.robots))),
             unserved=(*((names[job], reason) for job, reason in plan.unserved), *given.unserved),
             postponed=given.postponed,
-            later=tuple(
-                tuple(dict.fromkeys(name for name, _ in self._later.get(robot, ())))
-                for robot in range(len(view.robots))
-            ),
         )
 
     def _judge_whole(self, given: _Given, whole: Sequence[Track]) -> None:
@@ -529,14 +511,26 @@ def _keep_old(view: FleetView, error: Exception) -> Round:
     )
 
 
-def _make_old_assignment(
-    scenario: Scenario, old: Sequence[RobotView], later: Sequence[Sequence[tuple[str, int]]]
-) -> Assignment:
+def _list_later(given: _Given, later: Sequence[Tour], n_robots: int) -> tuple[StopsLater, ...]:
+    """Return the stops behind the horizon of each robot of the fleet."""
+    names = [job.name for job in given.scenario.jobs or ()]
+    tours = dict(zip(given.able, later, strict=True))
+    return tuple(
+        tuple(
+            (names[item.job], item.stop)
+            for item in tours.get(robot, ())
+            if item.job is not None and item.stop is not None
+        )
+        for robot in range(n_robots)
+    )
+
+
+def _make_old_assignment(scenario: Scenario, old: Sequence[RobotView]) -> Assignment:
     """Return the old tours, as far as their jobs are in the round."""
-    index = {job.name: number for number, job in enumerate(scenario.jobs or ())}
     jobs = scenario.jobs or ()
+    index = {job.name: number for number, job in enumerate(jobs)}
     tours = []
-    for own, more in zip(old, later, strict=True):
+    for own in old:
         ahead = [(step.job, step.stop) for step in own.steps if step.job is not None]
         tours.append(
             tuple(
@@ -544,7 +538,7 @@ def _make_old_assignment(
                     job=index[job], stop=stop, vertex=jobs[index[job]].stops[stop].at,
                     duration=Tick(0),
                 )
-                for job, stop in (*ahead, *more)
+                for job, stop in (*ahead, *own.later)
                 if job in index and stop is not None
             )
         )  # fmt: skip

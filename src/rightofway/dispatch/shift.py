@@ -7,20 +7,18 @@ from dataclasses import dataclass, field
 
 from rightofway.dispatch.delays import DelayDraws
 from rightofway.dispatch.floor import FloorEvent, SimulatedFloor
+from rightofway.dispatch.horizon import STOPS_AHEAD
 from rightofway.dispatch.pool import Pool, PoolEvent
 from rightofway.dispatch.record import JobRecord, RoundRecord, ShiftRecord
 from rightofway.dispatch.reveal import Reveal
 from rightofway.dispatch.round import RoundPlanner
 from rightofway.dispatch.takeover import cap_floor, lift_caps, look_at_floor, splice_round
-from rightofway.dispatch.view import Round
+from rightofway.dispatch.view import Round, StopsLater
 from rightofway.facts import Fact
 from rightofway.model import NEVER, Scenario, Tick, UnservedReason
 from rightofway.precedence import DelayModel
 
 __all__ = ["ShiftRules", "run_shift"]
-
-STOPS_AHEAD = 2
-"""Stops of each tour that a round makes routes for."""
 
 RETRY = 16
 """Looks after which jobs without a tour are tried again, where nothing else has happened."""
@@ -109,7 +107,7 @@ class _Shift:
         model = delays or DelayModel.none(len(scenario.robots))
         draws = DelayDraws(model, rules.seed, rules.until or NEVER)
         self._floor, self._pool = SimulatedFloor(scenario, draws), Pool()
-        self._planner = RoundPlanner(scenario, rules.planner, STOPS_AHEAD)
+        self._planner = RoundPlanner(scenario, rules.planner)
         self._now = Tick(0)
         self._jobs: dict[str, JobRecord] = {}
         self._rounds: list[RoundRecord] = []
@@ -117,7 +115,7 @@ class _Shift:
         self._facts: list[tuple[Tick, Fact]] = []
         self._assigned = frozenset[str]()  # jobs in tours of the last round
         self._retry_at = 0  # when a round looks again at jobs without a tour
-        self._cut = set[int]()  # robots with more to do than their routes
+        self._later: tuple[StopsLater, ...] = ()  # what robots do behind their routes
         self._n_stood = 0  # rounds in a row after which the old plan stood
         self._n_still = 0  # rounds in a row that began while nothing moved
         self._is_due = True  # whether something has happened that a round should look at
@@ -184,7 +182,10 @@ class _Shift:
         lost = {k for k, own in enumerate(self._floor.robots) if (own.lost or NEVER) <= self._now}
         self._is_due |= lost != self._lost
         self._lost = lost
-        self._is_due |= any(self._floor.robots[k].n_steps_left < STOPS_AHEAD for k in self._cut)
+        self._is_due |= any(
+            later and self._floor.robots[k].n_steps_left < STOPS_AHEAD
+            for k, later in enumerate(self._later)
+        )
         for job in list(self._reveal.take(self._now)):
             self._jobs[job.name] = JobRecord(job=job, known=self._now)
             self._apply(PoolEvent(kind="job known", at=self._now, name=job.name, job=job))
@@ -228,7 +229,7 @@ class _Shift:
         patience = min(MOST_PATIENT, 2**self._n_stood)
         limit = None if rules.time_limit is None else rules.time_limit * patience
         takeover = Tick(begin + rules.lead * patience)
-        view = look_at_floor(self._floor, begin, takeover, self._pool.jobs)
+        view = look_at_floor(self._floor, begin, takeover, self._pool.jobs, self._later)
         self._is_due = False
         self._retry_at = self._now + RETRY * rules.step
         self._n_still = self._n_still + 1 if self._is_still else 0
@@ -265,8 +266,8 @@ class _Shift:
     def _note_unserved(self, planned: Round) -> None:
         """Note which jobs are in tours now, and why others are not."""
         ahead = {step.job for steps in planned.steps for step in steps if step.job is not None}
-        self._assigned = frozenset(ahead.union(*planned.later))
-        self._cut = {robot for robot, names in enumerate(planned.later) if names}
+        later = {name for stops in planned.later for name, _ in stops}
+        self._assigned, self._later = frozenset(ahead | later), planned.later
         for name, reason in planned.unserved:
             self._jobs[name].reason = reason
             if reason in FOR_GOOD:

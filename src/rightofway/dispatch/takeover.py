@@ -21,6 +21,7 @@ from rightofway.dispatch.view import (
     PlannedStep,
     RobotView,
     Round,
+    StopsLater,
     make_whole_tracks,
 )
 from rightofway.model import NEVER, Scenario, Tick, Track
@@ -33,7 +34,11 @@ __all__ = ["cap_floor", "lift_caps", "look_at_floor", "splice_round"]
 
 
 def look_at_floor(
-    floor: SimulatedFloor, now: int, takeover: int, jobs: Mapping[str, PooledJob]
+    floor: SimulatedFloor,
+    now: int,
+    takeover: int,
+    jobs: Mapping[str, PooledJob],
+    later: Sequence[StopsLater] = (),
 ) -> FleetView:
     """Return the fleet as it is expected to be at the takeover.
 
@@ -45,6 +50,8 @@ def look_at_floor(
         When the round begins, and when its plan takes over [ticks].
     jobs
         The jobs of the pool.
+    later
+        What each robot does behind its route, as the last round had it.
     """
     ahead = floor.fork(now)
     ahead.advance(takeover)
@@ -64,6 +71,9 @@ def look_at_floor(
     ]
     if not floor.is_on_time:
         robots = list(_expect_times(floor, robots, now, takeover))
+    if later:
+        rows = zip(robots, later, strict=True)
+        robots = [replace(own, later=stops) for own, stops in rows]
     ends = ((name, max(0, end - takeover)) for name, end in ahead.ends.items() if name in jobs)
     return FleetView(
         now=Tick(now),

@@ -17,7 +17,10 @@ from rightofway.facts import Fact
 from rightofway.model import Tick, Track, UnservedReason
 from rightofway.site import VertexId
 
-__all__ = ["FleetView", "PlannedStep", "RobotView", "Round", "make_whole_tracks"]
+__all__ = ["FleetView", "PlannedStep", "RobotView", "Round", "StopsLater", "make_whole_tracks"]
+
+StopsLater = tuple[tuple[str, int], ...]
+"""Names of jobs, each with the index of a stop: the tour behind the end of a track, in order."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -74,6 +77,8 @@ class RobotView:
     track, steps
         The rest of the old plan: the route from the end of the kept part on, which is its first
         vertex, and the work along it. None and nothing without an old plan.
+    later
+        The stops of the old tour behind that.
     """
 
     kept_track: Track
@@ -86,6 +91,7 @@ class RobotView:
     is_able: bool = True
     track: Track | None = None
     steps: tuple[PlannedStep, ...] = ()
+    later: StopsLater = ()
 
     @property
     def at(self) -> VertexId:
@@ -133,8 +139,8 @@ class Round:
     postponed
         Names of the jobs that are left to later rounds.
     later
-        For each robot the names of the jobs that it goes on with behind the end of its track: a
-        later round plans the routes, before the robot comes there. Empty: no robot does.
+        For each robot the stops that it goes on with behind the end of its track: a later round
+        plans the routes, before the robot comes there. Empty: no robot does.
     stands
         Whether the old plan stands, because nothing better was found.
     facts
@@ -147,7 +153,7 @@ class Round:
     steps: tuple[tuple[PlannedStep, ...], ...]
     unserved: tuple[tuple[str, UnservedReason], ...] = ()
     postponed: tuple[str, ...] = ()
-    later: tuple[tuple[str, ...], ...] = ()
+    later: tuple[StopsLater, ...] = ()
     stands: bool = False
     facts: tuple[Fact, ...] = ()
     seconds: float = 0.0
