@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import stat
 import sys
 from pathlib import Path
@@ -20,6 +21,11 @@ LIMIT = "RIGHTOFWAY_MOST_CHARACTERS"
 
 MAX_CHARACTERS = 60_000_000
 """The longest layout that is read without it: a file takes twenty times its size of memory."""
+
+PICTURES = (b"P5", b"P2", b"P6", b"\x89PNG", b"BM", b"\xff\xd8", b"GIF8")
+"""How pictures begin."""
+
+_FORMAT_KEY = re.compile(r"""^[ \t{]*["']?format["']?[ \t]*:""", re.MULTILINE)
 
 PIECE = 2**20
 """What is read from a file at once [bytes]."""
@@ -124,6 +130,31 @@ def refuse_long(text: str) -> None:
         message = f"the file has {len(text)} characters, more than {choose_limit()}, and takes"
         message += f" about {20 * len(text) // 10**6} MB to read"
         raise InputError.at("", f"{message} (set {LIMIT}={len(text)} if you have them)")
+
+
+def refuse_picture(path: Path) -> None:
+    """Refuse a picture, recognized by its first bytes.
+
+    Raises
+    ------
+    InputError
+        If it is one.
+    """
+    if not is_regular(path):
+        return  # reading the text says why
+    try:
+        with path.open("rb") as file:
+            begin = file.read(8)
+    except (OSError, ValueError):
+        return
+    if begin.startswith(PICTURES):
+        message = "this is a picture (give the YAML file beside it, which has its resolution)"
+        raise InputError.at("", message)
+
+
+def is_own_document(text: str) -> bool:
+    """Return whether a text has the key that all documents of this package have."""
+    return _FORMAT_KEY.search(text) is not None
 
 
 def is_regular(path: Path) -> bool:

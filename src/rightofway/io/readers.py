@@ -8,7 +8,7 @@ from typing import Any
 from rightofway.errors import InputError, name_file
 from rightofway.files import as_path
 from rightofway.io.collector import pause_garbage_collection
-from rightofway.io.content import read_text
+from rightofway.io.content import is_own_document, read_text, refuse_picture
 from rightofway.io.scenario.reader import Loaded, read_classic, read_scenario
 from rightofway.kinds.arguments import checks_arguments
 from rightofway.model import Plan, Scenario
@@ -66,14 +66,13 @@ def load_with_notes(
         _refuse_count(count)
         return load_workbook_scenario(path)
     # What a kind of files needs is imported with the first one: a `.scen` file needs none of it.
-    from rightofway.io.layouts import refuse_layout
     from rightofway.io.locations import open_document
 
     with name_file(str(path)):
         _refuse_count(count)
         text = _read_text(path)
-        _refuse_foreign(text)
-        refuse_layout(path, text)
+        if not is_own_document(text):
+            _refuse_other_kinds(path, text)
     with pause_garbage_collection(), open_document(path, text) as document:
         return _read_scenario(_replace_jobs(document, jobs), text, path)
 
@@ -89,10 +88,11 @@ def _replace_jobs(document: Any, jobs: Path | str | None) -> Any:
 
 def _read_scenario(document: Any, text: str, path: Path) -> Loaded:
     """Return the scenario of a document, which may be a problem of the League of Robot Runners."""
-    from rightofway.io.scenario import league
+    if not is_own_document(text):
+        from rightofway.io.scenario import league
 
-    if league.recognizes(text):
-        return league.read_problem(document, path)
+        if league.recognizes(text):
+            return league.read_problem(document, path)
     return read_scenario(document, path.parent)
 
 
@@ -176,9 +176,7 @@ def load_either(
 
 def _read_text(path: Path) -> str:
     """Return the text of a file; pictures and pages are refused."""
-    from rightofway.io.layouts import refuse_layout
-
-    refuse_layout(path)
+    refuse_picture(path)
     text = read_text(path)
     if text[:14].lower() == "<!doctype html":
         message = "this is a page (give the scenario or the plan that it was made of)"
@@ -186,12 +184,15 @@ def _read_text(path: Path) -> str:
     return text
 
 
-def _refuse_foreign(text: str) -> None:
+def _refuse_other_kinds(path: Path, text: str) -> None:
+    """Refuse plans of other programs and layouts, with a remedy."""
     from rightofway.io.foreign import format_of_text
+    from rightofway.io.layouts import refuse_layout
 
     if format_of_text(text):
         message = "is a plan of another program, not a scenario (check, show or improve it)"
         raise InputError.at("", message)
+    refuse_layout(path, text)
 
 
 def _refuse_count(count: int | None) -> None:
@@ -205,19 +206,21 @@ def _read_foreign(
     path: Path, map_file: Path | str | None, scen: Path | str | None
 ) -> tuple[str, Plan | None]:
     """Return the text of a file, and its plan if it is one of another program."""
-    from rightofway.io.foreign import read_foreign
-    from rightofway.io.layouts import refuse_layout
-
     with name_file(str(path)):
         text = _read_text(path)
         places = {"map_file": map_file, "scen": scen}
         files = [
             None if given is None else as_path(given, place) for place, given in places.items()
         ]
-        plan = read_foreign(text, path, *files)
+        plan = None
+        if not is_own_document(text):
+            from rightofway.io.foreign import read_foreign
+            from rightofway.io.layouts import refuse_layout
+
+            plan = read_foreign(text, path, *files)
+            if plan is None and not any(files):
+                refuse_layout(path, text)
         if plan is None and any(files):
             message = "the file has its own map and robots in it (leave out --map and --scen)"
             raise InputError.at("", message)
-        if plan is None:
-            refuse_layout(path, text)
     return text, plan

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from contextlib import nullcontext
 from dataclasses import dataclass
@@ -14,7 +13,7 @@ from rightofway.errors import InputError, Location, name_file
 from rightofway.extras import load_plugins
 from rightofway.facts import Fact
 from rightofway.io.collector import pause_garbage_collection
-from rightofway.io.content import is_regular, read_text, refuse_long
+from rightofway.io.content import is_own_document, read_text, refuse_long, refuse_picture
 from rightofway.io.json_text import parse_json
 from rightofway.io.layouts import csv_pair, graphml, lif, nav2, open_rmf, opentcs, ros_map
 from rightofway.io.layouts.xml_tree import Element, parse_xml
@@ -29,12 +28,6 @@ GROUP = "rightofway.layouts"
 
 NO_LAYOUTS = (".map", ".scen", ".toml", ".xlsx", ".xlsm")
 """Endings of files whose format is recognised by the name."""
-
-OURS = re.compile(r"""^[ \t{]*["']?format["']?[ \t]*:""", re.MULTILINE)
-"""The key that all documents of ours have."""
-
-PICTURES = (b"P5", b"P2", b"P6", b"\x89PNG", b"BM", b"\xff\xd8", b"GIF8")
-"""How pictures begin."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -124,7 +117,7 @@ def read_layout(path: Path | str) -> Layout | Occupancy | CellMap:
     """
     path = Path(path)
     with name_file(str(path)), pause_garbage_collection():
-        _refuse_picture(path)
+        refuse_picture(path)
         text = read_text(path)
         opened = _open(text)
         if opened is None:
@@ -151,12 +144,12 @@ def is_layout(path: Path | str) -> bool:
         return False
     try:
         text = read_text(path)
-        return OURS.search(text) is None and _open(text) is not None
+        return not is_own_document(text) and _open(text) is not None
     except InputError:
         return False
 
 
-def refuse_layout(path: Path, text: str | None = None) -> None:
+def refuse_layout(path: Path, text: str) -> None:
     """Refuse a layout where a scenario or a plan is wanted, with a remedy in words.
 
     Parameters
@@ -164,17 +157,14 @@ def refuse_layout(path: Path, text: str | None = None) -> None:
     path
         The file.
     text
-        Its content; None to look only whether it is a picture.
+        Its content, which is no document of this package.
 
     Raises
     ------
     InputError
         If it is a layout.
     """
-    if text is None:
-        _refuse_picture(path)
-        return
-    if path.suffix.lower() in NO_LAYOUTS or OURS.search(text):
+    if path.suffix.lower() in NO_LAYOUTS:
         return
     try:
         if _open(text) is None:
@@ -247,16 +237,3 @@ def _open(text: str) -> tuple[LayoutFormat, Any] | None:
         message = f"an XML file of <{content.name}> is no layout (known: GraphML and openTCS)"
         raise InputError.at(Location(line=content.line), message)
     return None if first is None else (first, content)
-
-
-def _refuse_picture(path: Path) -> None:
-    if not is_regular(path):
-        return  # reading the text says why
-    try:
-        with path.open("rb") as file:
-            begin = file.read(8)
-    except (OSError, ValueError):
-        return
-    if begin.startswith(PICTURES):
-        message = "this is a picture (give the YAML file beside it, which has its resolution)"
-        raise InputError.at("", message)
