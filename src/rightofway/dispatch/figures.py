@@ -98,6 +98,8 @@ class ShiftFigures:
         Rounds, and those after which the old plan stood.
     seconds
         The time of a round on average, and of the longest one [s].
+    reasons
+        The kinds of the reasons of rounds, with their numbers, the most frequent first.
     """
 
     known: int
@@ -112,6 +114,7 @@ class ShiftFigures:
     rounds: int
     stood: int
     seconds: tuple[float, float]
+    reasons: tuple[tuple[str, int], ...]
 
 
 def measure_shift(record: ShiftRecord, *, slices: int = SLICES) -> ShiftFigures:
@@ -146,6 +149,11 @@ def measure_shift(record: ShiftRecord, *, slices: int = SLICES) -> ShiftFigures:
         rounds=len(record.rounds),
         stood=sum(planned.stands for planned in record.rounds),
         seconds=(sum(seconds) / len(seconds), max(seconds)),
+        reasons=tuple(
+            Counter(
+                fact.kind for planned in record.rounds for fact in planned.reasons
+            ).most_common()
+        ),
     )
 
 

@@ -6,6 +6,7 @@ nothing, because each names its job, and a job that has left the pool never come
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Literal, get_args
@@ -130,11 +131,14 @@ class Pool:
     left
         How each job has left the pool, by name: ``done``, ``withdrawn``, or a reason of
         `rightofway.model.work.UnservedReason`.
+    counts
+        How many events of each kind have changed something since this pool was made.
     """
 
     def __init__(self) -> None:
         self.jobs: dict[str, PooledJob] = {}
         self.left: dict[str, str] = {}
+        self.counts = Counter[EventKind]()
 
     def apply(self, event: PoolEvent) -> bool:
         """Apply an event; return whether it has changed anything.
@@ -147,6 +151,11 @@ class Pool:
         event
             What has happened.
         """
+        has_changed = self._apply(event)
+        self.counts[event.kind] += has_changed
+        return has_changed
+
+    def _apply(self, event: PoolEvent) -> bool:
         own = self.jobs.get(event.name)
         if own is None:
             is_new = event.kind == "job known" and event.name not in self.left

@@ -117,6 +117,8 @@ class RoundRecord:
         Whether the old plan stood.
     facts
         Its facts.
+    reasons
+        Why it began: facts of `rightofway.dispatch.triggers`.
     """
 
     begin: Tick
@@ -125,6 +127,7 @@ class RoundRecord:
     jobs: int
     stands: bool = False
     facts: tuple[Fact, ...] = ()
+    reasons: tuple[Fact, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -65,6 +65,7 @@ def dump_shift(record: ShiftRecord) -> dict[str, Any]:
                 "jobs": own.jobs,
                 "stands": own.stands,
                 "facts": [fact.as_dict() for fact in own.facts],
+                "reasons": [fact.as_dict() for fact in own.reasons],
             }
             for own in record.rounds
         ],
@@ -149,6 +150,7 @@ def _parse(document: Mapping[str, Any]) -> ShiftRecord:
                     **own,
                     "seconds": float(own["seconds"]),
                     "facts": tuple(map(read_fact, own["facts"])),
+                    "reasons": tuple(map(read_fact, own["reasons"])),
                 }
             )
             for own in document["rounds"]

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from rightofway.dispatch.delays import DelayDraws
 from rightofway.dispatch.floor import FloorEvent, SimulatedFloor
+from rightofway.dispatch.floor_watch import FloorWatch
 from rightofway.dispatch.horizon import STOPS_AHEAD
 from rightofway.dispatch.pool import Pool, PoolEvent
 from rightofway.dispatch.record import JobRecord, RoundRecord, ShiftRecord
 from rightofway.dispatch.reveal import Reveal
 from rightofway.dispatch.round import RoundPlanner
 from rightofway.dispatch.takeover import cap_floor, lift_caps, look_at_floor, splice_round
+from rightofway.dispatch.triggers import Situation, list_triggers
 from rightofway.dispatch.view import Round, StopsLater
 from rightofway.facts import Fact
-from rightofway.model import NEVER, Scenario, Tick, UnservedReason
+from rightofway.model import NEVER, Closure, Scenario, Tick, UnservedReason
 from rightofway.precedence import DelayModel
 
 __all__ = ["ShiftRules", "run_shift"]
@@ -118,8 +121,9 @@ class _Shift:
         self._later: tuple[StopsLater, ...] = ()  # what robots do behind their routes
         self._n_stood = 0  # rounds in a row after which the old plan stood
         self._n_still = 0  # rounds in a row that began while nothing moved
-        self._is_due = True  # whether something has happened that a round should look at
-        self._lost = set[int]()  # robots that do not go on
+        self._tried: Situation | None = None  # at the begin of the last round
+        self._watch = FloorWatch(self._floor)
+        self._closed = [_count_closed(closure, scenario) for closure in scenario.closures]
         self._has_told = False  # whether the standstill that there is has been told
 
     @property
@@ -142,9 +146,14 @@ class _Shift:
     def go_on(self) -> None:
         """Look at the floor, plan a round if one is due, and let robots drive until the next."""
         self._note_events()
-        is_waiting = not self._assigned >= self._pool.jobs.keys()
-        if self._is_due or (is_waiting and self._now >= self._retry_at):
-            self._plan_round()
+        situation = self._look()
+        reasons = tuple(list_triggers(self._tried, situation))
+        if not reasons and self._n_stood:
+            reasons = (Fact("old plan stood"),)
+        if not reasons and situation.waiting and self._now >= self._retry_at:
+            reasons = (Fact("jobs still wait"),)
+        if reasons:
+            self._plan_round(situation, reasons)
         self._find_standstill()
         until = self._now + self._rules.step
         self._move_on(min(until, self._rules.until or until))
@@ -179,17 +188,9 @@ class _Shift:
         """Note what has happened on the floor until now, and which jobs have become known."""
         if self._note_works() or not self._is_still:
             self._n_still = 0
-        lost = {k for k, own in enumerate(self._floor.robots) if (own.lost or NEVER) <= self._now}
-        self._is_due |= lost != self._lost
-        self._lost = lost
-        self._is_due |= any(
-            later and self._floor.robots[k].n_steps_left < STOPS_AHEAD
-            for k, later in enumerate(self._later)
-        )
         for job in list(self._reveal.take(self._now)):
             self._jobs[job.name] = JobRecord(job=job, known=self._now)
             self._apply(PoolEvent(kind="job known", at=self._now, name=job.name, job=job))
-            self._is_due = True
 
     def _note_works(self) -> bool:
         """Note the work that has begun and ended until now; return whether there was any."""
@@ -215,7 +216,6 @@ class _Shift:
         if event.is_end and self._pool.is_over(event.job):
             own.ended = tick
             self._reveal.finish(own.job)
-            self._is_due |= not self._assigned >= self._pool.jobs.keys()
 
     def _apply(self, event: PoolEvent) -> None:
         if self._pool.apply(event):
@@ -223,17 +223,43 @@ class _Shift:
 
     # --- rounds ----------------------------------------------------------------------------------
 
-    def _plan_round(self) -> None:
+    def _look(self) -> Situation:
+        """Return what may begin a round."""
+        now, jobs = self._now, self._pool.jobs
+        self._watch.look(now, jobs)
+        waiting = (name for name in jobs.keys() - self._assigned if not jobs[name].is_begun)
+        driving = {k: own for k, own in enumerate(self._floor.robots) if own.lost is None}
+        cut = {k for k, later in enumerate(self._later) if later}
+        return Situation(
+            counts=Counter(self._pool.counts),
+            waiting=frozenset(waiting),
+            free=frozenset(
+                k
+                for k, own in driving.items()
+                if not own.n_steps_left and own.estimate(now) <= now + self._rules.lead
+            ).difference(cut),
+            ending=frozenset(
+                k for k in cut & driving.keys() if driving[k].n_steps_left < STOPS_AHEAD
+            ),
+            unable=frozenset(
+                k for k, own in enumerate(self._floor.robots) if (own.lost or NEVER) <= now
+            ),
+            closed=frozenset(
+                k for k, (begin, end) in enumerate(self._closed) if begin <= now < end
+            ),
+            outlook=self._watch.outlook,
+        )
+
+    def _plan_round(self, situation: Situation, reasons: tuple[Fact, ...]) -> None:
         """Plan a round, and let its plan take over after the lead."""
         rules, begin = self._rules, self._now
         patience = min(MOST_PATIENT, 2**self._n_stood)
         limit = None if rules.time_limit is None else rules.time_limit * patience
         takeover = Tick(begin + rules.lead * patience)
-        view = look_at_floor(self._floor, begin, takeover, self._pool.jobs, self._later)
-        self._is_due = False
         self._retry_at = self._now + RETRY * rules.step
         self._n_still = self._n_still + 1 if self._is_still else 0
         jobs = dict(self._pool.jobs)
+        view = look_at_floor(self._floor, begin, takeover, jobs, self._later)
         planned = self._planner.plan(
             view,
             jobs,
@@ -246,12 +272,14 @@ class _Shift:
             self._move_on(takeover)
         if planned.stands:
             lift_caps(self._floor)
-            self._is_due = True
             self._n_stood += 1
+            self._watch.look_ahead(self._now, jobs)
         else:
             self._n_stood = 0
             splice_round(self._floor, view, planned, jobs)
             self._note_unserved(planned)
+            self._watch.take_over(self._now, jobs)
+        self._tried = replace(situation, outlook=self._watch.outlook)
         self._rounds.append(
             RoundRecord(
                 begin=begin,
@@ -260,6 +288,7 @@ class _Shift:
                 jobs=len(jobs),
                 stands=planned.stands,
                 facts=planned.facts,
+                reasons=reasons,
             )
         )
 
@@ -289,3 +318,9 @@ class _Shift:
         why = last or tuple(Fact(f"unserved {reason}") for reason in reasons)
         fact = Fact("nothing moves", self._scenario, jobs=len(self._pool.jobs), reasons=why)
         self._facts.append((self._now, fact))
+
+
+def _count_closed(closure: Closure, scenario: Scenario) -> tuple[int, int]:
+    """Return when a closure begins and ends [ticks]."""
+    count = scenario.problem.clock.count_ticks
+    return count(closure.from_), NEVER if closure.until is None else count(closure.until)

@@ -227,6 +227,10 @@ def splice_round(
             for k, visit in enumerate(_list_visits(floor, robot, seen, planned.tracks[robot]))
         ]
         steps = (*visits[-1].steps[: seen.n_steps], *coming[0].steps)
+        expected = (view.takeover + seen.kept_track.enter).tolist()[-len(visits) :]
+        visits = [
+            replace(visit, planned=tick) for visit, tick in zip(visits, expected, strict=True)
+        ]
         visits = [*visits[:-1], replace(visits[-1], steps=steps), *coming[1:]]
         own.visits = deque(
             replace(visit, waits=graph.waits(Part(robot, number)))

@@ -28,6 +28,8 @@ from rightofway.precedence import ActionDependencyGraph, RunBatch
 from rightofway.repair.local_search import LocalSearch
 from rightofway.repair.plan_request import PlanRequest
 
+__all__ = ["ExecutionMonitor", "ExecutionPolicy", "has_fallen_behind"]
+
 HORIZON = 2
 """Delays later than this multiple of the makespan, planned or actual, are ignored."""
 
@@ -39,6 +41,21 @@ SHARE = 20
 
 MOST_PLANS = 10
 """Maximum number of these attempts per run."""
+
+
+def has_fallen_behind(expected: int, last_tried: int, planned: int) -> bool:
+    """Return whether a fleet is so far behind its plan that the rest is replanned.
+
+    Parameters
+    ----------
+    expected
+        The flowtime that is expected now [ticks].
+    last_tried
+        The one that was expected after the last replanning, or when that failed [ticks].
+    planned
+        The one of the plan [ticks].
+    """
+    return (expected - last_tried) * SHARE >= max(planned, 1)
 
 
 class ExecutionPolicy(NamedTuple):
@@ -167,9 +184,8 @@ class ExecutionMonitor:
                 self.execution = switched.execute(self.delay_sample)
                 forecast = self.make_forecast(now)
             flowtime = int(forecast.graph.compute_flowtime())
-            has_fallen_behind = (flowtime - self.last_tried) * SHARE >= planned
             is_shut_out = bool(adg.scenario.closures) and not forecast.is_possible
-            wants_plan = has_fallen_behind or is_shut_out
+            wants_plan = is_shut_out or has_fallen_behind(flowtime, self.last_tried, planned)
             if self.policy.replan and wants_plan and tries < MOST_PLANS:
                 tries += 1
                 self.last_tried = flowtime

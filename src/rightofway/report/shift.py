@@ -20,8 +20,8 @@ from rightofway.report.quantities import Quantities, format_decimal
 MAX_ROBOTS = 20
 """Robots in the report; --json has them all."""
 
-MAX_PLACES, MAX_FACTS = 5, 5
-"""Bottlenecks and facts in the report; --json has them all."""
+MAX_PLACES, MAX_FACTS, MAX_REASONS = 5, 5, 5
+"""Bottlenecks, facts and reasons of rounds in the report; --json has them all."""
 
 
 def report_shift(record: ShiftRecord, quantities: Quantities) -> str:
@@ -71,6 +71,8 @@ def _list_totals(
     text = f"{figures.rounds}, {mean:.2f} s on average, {most:.2f} s at most"
     stood = say_count(figures.stood, "round", "rounds")
     yield "rounds", f"{text}; in {stood} the old plan stood" if figures.stood else text
+    for kind, count in figures.reasons[:MAX_REASONS]:
+        yield "", f"{count}: {Fact(kind)}"
 
 
 def describe_unserved(reason: str) -> Fact:
@@ -204,6 +206,7 @@ def make_shift_data(record: ShiftRecord) -> dict[str, Any]:
             "stood": figures.stood,
             "mean_seconds": round(figures.seconds[0], 3),
             "most_seconds": round(figures.seconds[1], 3),
+            "reasons": dict(figures.reasons),
         },
         "facts": [{"at": tick, **writer.export(fact)} for tick, fact in record.facts],
     }
