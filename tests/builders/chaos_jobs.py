@@ -9,8 +9,9 @@ from __future__ import annotations
 import random
 from collections import Counter
 from dataclasses import replace
-from functools import partial
+from functools import lru_cache, partial
 from typing import Any
+from unittest.mock import patch
 
 import rightofway
 from rightofway.control import FleetControl, Message, RobotLedger
@@ -47,6 +48,7 @@ CHARGED_PER_EVENT = 0.01
 """How much a robot at a charging place charges in an event; 1 is full."""
 
 
+@lru_cache(maxsize=4)
 def plan_with_jobs(seed: int) -> Plan:
     """Return a plan of robots with batteries and jobs, of the first draw that has one."""
     draw = random.Random(f"jobs {seed}")  # noqa: S311
@@ -125,7 +127,8 @@ class LateRounds(RoundsAtOnce):
 
     def begin(self, request: RoundRequest) -> None:
         """Plan a round; its plan comes after some more messages."""
-        super().begin(request)
+        with patch("rightofway.dispatch.round.MOST_IN_VAIN", 5):  # how good a plan is, is no matter
+            super().begin(request)
         self._polls = self._draw.choice([0, 3, 30, 100])
 
     def poll(self) -> Round | None:

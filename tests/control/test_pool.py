@@ -271,6 +271,31 @@ def test_rounds_plan_routes_for_the_next_two_stops_of_long_tours() -> None:
     assert shift.rounds.is_over
 
 
+@pytest.mark.parametrize("places_robot", [False, True])
+def test_a_job_behind_the_horizon_that_changes_during_a_round_is_planned_anew(
+    *, places_robot: bool
+) -> None:
+    """The plan of the round has a second stop of it, which the job has no more."""
+    rounds = SlowRounds()
+    rounds.is_ready = True
+    shift = Shift(rounds=rounds)
+    shift.drive(60)
+    for name, place in zip(("A1", "A2", "A3"), ("N2", "N12", "N5"), strict=True):
+        shift.ask("add", name=name, at=place, robot="R1")
+    shift.ask("add", name="A4", pickup="N14", dropoff="N10", robot="R1")
+    assert ("A4", 1) in shift.rounds.later[0]
+    rounds.is_ready = False
+    shift.ask("add", name="A5", at="N4")
+    shift.ask("change", name="A4", at="N14")
+    if places_robot:
+        shift.ask("remove", name="R2")
+        shift.ask("place", name="R2", at="N4")
+    rounds.is_ready = True
+    shift.drive(200)
+    assert shift.list_done().count("A4/0") == 1
+    assert not shift.pool.jobs
+
+
 def test_a_robot_taken_off_the_floor_is_placed_again_and_ends_its_job() -> None:
     shift = Shift()
     shift.drive(18)

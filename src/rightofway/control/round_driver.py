@@ -7,7 +7,7 @@ the reasons of the last round: a control that starts again begins a round.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -21,6 +21,7 @@ from rightofway.control.round_view import (
     ViewOfRound,
     find_kept_parts,
     make_routes_of_round,
+    map_later,
     view_fleet,
 )
 from rightofway.control.round_worker import RoundRequest, Rounds
@@ -101,7 +102,7 @@ class RoundDriver:
         self._batteries = FleetBatteries(self.scenario)
         self._short_graph: ReleaseGraph | None = None  # of a plan that batteries do not last for
         self._tried: object = None  # what was known when a round was last wanted for idle robots
-        self._later: dict[int, StopsLater] = {}  # what robots do behind the ends of their routes
+        self._later: tuple[object, Mapping[int, StopsLater]] = None, {}  # a graph, and its own
 
     @property
     def is_under_way(self) -> bool:
@@ -111,7 +112,13 @@ class RoundDriver:
     @property
     def is_over(self) -> bool:
         """Whether nothing is planned, and no more is to plan."""
-        return not self.is_wanted and not self.is_under_way and not any(self._later.values())
+        return not self.is_wanted and not self.is_under_way and not any(self.later.values())
+
+    @property
+    def later(self) -> Mapping[int, StopsLater]:
+        """What robots do behind the ends of their routes; nothing is known after other splices."""
+        graph, later = self._later
+        return later if graph is self._control.ledger.graph else {}
 
     def want(self) -> None:
         """Begin a round as soon as none is under way."""
@@ -119,11 +126,11 @@ class RoundDriver:
 
     def map_robots(self) -> dict[str, int]:
         """Return the robot that has each job in its tour, by name; without those that are off."""
-        planned = dict[str, int]()
+        planned, later = dict[str, int](), self.later
         for robot, own in enumerate(self._control.ledger.robots):
             if not own.is_off:
                 stops = filter(None, map(find_stop, own.route.all_jobs))
-                names = (name for name, _ in (*stops, *self._later.get(robot, ())))
+                names = (name for name, _ in (*stops, *later.get(robot, ())))
                 planned |= dict.fromkeys(names, robot)
         return planned
 
@@ -148,16 +155,16 @@ class RoundDriver:
         known = waiting, idle, len(ledger.pool.left)
         if waiting and idle and known != self._tried:
             self._tried, self.is_wanted = known, True
-        self.is_wanted |= any(map(self._is_near_end, self._later))
+        self.is_wanted |= any(map(self._is_near_end, self.later.items()))
         if ledger.graph is not self._short_graph and any(map(self._is_short, range(len(robots)))):
             self._short_graph, self.is_wanted = ledger.graph, True  # once for each plan
 
-    def _is_near_end(self, robot: int) -> bool:
+    def _is_near_end(self, later: tuple[int, StopsLater]) -> bool:
         """Return whether a robot has little left to do on its route, and more to do behind it."""
-        own = self._control.ledger.robots[robot]
+        own = self._control.ledger.robots[later[0]]
         left = (item for item in own.route.all_jobs - own.finished if not own.is_sent(item))
         is_near = sum(find_charge_step(item) != "end" for item in left) < STOPS_AHEAD
-        return is_near and bool(self._later[robot]) and not own.is_off
+        return is_near and bool(later[1]) and not own.is_off
 
     def _is_short(self, robot: int) -> bool:
         """Return whether a robot is expected below its reserve before its next charge."""
@@ -215,7 +222,7 @@ class RoundDriver:
             charges=control.charges,
             unable=() if ignores_closures else self.unable,
             closed=() if ignores_closures else self.list_closed(),
-            later=self._later,
+            later=self.later,
             now=now,
             takeover=now + lead,
         )
@@ -254,7 +261,7 @@ class RoundDriver:
             messages = control.splice(routes, graph, withdrawn=moved, notes=notes)
         except InputError as error:  # the guard: no round ends the control
             return self._keep_old(str(error))
-        self._later = dict(zip(seen.present, planned.later, strict=False))
+        self._later = ledger.graph, map_later(ledger, seen, planned)
         self._tell_reasons(dict(planned.unserved), planned.postponed)
         self.report(None, True)
         return messages

@@ -22,7 +22,7 @@ from rightofway.model import Scenario, Tick, Track
 from rightofway.precedence import Part
 from rightofway.site import VertexId
 
-__all__ = ["ViewOfRound", "find_kept_parts", "make_routes_of_round", "view_fleet"]
+__all__ = ["ViewOfRound", "find_kept_parts", "make_routes_of_round", "map_later", "view_fleet"]
 
 WHOLE = 1000
 """Into how many parts a measured charge is rounded: shares of a battery are exact."""
@@ -260,7 +260,7 @@ def make_routes_of_round(
     later = 1 + max(commitment.route.enter[-1] for commitment in seen.commitments)
     batteries = FleetBatteries(scenario)
     for index, robot in enumerate(seen.present):
-        steps = [step for step in planned.steps[index] if _is_as_known(ledger, seen, step)]
+        steps = [step for step in planned.steps[index] if _is_as_known(ledger, seen, step.job)]
         track, view = planned.tracks[index], seen.view.robots[index]
         battery = batteries.of_robot[robot]
         items = _Items(ledger.robots[robot], seen.commitments[index].route, len(track))
@@ -282,12 +282,24 @@ def make_routes_of_round(
     return routes
 
 
-def _is_as_known(ledger: Ledger, seen: ViewOfRound, step: PlannedStep) -> bool:
-    """Return whether the job of a step is still the one that was planned."""
-    if step.job is None:
-        return True
-    own = ledger.pool.jobs.get(step.job)
-    return own is not None and own.job == seen.known[step.job].job
+def map_later(ledger: Ledger, seen: ViewOfRound, planned: Round) -> Mapping[int, StopsLater]:
+    """Return what each robot does behind the end of its route, by its number in the fleet.
+
+    Parameters
+    ----------
+    ledger, seen, planned
+        As for `make_routes_of_round`.
+    """
+    return {
+        robot: tuple(stop for stop in stops if _is_as_known(ledger, seen, stop[0]))
+        for robot, stops in zip(seen.present, planned.later, strict=False)
+    }
+
+
+def _is_as_known(ledger: Ledger, seen: ViewOfRound, job: str | None) -> bool:
+    """Return whether a job is still the one that was planned; True for a charge."""
+    own = ledger.pool.jobs.get(job or "")
+    return job is None or (own is not None and own.job == seen.known[job].job)
 
 
 class _Items:

@@ -81,6 +81,9 @@ SPARE = 10
 SEARCHES = 20
 """Searches for each robot without a track, and for each ten robots, before all are planned anew."""
 
+MOST_IN_VAIN = 200
+"""Steps in a row without a better plan, for each robot, after which routes are good enough."""
+
 SHARE_TO_JUDGE = 0.1
 """The part of the time that is left to judge a plan."""
 
@@ -302,7 +305,7 @@ class RoundPlanner:
             order, searches=searches, time_limit=judging.measure_seconds_left()
         ):
             return None
-        patience = 200 * len(tracks)
+        patience = MOST_IN_VAIN * len(tracks)
         search.improve(UNLIMITED, patience=patience, time_limit=judging.measure_seconds_left())
         if toured.problem.closures is None:
             search.retime()

@@ -22,6 +22,9 @@ Path = tuple[VertexId, ...]
 """The vertices of a path, both ends included."""
 
 
+LEAST_SHARED = 100_000
+"""Entries of tables that are computed in less time than threads need to start."""
+
 MOST_ENTRIES = 2**27
 """Entries of all tables that are kept: half a gigabyte."""
 
@@ -125,8 +128,12 @@ class Distances:
             self._tables[key] = table
 
     def prepare(self, wanted: Iterable[tuple[VertexId, tuple[Tick, ...]]]) -> None:
-        """Compute tables that will be asked for, on all cores: targets and ticks as for `to`."""
+        """Compute tables that will be asked for, many of them on all cores: keys as for `to`."""
         missing = dict.fromkeys(key for key in wanted if key not in self._tables)
+        if len(missing) * self.roadmap.n_vertices < LEAST_SHARED:
+            for key in missing:
+                self.to(*key)
+            return
         for _, edge_ticks in missing:
             self.compute_edge_ticks(edge_ticks)
         assert self._kernel, "made once, before threads ask for it"
