@@ -48,60 +48,79 @@ class _Charge:
 
     def find_faults(self) -> Iterator[Fault]:
         """Yield the first instant at which the battery is too low, or else a rest that is."""
-        at, soc = 0, self.soc
-        for moment, at, soc, least in self._follow():
+        unit = self._find_unit()
+        at, soc = 0, int(self.soc * unit)
+        for moment, at, soc, least in self._follow(unit):
             if soc < least:
-                yield self._fault("low battery", at, moment, soc=soc, least=least)
+                level, needed = Fraction(soc, unit), Fraction(least, unit)
+                yield self._fault("low battery", at, moment, soc=level, least=needed)
                 return
         if self.own.tour:
             need = self._measure_way_to_charge()
-            needed = None if need is None else self.battery.reserve + need
-            if needed is None or soc < needed:
-                yield self._fault("stranded", at, self.rest, soc=soc, least=needed)
+            lowest = None if need is None else self.battery.reserve + need
+            level = Fraction(soc, unit)
+            if lowest is None or level < lowest:
+                yield self._fault("stranded", at, self.rest, soc=level, least=lowest)
 
-    def _follow(self) -> Iterator[tuple[int, int, Fraction, Fraction]]:
+    def _find_unit(self) -> int:
+        """Return the least number of which all changes of the state of charge are whole parts."""
+        battery, tick = self.battery, self.scenario.problem.clock.tick
+        shares = (
+            *(battery.drive * own.length for own in self.scenario.roadmap.edge_classes),
+            *(share * tick for share in (battery.on, battery.work, battery.charge)),
+            battery.reserve,
+            self.soc,
+        )
+        return lcm(*(share.denominator for share in shares))
+
+    def _follow(self, unit: int) -> Iterator[tuple[int, int, int, int]]:
         """Yield instants with the place, the state of charge then, and the least one allowed.
 
-        Between two of them the state of charge rises or falls evenly.
+        Between two of them the state of charge rises or falls evenly. Both are in parts of a
+        battery, of which a full one has `unit`.
         """
         state, tick = self.own.state, self.scenario.problem.clock.tick
-        falls = self._list_drives()
+        falls = self._list_drives(unit)
         moments = {state.ready, self.rest, *falls}
         moments.update(moment for item in self.own.tour for moment in (item.begin, item.end))
         within = sorted(moment for moment in moments if state.ready <= moment <= self.rest)
-        soc, visit = self.soc - falls.get(state.ready, 0), 0
+        charge = int(self.battery.charge * tick * unit)
+        on, work = (int(share * tick * unit) for share in (self.battery.on, self.battery.work))
+        reserve = int(self.battery.reserve * unit)
+        soc, visit = int(self.soc * unit) - falls.get(state.ready, 0), 0
+        coming = sorted(self.own.tour, key=lambda item: item.begin, reverse=True)
+        during = list[PlannedItem]()
         for before, moment in pairwise([state.ready, *within]):
-            soc += self._change(before, moment) * tick
-            soc = min(soc, Fraction(1))
+            while coming and coming[-1].begin <= before:
+                during.append(coming.pop())
+            during = [item for item in during if moment <= item.end]
+            if any(item.job is None for item in during):
+                soc = min(soc + (moment - before) * charge, unit)
+            else:
+                soc -= (moment - before) * (on + len(during) * work)
             if moment > before:
                 soc -= falls.get(moment, 0)
             while visit + 1 < len(self.own.enter) and self.own.enter[visit + 1] <= moment:
                 visit += 1
-            yield moment, self.own.vertices[visit], soc, self._find_least(moment)
+            least = 0 if self._may_be_low(moment) else reserve
+            yield moment, self.own.vertices[visit], soc, least
 
-    def _list_drives(self) -> dict[int, Fraction]:
-        """Return what drives take at the instants at which they end."""
-        roadmap, falls = self.scenario.roadmap, dict[int, Fraction]()
+    def _list_drives(self, unit: int) -> dict[int, int]:
+        """Return what drives take at the instants at which they end, in parts of a battery."""
+        roadmap, falls = self.scenario.roadmap, dict[int, int]()
+        shares = [int(self.battery.drive * own.length * unit) for own in roadmap.edge_classes]
         for enter, edge in zip(self.own.enter[1:], self.own.edges, strict=False):
             if edge >= 0:
-                share = self.battery.drive * roadmap.get_edge_class(edge).length
-                falls[enter] = falls.get(enter, Fraction(0)) + share
+                share = shares[int(roadmap.class_of_edge[edge])]
+                falls[enter] = falls.get(enter, 0) + share
         return falls
 
-    def _change(self, begin: int, end: int) -> Fraction:
-        """Return how the state of charge changes in an interval without events, by time unit."""
-        during = [item for item in self.own.tour if item.begin <= begin and end <= item.end]
-        if any(item.job is None for item in during):
-            return (end - begin) * self.battery.charge
-        return -(end - begin) * (self.battery.on + len(during) * self.battery.work)
-
-    def _find_least(self, moment: int) -> Fraction:
-        """Return the least state of charge; a robot that begins below its reserve charges first."""
+    def _may_be_low(self, moment: int) -> bool:
+        """Return whether the reserve may be used: a robot that begins below it charges first."""
         if self.soc >= self.battery.reserve:
-            return self.battery.reserve
+            return False
         first: PlannedItem | None = self.own.tour[0] if self.own.tour else None
-        may_be_low = first is None or (first.job is None and moment < first.end)
-        return Fraction(0) if may_be_low else self.battery.reserve
+        return first is None or (first.job is None and moment < first.end)
 
     def _measure_way_to_charge(self) -> Fraction | None:
         """Return the least share for a drive from the last vertex to a charging place.

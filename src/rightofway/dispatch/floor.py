@@ -25,10 +25,12 @@ from rightofway.dispatch.record import DoneStep, RobotRecord
 from rightofway.model import NEVER, BookingRules, BoundBattery, Scenario
 from rightofway.model.bind_work import find_heading_on_map
 from rightofway.model.turning import list_headings
-from rightofway.precedence import Arrival, DelayModel
+from rightofway.precedence import DelayModel
 from rightofway.site import Roadmap
 
 __all__ = ["FloorEvent", "FloorRobot", "SimulatedFloor", "StepToDo", "VisitToCome"]
+
+Pair = tuple[int, int]
 
 AHEAD = 64
 """The visits of each robot that a forecast looks at."""
@@ -60,11 +62,11 @@ class StepToDo:
     ends_job: bool = False
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class VisitToCome:
+class VisitToCome(NamedTuple):
     """A visit of a route: the edge into it with the turn before, and the work in it [ticks].
 
-    ``planned`` is when the plan has it begin. ``waits`` are the arrivals before it.
+    ``planned`` is when the plan has it begin. ``waits`` are the arrivals before it, each with the
+    robot and the number of its visit: pairs, as there are very many of them.
     """
 
     vertex: int
@@ -73,7 +75,7 @@ class VisitToCome:
     turn: int = 0
     drive: int = 0
     steps: tuple[StepToDo, ...] = ()
-    waits: tuple[Arrival, ...] = ()
+    waits: tuple[Pair, ...] = ()
 
 
 @dataclass(slots=True, kw_only=True)
@@ -225,7 +227,7 @@ class SimulatedFloor:
         self._headings = list_headings(problem.roadmap) if problem.turns else []
         self._until = 0
         self._front: deque[int] = deque()
-        self._waiting: dict[Arrival | str, list[int]] = {}
+        self._waiting: dict[Pair | str, list[int]] = {}
 
     @property
     def is_on_time(self) -> bool:
@@ -442,12 +444,13 @@ class SimulatedFloor:
                 self._waiting[arrival].append(robot)
                 return None, None
             if (left := int(self.rules.end(enter))) > at:
-                at, by = left, arrival.robot
+                at, by = left, arrival[0]
         return at, by
 
-    def _get_enter(self, arrival: Arrival) -> int | None:
-        other = self.robots[arrival.robot]
-        return None if arrival.visit > other.first else other.enters.get(arrival.visit, 0)
+    def _get_enter(self, arrival: Pair) -> int | None:
+        robot, visit = arrival
+        other = self.robots[robot]
+        return None if visit > other.first else other.enters.get(visit, 0)
 
     def _time_drive(self, robot: int, own: FloorRobot, ready: int, at: int) -> tuple[int, int]:
         """Return when a robot drives and when it arrives, with its right of way from a tick on."""
@@ -500,7 +503,7 @@ class SimulatedFloor:
             self._count_charge(robot, own, enter)
             own.soc -= battery.drive[int(self.roadmap.class_of_edge[visit.edge])]
             self._lose_if_empty(robot, own, enter)
-        self._front.extend(self._waiting.pop(Arrival(robot, own.first), ()))
+        self._front.extend(self._waiting.pop((robot, own.first), ()))
 
     # --- rotations -------------------------------------------------------------------------------
 
@@ -528,8 +531,8 @@ class SimulatedFloor:
             if own.n_begun < len(own.visits[0].steps):
                 continue
             missing = [at for at in own.visits[1].waits if self._get_enter(at) is None]
-            if missing and all(at.visit == self.robots[at.robot].first + 1 for at in missing):
-                yield robot, {at.robot for at in missing}
+            if missing and all(visit == self.robots[k].first + 1 for k, visit in missing):
+                yield robot, {k for k, _ in missing}
 
     def _move_ring(self, ring: Sequence[int]) -> None:
         """Let robots move round at one instant, if one of them sets off before the tick."""

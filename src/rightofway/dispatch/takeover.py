@@ -14,7 +14,7 @@ from itertools import islice
 
 import numpy as np
 
-from rightofway.dispatch.floor import SimulatedFloor, StepToDo, VisitToCome, count_soc
+from rightofway.dispatch.floor import Pair, SimulatedFloor, StepToDo, VisitToCome, count_soc
 from rightofway.dispatch.pool import PooledJob
 from rightofway.dispatch.view import (
     FleetView,
@@ -27,7 +27,7 @@ from rightofway.dispatch.view import (
 from rightofway.model import NEVER, Scenario, Tick, Track
 from rightofway.model.bind_work import find_heading_on_site
 from rightofway.model.turning import compute_first_turns, turn_towards
-from rightofway.precedence import Part, ReleaseGraph
+from rightofway.precedence import list_waits
 from rightofway.site import VertexId
 
 __all__ = ["cap_floor", "lift_caps", "look_at_floor", "splice_round"]
@@ -213,36 +213,38 @@ def splice_round(
         The jobs of the pool.
     """
     firsts = [own.last - len(own.kept_track) + 1 for own in view.robots]
-    graph = ReleaseGraph.of(floor.scenario, make_whole_tracks(view, planned.tracks), firsts)
+    waits = defaultdict[Pair, list[Pair]](list)
+    for robot, number, other, visit in list_waits(
+        floor.scenario, make_whole_tracks(view, planned.tracks), firsts
+    ):
+        waits[robot, number].append((other, visit))
     for robot, (own, seen) in enumerate(zip(floor.robots, view.robots, strict=True)):
-        visits = list(islice(own.visits, seen.last - own.first + 1))
-        if len(visits) == 1:
+        kept = list(islice(own.visits, seen.last - own.first + 1))
+        if len(kept) == 1:
             own.heading = floor.convert_heading(seen.heading)
         own.since, own.cap = view.takeover, None
         if own.charging is not None:
             own.free = min(own.free, view.takeover)
-        steps_of_visits = _place_steps(floor.scenario, planned.steps[robot], jobs)
-        coming = [
-            replace(visit, planned=view.takeover + visit.planned, steps=tuple(steps_of_visits[k]))
-            for k, visit in enumerate(_list_visits(floor, robot, seen, planned.tracks[robot]))
-        ]
-        steps = (*visits[-1].steps[: seen.n_steps], *coming[0].steps)
-        expected = (view.takeover + seen.kept_track.enter).tolist()[-len(visits) :]
-        visits = [
-            replace(visit, planned=tick) for visit, tick in zip(visits, expected, strict=True)
-        ]
-        visits = [*visits[:-1], replace(visits[-1], steps=steps), *coming[1:]]
+        steps = _place_steps(floor.scenario, planned.steps[robot], jobs)
+        expected = (view.takeover + seen.kept_track.enter).tolist()[-len(kept) :]
+        coming = _list_visits(floor, robot, seen, planned.tracks[robot], view.takeover)
+        steps_at_end = (*kept[-1].steps[: seen.n_steps], *steps[0])
+        route = [visit._replace(planned=at) for visit, at in zip(kept, expected, strict=True)]
+        route[-1] = route[-1]._replace(steps=steps_at_end)
+        route += (
+            VisitToCome(*row, steps=tuple(steps.get(k, ()))) for k, row in enumerate(coming, 1)
+        )
         own.visits = deque(
-            replace(visit, waits=graph.waits(Part(robot, number)))
-            for number, visit in enumerate(visits, own.first)
+            visit._replace(waits=tuple(waits.get((robot, number), ())))
+            for number, visit in enumerate(route, own.first)
         )
         own.forget_before(view.takeover, floor.rules)
 
 
 def _list_visits(
-    floor: SimulatedFloor, robot: int, seen: RobotView, track: Track
-) -> Iterator[VisitToCome]:
-    """Yield the visits of a new track, the first of which is the end of the kept part."""
+    floor: SimulatedFloor, robot: int, seen: RobotView, track: Track, takeover: int
+) -> Iterator[tuple[int, int, int, int, int]]:
+    """Yield a new track behind the kept part: the first values of each `VisitToCome`."""
     roadmap, itinerary = floor.roadmap, floor.scenario.problem.itineraries[robot]
     edges = roadmap.find_edges(track.vertices[:-1], track.vertices[1:])
     drives = np.array(itinerary.edge_ticks, np.int64)[roadmap.class_of_edge[edges]].tolist()
@@ -252,11 +254,9 @@ def _list_visits(
         heading = floor.convert_heading(seen.heading)
         first = compute_first_turns(roadmap, itinerary.turning, seen.at, heading)
         turns[0] = first[int(edges[0]) - int(roadmap.indptr[seen.at])] if first else 0
-    times, vertices = track.enter.tolist(), track.vertices.tolist()
-    yield VisitToCome(vertex=vertices[0])
-    rows = zip(vertices[1:], times[1:], edges.tolist(), turns, drives, strict=True)
-    for vertex, planned, edge, turn, drive in rows:
-        yield VisitToCome(vertex=vertex, planned=planned, edge=edge, turn=turn, drive=drive)
+    planned = (takeover + track.enter).tolist()
+    rows = (track.vertices.tolist()[1:], planned[1:], edges.tolist(), turns, drives)
+    yield from zip(*rows, strict=True)
 
 
 def _place_steps(

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
         build_timetable,
     )
     from rightofway.precedence.period_curve import Growth, PeriodPiece, compute_period_curve
-    from rightofway.precedence.release_graph import Arrival, Part, ReleaseGraph
+    from rightofway.precedence.release_graph import Arrival, Part, ReleaseGraph, list_waits
     from rightofway.precedence.rotations import find_rotation
     from rightofway.precedence.segments import Segment, find_shared_segment, make_crossing
     from rightofway.precedence.sensitivity import (
@@ -68,6 +68,7 @@ _MODULES = {
         "Arrival",
         "Part",
         "ReleaseGraph",
+        "list_waits",
     ),
     "segments": (
         "Segment",
@@ -118,6 +119,7 @@ __all__ = [
     "find_rotation",
     "find_shared_segment",
     "find_tight_arcs",
+    "list_waits",
     "make_crossing",
     "order_of",
     "unroll_schedule",

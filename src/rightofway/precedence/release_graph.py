@@ -20,13 +20,19 @@ the drive began.
 
 from __future__ import annotations
 
-from bisect import bisect_left
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from itertools import chain
 from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from rightofway.model import Scenario, Track
 from rightofway.native import list_excluded
+
+Indices = NDArray[np.int64]
 
 
 class Part(NamedTuple):
@@ -69,10 +75,6 @@ class ReleaseGraph:
     ) -> None:
         self.ends, self.firsts = tuple(ends), tuple(firsts or [0] * len(ends))
         self._waits = {part: tuple(arrivals) for part, arrivals in waits.items() if arrivals}
-        self._after = defaultdict[Arrival, list[Part]](list)
-        for part, arrivals in self._waits.items():
-            for arrival in arrivals:
-                self._after[arrival].append(part)
 
     @classmethod
     def of(
@@ -90,22 +92,21 @@ class ReleaseGraph:
         firsts
             The number of the first visit of each track, 0 if left out.
         """
-        uses = [_list_uses(scenario, robot, track) for robot, track in enumerate(tracks)]
-        order = defaultdict[int, list[_Use]](list)  # the uses of each row, by begin
-        for use in (use for own in uses for use in own):
-            order[use.row].append(use)
-        for by_row in order.values():
-            by_row.sort()
         firsts = firsts or [0] * len(tracks)
-        waits = {
-            Part(robot, firsts[robot] + number): [
-                Arrival(other, firsts[other] + visit) for other, visit in arrivals
-            ]
-            for robot, own in enumerate(uses)
-            for number, arrivals in _list_waits(scenario, robot, own, order).items()
-        }
+        waits = defaultdict[Part, list[Arrival]](list)
+        for robot, part, other, visit in list_waits(scenario, tracks, firsts):
+            waits[Part(robot, part)].append(Arrival(other, visit))
         ends = [first + len(track) for first, track in zip(firsts, tracks, strict=True)]
         return cls(ends, waits, firsts)
+
+    @cached_property
+    def _after(self) -> dict[Arrival, tuple[Part, ...]]:
+        """The parts that wait for each arrival; not every driver asks for them."""
+        after = defaultdict[Arrival, list[Part]](list)
+        for part, arrivals in self._waits.items():
+            for arrival in arrivals:
+                after[arrival].append(part)
+        return {arrival: tuple(parts) for arrival, parts in after.items()}
 
     def list_waiting_parts(self) -> Iterator[Part]:
         """Yield the parts that wait for arrivals."""
@@ -129,7 +130,7 @@ class ReleaseGraph:
         arrival
             An arrival of a robot at a vertex of its route.
         """
-        return tuple(self._after.get(arrival, ()))
+        return self._after.get(arrival, ())
 
     def list_missing(self, part: Part, arrived: Sequence[int]) -> tuple[Arrival, ...]:
         """Return the arrivals that a part still waits for: why it may not go.
@@ -200,57 +201,103 @@ class ReleaseGraph:
         return {*own, *(Part(*arrival) for arrival in arrivals)}
 
 
-class _Use(NamedTuple):
-    """A robot books a row; sorted by begin, the uses of a vertex are in their order in the plan."""
+class _Uses(NamedTuple):
+    """The bookings of rows by robots, sorted by row and begin; int64[U] each.
 
-    begin: int  # a tick in which it surely books it
-    row: int
-    robot: int
-    part: int
-    left: int  # the visit whose arrival ends it
-    is_vertex: bool
+    Those of a vertex are in the order in which robots use it in the plan.
+    """
+
+    row: Indices
+    begin: Indices  # a tick in which the robot surely books the row
+    robot: Indices
+    part: Indices
+    left: Indices  # the visit whose arrival ends the booking
+
+    @classmethod
+    def of(cls, scenario: Scenario, tracks: Sequence[Track]) -> _Uses:
+        """Return the bookings of all robots: each vertex and each edge."""
+        parts = [
+            rows
+            for robot, track in enumerate(tracks)
+            for rows in _list_uses(scenario, robot, track)
+        ]
+        row, begin, robot, part, left = np.concatenate(parts, axis=1)
+        order = np.lexsort((part, robot, begin, row))
+        return cls(row[order], begin[order], robot[order], part[order], left[order])
 
 
-def _list_uses(scenario: Scenario, robot: int, track: Track) -> list[_Use]:
-    """Return the bookings of a robot: each vertex and each edge."""
-    resources, roadmap = scenario.problem.resources, scenario.roadmap
-    vertices, enter = track.vertices.tolist(), track.enter.tolist()
-    own = resources.get_vertex_row(robot, 0)
-    uses = [
-        _Use(enter[k], own + vertex, robot, k, k + 1, is_vertex=True)
-        for k, vertex in enumerate(vertices)
-    ]
-    edges = roadmap.find_edges(track.vertices[:-1], track.vertices[1:]).tolist()
-    if -1 in edges:
-        raise KeyError(tuple(vertices[edges.index(-1) :][:2]))
+def _list_uses(scenario: Scenario, robot: int, track: Track) -> tuple[Indices, Indices]:
+    """Return the bookings of the vertices and of the edges of a robot, as columns of `_Uses`."""
+    resources = scenario.problem.resources
+    edges = scenario.roadmap.find_edges(track.vertices[:-1], track.vertices[1:])
+    if (edges < 0).any():
+        k = int((edges < 0).argmax())
+        raise KeyError(tuple(track.vertices[k : k + 2].tolist()))
+    visit = np.arange(len(track))
+    own = np.full(len(track), robot)
+    vertices = track.vertices.astype(np.int64) + resources.get_vertex_row(robot, 0)
     # The last tick of a drive, not its first one: so the order of arrivals is all that counts, and
     # times that are no timetable, as those of routes in a journal, give the order that they say.
-    uses += (
-        _Use(enter[k] - 1, resources.get_edge_row(robot, edge), robot, k, k, is_vertex=False)
-        for k, edge in enumerate(edges, 1)
+    lanes = edges.astype(np.int64) + resources.get_edge_row(robot, 0)
+    return (
+        np.stack((vertices, track.enter, own, visit, visit + 1)),
+        np.stack((lanes, track.enter[1:] - 1, own[1:], visit[1:], visit[1:])),
     )
-    return uses
 
 
-def _list_waits(
-    scenario: Scenario, robot: int, own: Sequence[_Use], order: Mapping[int, Sequence[_Use]]
-) -> dict[int, list[Arrival]]:
-    """Return the arrivals that each part of a robot waits for."""
+def list_waits(
+    scenario: Scenario, tracks: Sequence[Track], firsts: Sequence[int]
+) -> Iterator[tuple[int, int, int, int]]:
+    """Yield robot and part, and the robot and visit of each arrival that the part waits for.
+
+    They are sorted. A release graph has them in an object for each part.
+
+    Parameters
+    ----------
+    scenario, tracks, firsts
+        As for `ReleaseGraph.of`.
+    """
+    uses = _Uses.of(scenario, tracks)
     resources = scenario.problem.resources
-    latest = defaultdict[int, dict[int, int]](dict)  # part: other robot: visit
-    for use in own:
-        for row in list_excluded(resources, use.row):
-            users = order.get(row, ())
-            for k in range(bisect_left(users, (use.begin,)) - 1, -1, -1):
-                other = users[k]
-                if other.robot != robot:
-                    visits = latest[use.part]
-                    visits[other.robot] = max(visits.get(other.robot, 0), other.left)
-                if other.is_vertex:
-                    # The uses of a vertex exclude each other, so the last one was released only
-                    # after all others were left.
-                    break
-    return {
-        part: [Arrival(other, left) for other, left in sorted(visits.items())]
-        for part, visits in latest.items()
-    }
+    # Each use with each row that it excludes, as far as somebody uses that.
+    rows, first_of_row, index = np.unique(uses.row, return_index=True, return_inverse=True)
+    position = {row: k for k, row in enumerate(rows.tolist())}
+    excluded = [
+        [position[other] for other in list_excluded(resources, row) if other in position]
+        for row in position
+    ]
+    counts = np.array([len(own) for own in excluded], np.int64)[index]
+    use = np.repeat(np.arange(len(index)), counts)
+    row = _chain([excluded[k] for k in index.tolist()])
+    # The uses of that row that begin before: ranks of begins make one sorted key.
+    ranks = np.unique(uses.begin, return_inverse=True)[1].reshape(-1)
+    keys, n_ranks = index * (len(index) + 1) + ranks, len(index) + 1
+    end = np.searchsorted(keys, row * n_ranks + ranks[use])
+    begin = first_of_row[row]
+    # The uses of a vertex exclude each other, so the last one was released only after all others
+    # were left.
+    is_vertex = rows[row] % (resources.n_vertices + resources.n_edges) < resources.n_vertices
+    begin = np.where(is_vertex, np.maximum(begin, end - 1), begin)
+    use, earlier = np.repeat(use, end - begin), _list_ranges(begin, end)
+    is_other = uses.robot[use] != uses.robot[earlier]
+    use, earlier = use[is_other], earlier[is_other]
+    first = np.array(firsts, np.int64)
+    robot, other = uses.robot[use], uses.robot[earlier]
+    part, left = uses.part[use] + first[robot], uses.left[earlier] + first[other]
+    order = np.lexsort((left, other, part, robot))
+    columns = [column[order] for column in (robot, part, other, left)]
+    # Of each other robot the last arrival.
+    is_last = np.ones(len(order), bool)
+    is_last[:-1] = np.logical_or.reduce([own[1:] != own[:-1] for own in columns[:3]])
+    yield from zip(*(column[is_last].tolist() for column in columns), strict=True)
+
+
+def _chain(lists: Sequence[Sequence[int]]) -> Indices:
+    return np.fromiter(chain.from_iterable(lists), np.int64)
+
+
+def _list_ranges(begin: Indices, end: Indices) -> Indices:
+    """Return the numbers from each begin to before its end, one range after another."""
+    counts = end - begin
+    firsts = np.repeat(begin - np.cumsum(counts) + counts, counts)
+    return firsts + np.arange(int(counts.sum()))
