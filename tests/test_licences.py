@@ -44,8 +44,11 @@ def test_the_text_of_a_licence_is_in_the_metadata_if_the_wheel_holds_the_files(
 
 
 FOLDERS = [
-    "examples/maps", "tests/data/samples", "tests/data/vda5050", str(VENDOR.relative_to(ROOT)),
-]  # fmt: skip
+    "examples/maps",
+    "tests/data/samples",
+    "src/rightofway/control/schemas",
+    str(VENDOR.relative_to(ROOT)),
+]
 """Folders with files of others."""
 
 

@@ -216,7 +216,7 @@ REFUSED = {"message", "remedy", "hint", "fault"}
 
 TERMINAL = {
     *("report/driving.py", "report/execution.py", "report/inspection.py"),
-    *("report/jobs.py", "report/laps.py", "report/plan.py", "report/shift.py"),
+    *("report/jobs.py", "report/laps.py", "report/plan.py", "report/probe.py", "report/shift.py"),
 }
 """Reports of the command line, which speaks English."""
 

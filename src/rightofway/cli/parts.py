@@ -34,6 +34,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "drive": "control.command_line.drive",
         "jobs": "control.command_line.jobs",
         "robots": "control.command_line.robots",
+        "probe": "control.command_line.probe",
     },
     "Compare": {"bench": "cli.bench", "paper": "cli.paper"},
     "Formats": {"convert": "cli.formats", "schema": "cli.formats"},

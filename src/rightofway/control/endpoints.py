@@ -130,7 +130,7 @@ def format_timestamp(moment: datetime) -> str:
     return moment.isoformat(timespec="milliseconds").replace("+00:00", "Z")
 
 
-class _Writer:
+class LetterWriter:
     """Writes messages of one end with their heads; `now` gives timestamps."""
 
     def __init__(self, now: Callable[[], str]) -> None:
@@ -171,7 +171,7 @@ class ControlEnd:
         self.control, self.notices = control, notices
         self._maps = maps
         self._heard = set[int]()
-        self._writer = _Writer(now)
+        self._writer = LetterWriter(now)
         self._robots = {
             order_map.identity.get_topic(name): (robot, name)
             for robot, order_map in enumerate(maps)
@@ -384,7 +384,7 @@ class RobotEnd:
         self.condition = Condition()
         self.lanes: dict[tuple[str, str], OrderLane] = {}
         self._places: dict[str, Place] = {}
-        self._writer = _Writer(now)
+        self._writer = LetterWriter(now)
 
     @property
     def topics(self) -> tuple[str, str]:

@@ -613,7 +613,20 @@ def read(model: type[_AnyModel], document: Mapping[str, Any], name: str) -> _Any
     """
     try:
         return model.model_validate(document)
+    except ValidationError:
+        pass
+    try:  # robots write null for what they do not have, against the schemas
+        return model.model_validate(_drop_nulls(document))
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
         message = f"{first['msg'].lower()}: {quote(first['input'])} (the sender has to send it)"
         raise InputError([InputFault((name, *first["loc"]), message)]) from error
+
+
+def _drop_nulls(value: Any) -> Any:
+    """Return a message without the keys that are null."""
+    if isinstance(value, list):
+        return [_drop_nulls(item) for item in value]
+    if not isinstance(value, Mapping):
+        return value
+    return {key: _drop_nulls(item) for key, item in value.items() if item is not None}

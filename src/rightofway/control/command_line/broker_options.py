@@ -7,15 +7,13 @@ from typing import Any
 import click
 
 
-def add_broker_options(command: Any) -> Any:
+def add_login_options(command: Any) -> Any:
     """Add the options that say where the broker is, and how to log in."""
     for option in reversed(
         (
             click.option("--broker", metavar="URL",
                          help="The MQTT broker: mqtt://host, mqtt://user@host:port, or mqtts://…"
                          " with TLS."),
-            click.option("--identities", metavar="FILE",
-                         help="Manufacturer and serial number of each robot (YAML)."),
             click.option("--password-file", metavar="FILE",
                          help="The password for the broker; by default it is read from"
                          " RIGHTOFWAY_BROKER_PASSWORD."),
@@ -26,3 +24,11 @@ def add_broker_options(command: Any) -> Any:
     ):  # fmt: skip
         command = option(command)
     return command
+
+
+def add_broker_options(command: Any) -> Any:
+    """Add the options of a broker, and of the identities of its robots."""
+    identities = click.option("--identities", metavar="FILE",
+                              help="Manufacturer and serial number of each robot (YAML)."
+                              )  # fmt: skip
+    return add_login_options(identities(command))

@@ -1,0 +1,154 @@
+"""Probes of robots at a real broker: simulated ones, and those of another project."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from rightofway.control.broker import Broker
+from rightofway.control.identities import VERSIONS
+from rightofway.control.probe import Probe
+from rightofway.execution.probe_result import ProbeResult
+from rightofway.io import write_plan
+from tests.builders.brokers import MOSQUITTO, Command, Mosquitto, wait_for
+from tests.builders.foreign import NODE, NOOP, PACKAGE, virtual_agvs
+from tests.builders.plans import door
+
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(MOSQUITTO is None, reason="mosquitto is not installed"),
+]
+
+
+@pytest.fixture
+def broker(tmp_path: Path) -> Iterator[Mosquitto]:
+    made = Mosquitto(tmp_path)
+    yield made
+    made.kill()
+
+
+def probe(broker: Mosquitto, manufacturer: str, serial: str, **options: Any) -> ProbeResult:
+    """Return the result of a probe that may send orders."""
+    talk = Probe(manufacturer, serial, ask=lambda _: True, **options)
+    return asyncio.run(talk.run(Broker.of(broker.url)))
+
+
+def list_kinds(result: ProbeResult, step: str) -> list[str]:
+    """Return the kinds of the findings of a step."""
+    return [finding.fact.kind for finding in result.findings if finding.step == step]
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_a_simulated_robot_takes_the_orders_of_a_probe(
+    version: str, tmp_path: Path, broker: Mosquitto
+) -> None:
+    """It reports no error for an update that it refuses: the only departure."""
+    write_plan(door(), tmp_path / "plan.json")
+    options = ("--broker", broker.url, "--vda-version", version)
+    with Command(tmp_path, "robots", "plan.json", *options).running() as robots:
+        wait_for(lambda: "2 robots are at" in robots.log, 60, "robots")
+        result = probe(broker, "rightofway", "robot0")
+    assert result.version == version
+    assert result.count("blocks") == 0
+    departures = [it.fact.kind for it in result.findings if it.verdict == "departs"]
+    assert departures == ["wrong update unreported"]
+    for step in ("order", "update", "next order"):
+        assert list_kinds(result, step)[0] == "order taken"
+    assert list_kinds(result, "cancel") == ["cancel ended"]
+
+
+@pytest.mark.skipif(NODE is None or not PACKAGE.exists(), reason="Node or vda-5050-lib missing")
+def test_a_robot_of_others_is_probed(tmp_path: Path, broker: Mosquitto) -> None:
+    """Virtual AGVs of vda-5050-lib refuse a wrong update, and leave out the end of a withdrawal."""
+    with virtual_agvs(door(), broker.url, tmp_path, NOOP):
+        result = probe(broker, "ACME", "agv0", answer=3)
+    assert (result.version, result.interface, result.map_id) == ("2.0.0", "uagv", "map")
+    assert list_kinds(result, "update") == [
+        "order taken", "repeated update ignored", "wrong update refused",
+    ]  # fmt: skip
+    assert list_kinds(result, "cancel") == ["cancel without end", "error reported"]
+
+
+def test_the_probe_of_a_silent_robot_names_the_others(tmp_path: Path, broker: Mosquitto) -> None:
+    write_plan(door(), tmp_path / "plan.json")
+    options = ("--broker", broker.url)
+    with Command(tmp_path, "robots", "plan.json", *options).running() as robots:
+        wait_for(lambda: "2 robots are at" in robots.log, 60, "robots")
+        [found] = probe(broker, "rightofway", "robot7", silence=1).findings
+    assert found.fact.kind == "nothing heard"
+    names = ("rightofway/robot0", "rightofway/robot1")
+    assert found.fact.values["others"].values["names"] == names
+    assert "rightofway/robot0, rightofway/robot1" in str(found.fact)
+
+
+def test_the_end_of_an_old_connection_decides_only_if_nothing_else_comes(
+    tmp_path: Path, broker: Mosquitto
+) -> None:
+    """The broker keeps the last will of a robot that has changed its version."""
+    write_plan(door(), tmp_path / "plan.json")
+    for version in ("3.0.0", "2.1.0"):
+        options = ("--broker", broker.url, "--vda-version", version)
+        with Command(tmp_path, "robots", "plan.json", *options).running() as robots:
+            wait_for(lambda: "2 robots are at" in robots.log, 60, "robots")
+            if version == "2.1.0":
+                result = probe(broker, "rightofway", "robot0", settle=0.5)
+        robots.said.unlink()
+    assert result.version == "2.1.0"
+    assert list_kinds(result, "topics") == ["further topics"]
+    result = probe(broker, "rightofway", "robot0", silence=1)
+    assert list_kinds(result, "connection") == ["connection reported"]
+    assert result.count("blocks") == 1
+
+
+def run_command(
+    broker: Mosquitto, *options: str, said: str = ""
+) -> subprocess.CompletedProcess[str]:
+    """Run the command on the first simulated robot."""
+    identity = ("--identity", "rightofway/robot0")
+    line = [
+        sys.executable,
+        "-m",
+        "rightofway",
+        "probe",
+        "--broker",
+        broker.url,
+        *identity,
+        *options,
+    ]
+    return subprocess.run(line, input=said, capture_output=True, text=True, timeout=90, check=False)
+
+
+def test_the_command_asks_before_it_sends_an_order(tmp_path: Path, broker: Mosquitto) -> None:
+    write_plan(door(), tmp_path / "plan.json")
+    with Command(tmp_path, "robots", "plan.json", "--broker", broker.url).running() as robots:
+        wait_for(lambda: "2 robots are at" in robots.log, 60, "robots")
+        refused = run_command(broker, said="n\n")
+        assert "Send orders of the node N0 alone" in refused.stderr
+        assert refused.returncode == 0
+        assert "no order was sent" in refused.stdout
+        assert max(map(len, refused.stdout.splitlines())) <= 80
+        given = run_command(broker, "--order", "N0", "--json")
+    assert "Send orders" not in given.stderr
+    answer = json.loads(given.stdout)
+    assert given.returncode == 1
+    assert (answer["departures"], answer["blocking"]) == (1, 0)
+    assert answer["findings"][0] == {
+        "step": "connection",
+        "verdict": "ok",
+        "kind": "connection reported",
+        "values": {"state": "ONLINE"},
+    }
+
+
+def test_a_broker_that_is_not_there_is_named(broker: Mosquitto) -> None:
+    broker.kill()
+    answer = run_command(broker)
+    assert answer.returncode == 2
+    assert "cannot be reached" in answer.stderr
