@@ -16,6 +16,7 @@ extensions = [
     "sphinx.ext.napoleon",
     "mathml",
     "as_written",
+    "notebook_pages",
     "code_host",
     "plan_pages",
 ]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from typing import Any
 
@@ -49,3 +50,21 @@ def test_there_is_a_notebook_and_each_of_its_cells_has_been_run() -> None:
         cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]
         counts = [cell["execution_count"] for cell in cells if cell["cell_type"] == "code"]
         assert counts == list(range(1, len(counts) + 1))
+
+
+def test_a_page_of_a_notebook_has_its_text_code_results_and_pictures() -> None:
+    spec = spec_from_file_location("notebook_pages", DOCS / "_ext" / "notebook_pages.py")
+    assert spec
+    assert spec.loader
+    pages = module_from_spec(spec)
+    spec.loader.exec_module(pages)
+    for notebook in NOTEBOOKS:
+        written = notebook.read_text(encoding="utf-8")
+        cells = json.loads(written)["cells"]
+        page = "\n\n".join(pages.convert_notebook(written))
+        for cell in cells:
+            assert "".join(cell["source"]).rstrip() in page
+        results = [output for cell in cells for output in cell.get("outputs", [])]
+        pictures = sum("image/png" in output.get("data", {}) for output in results)
+        assert page.count('src="data:image/png;base64,') == pictures > 0
+        assert page.count("```text") == len(results) - pictures

@@ -198,6 +198,27 @@ def test_commands_that_ci_runs_are_one_block(page: str, name: str, lines: int) -
     assert [len(start.text.splitlines()) for start in starts] == [lines]
 
 
+MOST_WORDS = 63_000
+"""Words that the shelves *Use* and *Understand* may have, without code."""
+
+
+def test_the_shelves_of_readers_have_a_limited_number_of_words() -> None:
+    research = list_research()
+    assert {"results", "decisions"} <= {page.parent.name for page in research}
+    pages = [page for page in PAGES if DOCS in page.parents and page not in research]
+    assert sum(len(re.findall(r"[A-Za-z']+", prose(page))) for page in pages) <= MOST_WORDS
+
+
+def list_research() -> set[Path]:
+    """Return the pages of the shelf *Research*, as the front page lists them."""
+    text = (DOCS / "index.md").read_text(encoding="utf-8")
+    [shelf] = re.findall(r"^:caption: Research\n:hidden:\n\n(.*?)^```$", text, WHOLE)
+    tops = [DOCS / f"{name}.md" for name in shelf.split()]
+    return {
+        page for top in tops for page in ([top] if top.stem != "index" else top.parent.iterdir())
+    }
+
+
 def test_pictures_of_the_documentation_are_small() -> None:
     for picture in (DOCS / "images").rglob("*.*"):
         assert picture.stat().st_size < 200_000, picture.name
