@@ -97,7 +97,7 @@ def command_help(*path: str) -> Iterable[str]:
 def planner_list() -> Iterable[str]:
     """Return the planners of this package."""
     rows = [(f"[`{spec.name}`]({spec.name}.md)", spec.summary) for spec in PLANNERS]
-    return table(("planner", "what it does"), rows)
+    return table(("planner", "method"), rows)
 
 
 def planner_options(planner: str) -> Iterable[str]:
@@ -108,7 +108,7 @@ def planner_options(planner: str) -> Iterable[str]:
     ]
     if not rows:
         return ["It has no options."]
-    return table(("option", "default", "other values", "what it does"), rows)
+    return table(("option", "default", "other values", "effect"), rows)
 
 
 def _other_values(option: Option) -> str:
@@ -135,7 +135,7 @@ def document_keys(kind: str, *part: str) -> Iterable[str]:
         )
         for key, value in keys
     )
-    return table(("key", "what", "default"), rows)
+    return table(("key", "meaning", "default"), rows)
 
 
 def _defaults() -> dict[str, dict[str, Any]]:
@@ -184,7 +184,7 @@ def studio_requests() -> Iterable[str]:
             rows.setdefault(operation["tags"][0], []).append(row)
     for tag, requests in rows.items():
         yield from (f"**{tag.capitalize()}**", "")
-        yield from table(("request", "what it does", "query", "body"), requests)
+        yield from table(("request", "effect", "query", "body"), requests)
         yield ""
 
 
@@ -224,7 +224,7 @@ def studio_bodies() -> Iterable[str]:
             for key, value in model["properties"].items()
         )
         yield from (f"`{name}`: {model['description']}", "")
-        yield from table(("key", "what", "default"), rows)
+        yield from table(("key", "meaning", "default"), rows)
         yield ""
 
 
@@ -234,7 +234,7 @@ def _marked(key: str, is_required: bool) -> str:
 
 def result_columns() -> Iterable[str]:
     """Return the columns of the results of a benchmark."""
-    return table(("column", "what"), ((f"`{each.name}`", each.meaning) for each in COLUMNS))
+    return table(("column", "meaning"), ((f"`{each.name}`", each.meaning) for each in COLUMNS))
 
 
 def delay_causes() -> Iterable[str]:
@@ -242,7 +242,7 @@ def delay_causes() -> Iterable[str]:
     examples = chain.from_iterable(cause.examples for cause in CAUSES.values())
     default = {DEFAULT_DELAYS: "; this is the default"}
     rows = ((f"`{text}`", what + default.get(text, "")) for text, what in examples)
-    return table(("cause", "what happens"), rows)
+    return table(("cause", "effect"), rows)
 
 
 def public_names(module: str) -> Iterable[str]:
@@ -256,7 +256,7 @@ def public_names(module: str) -> Iterable[str]:
         )
         for name, value in values.items()
     )
-    return table(("name", "what"), rows)
+    return table(("name", "description"), rows)
 
 
 def _link(name: str, value: Any) -> str:
@@ -299,7 +299,7 @@ def native_headers() -> Iterable[str]:
     """Return the headers of the native core, with what each says of itself first."""
     headers = sorted((ROOT / "cpp").glob("[!bt]*/*.hpp"))
     return table(
-        ("header", "what it is"),
+        ("header", "content"),
         ((f"`{each.parent.name}/{each.name}`", _opening(each)) for each in headers),
     )
 
