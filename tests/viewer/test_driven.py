@@ -236,6 +236,8 @@ def test_a_page_that_has_lost_its_server_says_so_and_gets_what_it_has_missed(
     port = int(address.rstrip("/").rpartition(":")[2])
     stack.enter_context(watched(door(), journal, port=port))
     expect(row_of(viewer, "R2")).to_contain_text("waits for R1")
+    held_up = viewer.page.get_by_role("region", name="Robots that hold up others")
+    expect(held_up).to_contain_text("R1 holds up 1 robot: R2")
     expect(lost).to_be_hidden()
     expect(viewer.page.get_by_role("button", name="Hold all robots")).to_be_enabled()
     shows(viewer, 5)

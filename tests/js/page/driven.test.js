@@ -64,3 +64,27 @@ test("work and turning of a stop are told apart as in the plan", () => {
   assert.ok(stop.turn > 0);
   assert.deepEqual([worked.work, worked.turn], [ticks - stop.turn, stop.turn]);
 });
+
+test("a jam is told by the robot at its head, with all that wait behind it", () => {
+  const fleet = new Driven(Array(5).fill(payload.robots[0]), Array(5).fill(planned[0]));
+  /** @type {(tick: number, robot: number, ...others: number[]) => DrivenRow} */
+  const wait = (tick, robot, ...others) => [tick, robot, "says", "wait", "waits", others];
+  const rows = [wait(2, 1, 0), wait(3, 2, 1), wait(4, 3, 4)];
+  fleet.take({ number: 1, now: 9, runs: true, begins: true, rows });
+  assert.deepEqual(fleet.holdUpsAt(10), [
+    { robot: 0, victims: [1, 2], since: 2, waited: 15 },
+    { robot: 4, victims: [3], since: 4, waited: 6 },
+  ]);
+  assert.deepEqual(fleet.holdUpsAt(1), []);
+});
+
+test("of robots that wait for each other none is at the head", () => {
+  const fleet = new Driven(Array(2).fill(payload.robots[0]), Array(2).fill(planned[0]));
+  /** @type {DrivenRow[]} */
+  const rows = [
+    [1, 0, "says", "wait", "waits", [1]],
+    [1, 1, "says", "wait", "waits", [0]],
+  ];
+  fleet.take({ number: 1, now: 9, runs: true, begins: true, rows });
+  assert.deepEqual(fleet.holdUpsAt(5), []);
+});

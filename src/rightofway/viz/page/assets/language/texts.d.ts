@@ -70,6 +70,7 @@ export interface PageTexts {
     liveAtLength: string;
     lost: string;
     alarms: string;
+    holdUps: string;
     orders: string;
     holdAll: string;
     goAll: string;
@@ -301,6 +302,7 @@ export interface PageTexts {
     disconnected: string;
     nothingTold: string;
     waitsFor: Text<"names">;
+    holdsUp: Text<"name" | "names" | "robots">;
     held: string;
     off: string;
     waiting: string;

@@ -425,6 +425,31 @@ export class Driven {
   }
 
   /**
+   * The robots on which others wait and which wait for no robot, and all that wait for each, directly or for one another;
+   * those with the longest waits in total come first.
+   *
+   * @param {number} tick
+   * @returns {{ robot: number, victims: number[], since: number, waited: number }[]}
+   */
+  holdUpsAt(tick) {
+    const waits = this.logs.map((_, robot) => this.waitAt(robot, tick));
+    /** @type {Map<number, Set<number>>} */
+    const victims = new Map();
+    waits.forEach((wait, robot) => {
+      const reached = new Set(wait?.others);
+      for (const other of reached) waits[other]?.others.forEach((next) => reached.add(next));
+      for (const other of reached)
+        if (!waits[other]?.others.length)
+          victims.set(other, (victims.get(other) ?? new Set()).add(robot));
+    });
+    return Array.from(victims, ([robot, held]) => {
+      const begins = Array.from(held, (victim) => waits[victim]?.since ?? tick);
+      const waited = begins.reduce((sum, begin) => sum + tick - begin, 0);
+      return { robot, victims: Array.from(held), since: Math.min(...begins), waited };
+    }).sort((one, other) => other.waited - one.waited || one.robot - other.robot);
+  }
+
+  /**
    * Whether a person holds a robot at a tick.
    *
    * @param {number} robot

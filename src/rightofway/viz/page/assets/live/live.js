@@ -15,11 +15,14 @@ import { TwoLineList, chooseAt } from "../lists/two_line_list.js";
 
 const MOST_TOLD = 2000; // sentences in the log, the latest ones
 const NOT_MOVING = "still"; // the kind of alarm of a robot that may drive and does not move
+const MOST_HOLD_UPS = 5; // robots that hold up others, the worst ones
+const MOST_HELD_UP = 4; // robots that one holds up, by name
 const MARGIN = 1.25; // by how much the axis of time is longer than what has happened
 
 /** What a page has of a fleet that is driven beside its map and diagram: whether it is live, trouble, the log, orders. */
 export class Live {
   #lit = "";
+  #heldUp = "[]";
   #isConnected = true;
   #hasBegun = false;
 
@@ -106,6 +109,7 @@ export class Live {
   refresh() {
     this.#showState();
     this.#showAlarms();
+    this.#showHoldUps();
     this.orders.refresh(this.clock.tick, this.#isConnected);
   }
 
@@ -147,6 +151,35 @@ export class Live {
           return line;
         }),
     );
+  }
+
+  /** List the robots that hold up others: those that cause a jam, not those that are in it. */
+  #showHoldUps() {
+    const { clock, driven, words } = this;
+    const tick = clock.tick;
+    const found = driven.holdUpsAt(tick).slice(0, MOST_HOLD_UPS);
+    const lines = found.map(({ robot, victims, since }) => {
+      const named = victims.slice(0, MOST_HELD_UP).map((victim) => words.robot(victim));
+      const names = named.join(", ") + (victims.length > MOST_HELD_UP ? ", …" : "");
+      const values = { name: words.robot(robot), robots: victims.length, names };
+      return {
+        robot,
+        since: words.time(since),
+        text: texts.driven.holdsUp(values),
+        doing: this.doing(robot),
+      };
+    });
+    const key = JSON.stringify(lines);
+    if (key === this.#heldUp) return;
+    this.#heldUp = key;
+    this.root.part("hold-ups").hidden = !lines.length;
+    this.root
+      .part("hold-up-list")
+      .replaceChildren(
+        ...lines.map(({ robot, since, text, doing }) =>
+          goTo(since, doing ? `${text} (${doing})` : text, () => this.choice.chooseRobot(robot)),
+        ),
+      );
   }
 
   #showStory() {

@@ -204,6 +204,10 @@ ${below(STATES, ["zoom-in", "zoom-out", "fit", "bottleneck", "corridor", "space"
     <h2 id="alarm-title" data-text="alarms"></h2>
     <ul id="alarm-list"></ul>
   </section>
+  <section id="hold-ups" class="alarms calm" aria-labelledby="hold-up-title" hidden>
+    <h2 id="hold-up-title" data-text="holdUps"></h2>
+    <ul id="hold-up-list"></ul>
+  </section>
   <div id="orders" class="orders" role="toolbar" data-label="orders" hidden>
     <button type="button" id="hold-all" class="quiet" data-text="holdAll"></button>
     <button type="button" id="go-all" class="quiet" data-text="goAll"></button>
