@@ -56,6 +56,11 @@ def message(folder: Path, *robots: dict[str, Any], **keys: Any) -> str:
     return str(error.value)
 
 
+def test_robots_without_a_trip_start_anywhere_and_do_jobs(street: Path) -> None:
+    found = loaded(street, {}, {"home": "P2"}, {}, jobs=[{"name": "J1", "at": "b"}])
+    assert homes(found) == ["P1", "P2", "P4"]
+
+
 def test_each_robot_starts_where_its_first_stop_is_near(street: Path) -> None:
     """R1 has 10 m from P2 and from P4, and takes the earlier one in the file."""
     found = loaded(street, {"target": "b"}, {"target": "a"}, {"target": "b"})

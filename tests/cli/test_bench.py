@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import signal
 import subprocess
 import sys
@@ -59,6 +60,33 @@ def test_a_second_run_does_nothing_but_report(cli: Cli) -> None:
     [planner] = data["planners"]
     assert (planner["planner"], planner["cases"], planner["solved"]) == ("two-level", 2, 2)
     assert f"{planner['ratio']['median']:.3f}" in first.out
+
+
+SHIFTS = """format = "rightofway-suite/1"
+maps = [{scenario = "jobs.yaml", name = "site", counts = [1, 3]}]
+fleets = [{name = "fleet"}]
+planners = [{name = "shift", options = {lead = 0, known = "poisson:1/60"}}]
+limits = [0.2]
+"""
+
+
+def test_a_suite_of_shifts_answers_how_many_robots_are_needed(cli: Cli) -> None:
+    Path("suite.toml").write_text(SHIFTS, encoding="utf-8")
+    shutil.copy(EXAMPLES / "jobs.yaml", "jobs.yaml")
+    ended = cli("bench", "suite.toml", "--in-time", "100%")
+    assert ended.code == 0
+    lines = ended.out.splitlines()
+    assert lines[0] == "site, fleet"
+    head = ["robots", "shifts", "done", "in", "time", "jobs/h", "median", "[s]", "95", "%", "[s]"]
+    assert lines[1].split() == [*head, "wait", "idle"]
+    assert [line.split()[:2] for line in lines[2:4]] == [["1", "1/1"], ["3", "1/1"]]
+    assert lines[-1].startswith("site, fleet: ")
+    assert max(map(len, lines)) <= 80
+    data = json.loads(cli("bench", "suite.toml", "--in-time", "0", "--json").out)
+    assert data["planners"] == []
+    [sizes] = data["shifts"]
+    assert (sizes["map"], sizes["least_robots"]) == ("site", 1)
+    assert [size["robots"] for size in sizes["sizes"]] == [1, 3]
 
 
 def test_rows_of_another_commit_are_kept_and_told(cli: Cli) -> None:
@@ -221,6 +249,8 @@ def test_two_runs_do_not_write_to_one_file(cli: Cli, half_done: subprocess.Popen
         (["suite.toml", "-o", "rows.txt"], "'rows.txt' does not end in .csv"),
         (["suite.toml", "-o", "no/rows.csv"], "there is no directory 'no' (make it first)"),
         (["suite.toml", "--report", "r.pdf"], "'r.pdf' does not end in .html or .md"),
+        (["suite.toml", "--in-time", "95"], "'95' is no share: '95' is above 1 (give a share"),
+        (["suite.toml", "--in-time", "-1%"], "'-1%' is no share: '-1' is negative (give 0 or"),
         (["suite.toml", "--jobs", "0"], "0 does not fit (give a whole number of 1 or more)"),
         (["suite.toml", "--jobs", "2", "--dask", "tcp://x:1"], "choose one"),
         (["suite.toml", "-o", "other.csv"], "other.csv:1: this is no file of results as"),

@@ -9,11 +9,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from rightofway.errors import InputError, join_names
 from rightofway.facts import Fact
 from rightofway.model import Robot, Rules, Tick
 from rightofway.site import Roadmap, VertexId, measure_squared_distance
+
+if TYPE_CHECKING:
+    from rightofway.search import Distances
 
 __all__ = ["HOMELESS", "deal_homes"]
 
@@ -33,7 +37,8 @@ def deal_homes(
     """Return the robots, each with a home, and a note on the homes given to `HOMELESS` ones.
 
     In the order of the robots, each gets the free place that has the shortest way to its first
-    stop, and a way back from its last one unless it stays there. Of equals the place of least
+    stop, and a way back from its last one unless it stays there; one without a trip, which is for
+    jobs, any free place. Of equals the place of least
     number is taken. Places are not free where a robot works, and where another robot starts: there,
     in the same zone, or too near for the sizes of both.
 
@@ -67,7 +72,7 @@ def deal_homes(
     placed = [robot for robot in robots if robot.home != HOMELESS]
     written, dealt = {robot.home for robot in placed}, list[Robot]()
     for robot in robots:
-        if robot.home != HOMELESS or not robot.stops:
+        if robot.home != HOMELESS:
             dealt.append(robot)
             continue
         fitting = [
@@ -77,17 +82,7 @@ def deal_homes(
                 _apart(roadmap, replace(robot, home=place), at, rules.clearance) for at in placed
             )
         ]
-        out = distances.to(robot.stops[0].at, steps)
-        returns = (robot.ends or rules.ends) == "home"
-        home = next(
-            (
-                place
-                for place in sorted(fitting, key=lambda at: out[at])
-                if out[place] >= 0
-                and (not returns or distances.to(place, steps)[robot.stops[-1].at] >= 0)
-            ),
-            None,
-        )
+        home = next(_rank_places(robot, fitting, distances, steps, rules), None)
         if home is None:
             used = len(written.intersection(parking)), len(stops.intersection(parking))
             message = _no_way(robot) if fitting else _too_few(homeless, robot, len(parking), *used)
@@ -95,6 +90,24 @@ def deal_homes(
         dealt.append(replace(robot, home=home))
         placed.append(dealt[-1])
     return dealt, tuple(_note(homeless, dealt, roadmap, len(parking)))
+
+
+def _rank_places(
+    robot: Robot, places: Sequence[int], distances: Distances, steps: tuple[Tick, ...], rules: Rules
+) -> Iterator[VertexId]:
+    """Yield the places with a way to the trip of a robot and back, the nearest first.
+
+    A robot without a trip may begin anywhere: it is for jobs.
+    """
+    if not robot.stops:
+        yield from map(VertexId, places)
+        return
+    out = distances.to(robot.stops[0].at, steps)
+    returns = (robot.ends or rules.ends) == "home"
+    for place in sorted(places, key=lambda at: out[at]):
+        back = not returns or distances.to(VertexId(place), steps)[robot.stops[-1].at] >= 0
+        if out[place] >= 0 and back:
+            yield VertexId(place)
 
 
 def _whole_lengths(roadmap: Roadmap) -> tuple[Tick, ...]:

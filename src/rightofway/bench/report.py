@@ -1,4 +1,4 @@
-"""A report on results: solved cases, times and quality; as a page or as Markdown."""
+"""A report on results: solved cases, times, quality and sizes of fleets; a page or Markdown."""
 
 from __future__ import annotations
 
@@ -7,10 +7,15 @@ import html
 import io
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import partial
 from pathlib import Path
 from typing import Any
 
+from rightofway.bench.fleet_sizes import FleetSizes, compare_fleet_sizes
 from rightofway.bench.results import Row
+from rightofway.bench.shifts import SHIFT
 from rightofway.bench.summary import (
     Group,
     Quartiles,
@@ -31,6 +36,10 @@ RATIOS = (
     "Flowtime / lower bound by number of robots: median and quartiles of the solved cases;"
     " 1 cannot be beaten. Hollow markers: some cases are not solved, and those tend to be the hard"
     " ones."
+)
+FLEETS = (
+    "Throughput, service times and jobs in time by number of robots: medians over the shifts of a"
+    " fleet, and the least share in time. Dashed: the time within which 95 % of jobs are done."
 )
 PAGE = """<!doctype html>
 <html lang="en">
@@ -69,7 +78,9 @@ LEAST_SECONDS = 0.001
 """Shorter times are drawn as this one, since a logarithmic axis has no 0."""
 
 
-def write_report(rows: Sequence[Row], path: Path | str, title: str) -> None:
+def write_report(
+    rows: Sequence[Row], path: Path | str, title: str, *, in_time: Fraction | None = None
+) -> None:
     """Write a report.
 
     Parameters
@@ -78,9 +89,11 @@ def write_report(rows: Sequence[Row], path: Path | str, title: str) -> None:
         The results.
     path
         ``.html`` for one file that holds its pictures; ``.md`` for Markdown, with pictures beside
-        it, ``-cactus.png`` and ``-ratio.png`` behind its name.
+        it, ``-cactus.png``, ``-ratio.png`` and ``-fleets.png`` behind its name.
     title
         Heading of the report.
+    in_time
+        The share of jobs in time for which the report names the smallest fleet; None for none.
 
     Raises
     ------
@@ -94,27 +107,59 @@ def write_report(rows: Sequence[Row], path: Path | str, title: str) -> None:
     table, paragraph = (
         (_make_html_table, _make_html_paragraph) if is_page else (make_markdown_table, str)
     )
-    parts = [table(_make_planner_table(rows))]
-    for name, draw, words in (("cactus", _draw_cactus, CACTUS), ("ratio", _draw_ratios, RATIOS)):
-        alt, picture = (
-            words.partition(":")[0],
-            _draw_picture(rows, draw, "svg" if is_page else "png"),
-        )
-        if is_page:
-            # Each an image of its own, so that the pictures share no names.
-            source = f"data:image/svg+xml;base64,{base64.b64encode(picture).decode()}"
-            caption = f"<figcaption>{html.escape(words)}</figcaption>"
-            parts.append(f'<figure><img alt="{alt}" src="{source}">{caption}</figure>')
+    parts = []
+    for part in _list_parts(rows, in_time):
+        if isinstance(part, str):
+            parts.append(paragraph(part))
+        elif isinstance(part, _Picture):
+            parts += _place_picture(part, path, is_page=is_page)
         else:
-            file = f"{path.stem}-{name}.png"
-            write_whole(path.with_name(file), picture)
-            parts += [f"![{alt}]({file})", words]
-    parts += [table(_make_detail_table(rows)), *map(paragraph, _list_machines(rows))]
+            parts.append(table(part))
     if is_page:
         content = PAGE.format(title=html.escape(title), body="\n".join(parts))
     else:
         content = "\n\n".join([f"# {title}", *parts]) + "\n"
     write_whole(path, content)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Picture:
+    """A plot with a caption that begins with its name."""
+
+    name: str
+    caption: str
+    draw: Callable[[Any], None]
+
+
+def _list_parts(rows: Sequence[Row], in_time: Fraction | None) -> Iterator[str | Table | _Picture]:
+    planned, shifts = [row for row in rows if row["planner"] != SHIFT], compare_fleet_sizes(rows)
+    if planned:
+        yield _make_planner_table(planned)
+        yield _Picture(name="cactus", caption=CACTUS, draw=partial(_draw_cactus, planned))
+        yield _Picture(name="ratio", caption=RATIOS, draw=partial(_draw_ratios, planned))
+        yield _make_detail_table(planned)
+    if shifts:
+        yield _Picture(name="fleets", caption=FLEETS, draw=partial(_draw_fleet_sizes, shifts))
+    for sizes in shifts:
+        yield sizes.title
+        yield sizes.list_cells()
+        if in_time is not None:
+            yield sizes.describe_least(in_time)
+    yield from _list_machines(rows)
+
+
+def _place_picture(picture: _Picture, path: Path, *, is_page: bool) -> list[str]:
+    """Return a picture as a part of a page, or write it beside a file of Markdown."""
+    words, alt = picture.caption, picture.caption.partition(":")[0]
+    content = _draw_picture(picture.draw, "svg" if is_page else "png")
+    if is_page:
+        # Each an image of its own, so that the pictures share no names.
+        source = f"data:image/svg+xml;base64,{base64.b64encode(content).decode()}"
+        caption = f"<figcaption>{html.escape(words)}</figcaption>"
+        return [f'<figure><img alt="{alt}" src="{source}">{caption}</figure>']
+    file = f"{path.stem}-{picture.name}.png"
+    write_whole(path.with_name(file), content)
+    return [f"![{alt}]({file})", words]
 
 
 FIGURES = ("solved", "flowtime / bound", "first plan [s]", "memory [MB]")
@@ -187,14 +232,12 @@ def _list_machines(rows: Iterable[Row]) -> Iterator[str]:
         yield f"{cases} by {versions} on {cpu}, {cores} cores, {compiler}, Python {python}."
 
 
-def _draw_picture(
-    rows: Sequence[Row], draw: Callable[[Sequence[Row], Any], None], form: str
-) -> bytes:
+def _draw_picture(draw: Callable[[Any], None], form: str) -> bytes:
     """Return a picture as svg or png."""
     content = io.BytesIO()
     with load_library("matplotlib", "a report").rc_context(STYLE):
         figure = load_library("matplotlib.figure", "a report").Figure(layout="constrained")
-        draw(rows, figure)
+        draw(figure)
         metadata = {"Date": None} if form == "svg" else {}
         figure.savefig(content, format=form, dpi=150, metadata=metadata)
     return content.getvalue()
@@ -277,3 +320,31 @@ def _draw_planner(
             [x], [ratio.median], yerr=spread, marker=marker, capsize=2,
             markerfacecolor=look["color"] if is_whole else "white", **look,
         )  # fmt: skip
+
+
+def _draw_fleet_sizes(shifts: Sequence[FleetSizes], figure: Any) -> None:
+    """Draw throughput, service times and jobs in time by number of robots, a line for each."""
+    figure.set_size_inches(7, 8)
+    rates, times, shares = figure.subplots(3, 1, sharex=True)
+    rates.margins(y=0.1)
+    times.margins(y=0.1)
+    for index, sizes in enumerate(shifts):
+        look = {
+            "color": COLOURS[index % len(COLOURS)],
+            "marker": MARKERS[index % len(MARKERS)],
+            "linewidth": 1.6,
+        }
+        robots = [size.robots for size in sizes.sizes]
+        rates.plot(robots, [size.rate for size in sizes.sizes], label=sizes.title, **look)
+        times.plot(robots, [size.service_median for size in sizes.sizes], **look)
+        times.plot(robots, [size.service_p95 for size in sizes.sizes], linestyle="--", **look)
+        shares.plot(robots, [100 * size.in_time for size in sizes.sizes], **look)
+    units = {sizes.time_unit for sizes in shifts}
+    unit = f" [{units.pop()}]" if len(units) == 1 and None not in units else ""
+    rates.set(
+        ylabel=" or ".join(dict.fromkeys(sizes.rate_unit for sizes in shifts)), ylim=(0, None)
+    )
+    times.set(ylabel=f"service time{unit}", ylim=(0, None))
+    shares.set(ylabel="jobs in time [%]", ylim=(0, 105), xlabel="robots")
+    shares.set_xticks(sorted({size.robots for sizes in shifts for size in sizes.sizes}))
+    figure.legend(loc="outside upper center", ncols=min(2, len(shifts)))

@@ -16,6 +16,7 @@ from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rightofway.bench.shifts import SHIFT, make_settings, run_shift_case
 from rightofway.bench.suite import LAPS, Case
 from rightofway.check import check
 from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists
@@ -45,6 +46,10 @@ def run(case: Case) -> dict[str, Any]:
         if case.planner == LAPS:
             clock = _Clock()
             return {**_run_laps(case, scenario), **clock.measure()}
+        if case.planner == SHIFT:
+            clock = _Clock()
+            settings = make_settings(case.options, case.limit, case.seed)
+            return {**run_shift_case(scenario, settings), **clock.measure()}
         find(case.planner).load()  # importing it is not planning
         clock = _Clock()
         plan = solve(

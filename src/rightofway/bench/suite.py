@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import product
@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rightofway.bench.fleets import Cell, draw_grid, find_largest_part, make_scenario_document
+from rightofway.bench.shifts import SHIFT, read_shift_options, try_out_options
 from rightofway.errors import InputError, Steps, Where, locate_faults, name_file
 from rightofway.io import dump_scenario, load, parse_scenario
 from rightofway.io.content import read_text
@@ -34,8 +35,21 @@ if TYPE_CHECKING:
 LAPS = "laps"
 """In place of a planner: the fleet repeats its work under a rule."""
 
-_Fleet = tuple[str, dict[str, Any] | None]
-"""Name and data of a fleet, both empty where a scenario has its own robots."""
+SHIFT_LIMIT, LIMIT = Fraction(1), Fraction(10)
+"""How long a round of a shift, and a planner, may take by default [s]."""
+
+
+_Planner = tuple[str, Mapping[str, Any]]
+"""A planner, or a word in place of one, with its options."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Fleet:
+    """A fleet of a suite, as plain data: drawn on a map, or what it changes in a scenario."""
+
+    name: str
+    drawn: dict[str, Any]
+    changes: dict[str, Any]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,6 +61,8 @@ class _Map:
     counts: tuple[int, ...]
     data: Mapping[str, Any]
     ends: tuple[tuple[Cell, Cell], ...] = ()
+    scenario: Scenario | None = None
+    takes_fleets: bool = True
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,14 +78,15 @@ class Case:
     seed
         For drawing the fleet, and for the planner.
     limit
-        The time limit [s].
+        The time limit of the planner, or of each round of a shift [s].
     planner, options
-        The planner, or `LAPS`, with a value for each of its options.
+        The planner, `LAPS` or `SHIFT`, with a value for each of its options.
     problem
         ``{"random": …}``, ``{"grid": …, "ends": …}`` or ``{"scenario": …}``, as plain data.
     fleet_data
         ``speeds``, whether they are drawn ``by_seed`` or dealt round robin, least and most
-        ``work`` [time unit], and ``rules`` as in a scenario; None if the problem is a scenario.
+        ``work`` [time unit], and ``rules`` as in a scenario. For a scenario ``speeds``, ``rules``
+        and the number of ``chargers``, or None if it is taken as it is.
     key
         A hash of all this but the names: the same case has the same key in every run.
     """
@@ -172,26 +189,64 @@ def _combine(document: SuiteDocument, base: Path) -> Iterator[Case]:
         for index, group in enumerate(document.fleets or [SuiteFleetDocument(name="default")])
     ]
     _note_twins(faults, "maps", [group[0].name if group else None for group in maps])
-    _note_twins(faults, "fleets", [group[0] if group else None for group in fleets])
+    _note_twins(faults, "fleets", [group.name if group else None for group in fleets])
+    _note_unfit(faults, maps, fleets, planners)
     faults.stop(("maps", "planners", "fleets"))
-    limits = document.limits or [Fraction(10)]
+    dealt, runners = list(filter(None, fleets)), list(filter(None, planners))
+    limits: Sequence[Fraction | None] = document.limits or [None]
     for spec in (spec for group in maps for spec in group or ()):
-        dealt: Iterable[_Fleet] = [("", None)] if "scenario" in spec.data else filter(None, fleets)
-        for fleet, count in product(dealt, spec.counts):
+        for fleet, count in product(dealt if spec.takes_fleets else [None], spec.counts):
             ends = {"ends": spec.ends[:count]} if spec.ends else {}
-            for seed, limit, planner in product(document.seeds, limits, filter(None, planners)):
+            for seed, limit, planner in product(document.seeds, limits, runners):
                 yield Case(
                     map=spec.name,
                     scen=spec.scen,
-                    fleet=fleet[0],
+                    fleet=fleet.name if fleet else "",
                     robots=count,
                     seed=seed,
-                    limit=limit,
+                    limit=limit or (SHIFT_LIMIT if planner[0] == SHIFT else LIMIT),
                     planner=planner[0],
                     options=planner[1],
                     problem={**spec.data, **ends},
-                    fleet_data=fleet[1],
+                    fleet_data=(fleet.changes if spec.scenario else fleet.drawn) if fleet else None,
                 )
+
+
+def _note_unfit(
+    faults: Faults,
+    maps: Sequence[tuple[_Map, ...] | None],
+    fleets: Sequence[_Fleet | None],
+    planners: Sequence[_Planner | None],
+) -> None:
+    """Note shifts without jobs, and what does not fit a scenario."""
+    shifts = [(k, own[1]) for k, own in enumerate(planners) if own and own[0] == SHIFT]
+    changed = False
+    for index, [spec] in ((k, group) for k, group in enumerate(maps) if group and len(group) == 1):
+        if shifts and (spec.scenario is None or spec.scenario.jobs is None):
+            faults.note(("maps", index), f"it has no jobs for {SHIFT} (give a scenario with jobs)")
+            continue
+        for number, options in shifts:
+            faults.attempt(("planners", number, "options"), try_out_options, options, spec.scenario)
+        if spec.scenario is not None and spec.takes_fleets:
+            changed = True
+            faults.attempt(("maps", index), _try_out_fleets, spec, list(filter(None, fleets)))
+    for index, fleet in enumerate(fleets):
+        if fleet and fleet.changes["chargers"] is not None and not changed:
+            message = (
+                "there is no scenario with counts, and others keep their chargers (add counts)"
+            )
+            faults.note(("fleets", index, "chargers"), message)
+
+
+def _try_out_fleets(spec: _Map, fleets: Sequence[_Fleet]) -> None:
+    """Have the reader of scenarios find faults of a scenario with another fleet."""
+    for fleet, count in product(fleets, sorted({min(spec.counts), max(spec.counts)})):
+        document = make_scenario_document(spec.data, fleet.changes, count, seed=0)
+        try:
+            parse_scenario(document)
+        except InputError as error:
+            words = f"with {count} robots and fleet {fleet.name}: {error.faults[0]}"
+            raise InputError.at("counts", words) from None
 
 
 def _note_twins(faults: Faults, key: str, names: Sequence[str | None]) -> None:
@@ -209,9 +264,14 @@ def _read_maps(
     if document.scenario is not None:
         with locate_faults("scenario"):
             scenario = load(base / document.scenario)
-        name, content = Path(document.scenario).stem, {"scenario": dump_scenario(scenario)}
-        count = len(scenario.robots)
-        return (_Map(name=document.name or name, counts=(count,), data=content),)
+        spec = _Map(
+            name=document.name or Path(document.scenario).stem,
+            counts=tuple(document.counts or (len(scenario.robots),)),
+            data={"scenario": dump_scenario(scenario)},
+            scenario=scenario,
+            takes_fleets=document.counts is not None,
+        )
+        return (spec,)
     counts = tuple(document.counts or counts or ())
     if not counts:
         raise InputError.at("counts", "is missing (give it here, or for the whole suite)")
@@ -268,7 +328,7 @@ def _read_map_with_rows(
 
 
 def _read_fleet(document: SuiteFleetDocument) -> _Fleet:
-    """Return the name and the data of a fleet."""
+    """Return a fleet."""
     given = document.get_own_attributes(Rules)
     rules = {
         attribute.key: format_number(own)
@@ -279,12 +339,19 @@ def _read_fleet(document: SuiteFleetDocument) -> _Fleet:
     }
     speeds = tuple(document.speeds or (Fraction(1),))
     _try_out(speeds, rules)
-    return document.name, {
+    drawn = {
         "speeds": [format_number(speed) for speed in speeds],
         "by_seed": document.deal == "by seed",
         "work": document.work,
         "rules": rules,
     }
+    changes = {
+        "speeds": drawn["speeds"] if document.speeds else [],
+        "by_seed": drawn["by_seed"],
+        "chargers": document.chargers,
+        "rules": rules,
+    }
+    return _Fleet(name=document.name, drawn=drawn, changes=changes)
 
 
 def _try_out(speeds: Sequence[Fraction], rules: Mapping[str, Any]) -> None:
@@ -304,7 +371,7 @@ def _try_out(speeds: Sequence[Fraction], rules: Mapping[str, Any]) -> None:
         raise InputError.at(where, first.message) from None
 
 
-def _read_planner(document: SuitePlannerDocument) -> tuple[str, Mapping[str, Any]]:
+def _read_planner(document: SuitePlannerDocument) -> _Planner:
     """Return the name of a planner and a value for each of its options."""
     # Options come as on a command line: no True, but true.
     options = {
@@ -313,6 +380,8 @@ def _read_planner(document: SuitePlannerDocument) -> tuple[str, Mapping[str, Any
     }
     if document.name == LAPS:
         return LAPS, _read_laps_options(options)
+    if document.name == SHIFT:
+        return SHIFT, read_shift_options(options)
     try:
         spec = find(document.name)
     except InputError as error:

@@ -4,24 +4,41 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict
+from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from rightofway.cli.completion import complete_files
 from rightofway.cli.options import Whole, as_json_option, require_writable
 from rightofway.cli.terminal import put_json, put_report, say, say_written
-from rightofway.report.lines import Table
+from rightofway.report.lines import Part, Table
 
 if TYPE_CHECKING:
-    from rightofway.bench import Case, Results, Row
+    from rightofway.bench import Case, FleetSizes, Results, Row
 
 EXAMPLES = """\b
 Examples:
   rightofway bench examples/suite.toml -o results.csv --report report.html
   rightofway bench examples/suite.toml --dask tcp://host:8786
+  rightofway bench shifts.toml --in-time 95% --report fleets.html
 """
+
+
+def _read_share(
+    _context: click.Context, _parameter: click.Parameter, given: str | None
+) -> Fraction | None:
+    from rightofway.kinds.table import NOT_NEGATIVE, SHARE
+
+    if given is None:
+        return None
+    try:
+        if given.endswith("%"):
+            return SHARE.read(NOT_NEGATIVE.read(given[:-1].strip()) / 100)
+        return SHARE.read(given)
+    except ValueError as error:
+        raise click.BadParameter(f"{given!r} is no share: {error}") from None
 
 
 @click.command(epilog=EXAMPLES)
@@ -31,6 +48,9 @@ Examples:
               help="Add rows to this file; cases with a row in it are not run again.")  # fmt: skip
 @click.option("--report", metavar="REPORT", callback=require_writable(".html", ".md", stdout=False),
               help="Write a report with plots (HTML or Markdown) at the end.")  # fmt: skip
+@click.option("--in-time", callback=_read_share, metavar="SHARE",
+              help="Say how many robots have this share of jobs in time, like 95%, in suites of"
+              " shifts.")  # fmt: skip
 @click.option("--jobs", type=Whole(1), metavar="N",
               help="Number of cases that run at a time; by default one for each core.")  # fmt: skip
 @click.option("--dask", metavar="ADDRESS",
@@ -41,14 +61,16 @@ def bench(
     suite: str,
     output: str,
     report: str | None,
+    in_time: Fraction | None,
     jobs: int | None,
     dask: str | None,
     as_json: bool,
 ) -> int:
     """Run every case of a SUITE (TOML), each in a process of its own.
 
-    Prints for each planner the number of solved cases, the cost and the time. The same command
-    continues an interrupted run. Exit code 1 if a plan has faults.
+    Prints for each planner the number of solved cases, the cost and the time, and for shifts the
+    throughput and service times of each number of robots. The same command continues an
+    interrupted run. Exit code 1 if a plan has faults.
     """
     from rightofway.bench import Results, read_suite, write_report
     from rightofway.extras import need
@@ -69,9 +91,10 @@ def bench(
             raise
         rows = [results.rows[case.key] for case in cases]
     say_written(output)
-    _summarize(rows, output, as_json=as_json)
+    _summarize(rows, output, in_time, as_json=as_json)
     if report:
-        write_report(rows, report, f"Benchmark results: {Path(suite).name}")
+        title = f"Benchmark results: {Path(suite).name}"
+        write_report(rows, report, title, in_time=in_time)
         say_written(report)
     return 1 if any(row["valid"] is False for row in rows) else 0
 
@@ -103,24 +126,47 @@ def _run(cases: Sequence[Case], results: Results, *, jobs: int | None, dask: str
 
 
 def _describe_ending(row: Row) -> str:
+    from rightofway.bench import SHIFT
+
     if row["solved"]:
         ratio = "" if row["ratio"] is None else f"flowtime / bound {row['ratio']:.3f} in "
-        return f"{ratio}{row['wall_seconds']:.2f} s"
+        text = f"{row['message']}, in " if row["planner"] == SHIFT else ratio
+        return f"{text}{row['wall_seconds']:.2f} s"
     return f"{row['status']}: {row['message']}"
 
 
-def _summarize(rows: Sequence[Row], output: str, *, as_json: bool) -> None:
-    from rightofway.bench import Group, group_by_planner
+def _summarize(
+    rows: Sequence[Row], output: str, in_time: Fraction | None, *, as_json: bool
+) -> None:
+    from rightofway.bench import SHIFT, Group, compare_fleet_sizes, group_by_planner
 
-    groups = {name: Group.of(planner_rows) for name, planner_rows in group_by_planner(rows).items()}
+    planned = group_by_planner([row for row in rows if row["planner"] != SHIFT])
+    groups = {name: Group.of(own) for name, own in planned.items()}
+    shifts = compare_fleet_sizes(rows)
     if as_json:
         planners = [{"planner": name, **asdict(group)} for name, group in groups.items()]
-        put_json({"results": output, "cases": len(rows), "planners": planners})
+        data = {"results": output, "cases": len(rows), "planners": planners}
+        put_json({**data, "shifts": [_export_sizes(sizes, in_time) for sizes in shifts]})
         return
     lines = []
     for name, group in groups.items():
         ratio = f"{group.ratio.median:.3f}" if group.ratio else ""
         seconds = f"{group.seconds.median:.2f}" if group.seconds else ""
         lines.append((name, f"{group.solved}/{group.cases}", ratio, seconds))
-    headings = ("planner", "solved", "ratio", "first plan [s]")
-    put_report([Table(headings, lines)])
+    parts: list[Part] = []
+    if groups:
+        parts.append(Table(("planner", "solved", "ratio", "first plan [s]"), lines))
+    for sizes in shifts:
+        heads, *cells = sizes.list_cells()
+        parts += [*[""] * bool(parts), sizes.title, Table(heads, cells)]
+    if shifts and in_time is not None:
+        parts += ["", *(sizes.describe_least(in_time) for sizes in shifts)]
+    put_report(parts)
+
+
+def _export_sizes(sizes: FleetSizes, in_time: Fraction | None) -> dict[str, Any]:
+    data = asdict(sizes)
+    if in_time is not None:
+        least = sizes.find_least(in_time)
+        data["least_robots"] = least and least.robots
+    return data

@@ -9,6 +9,7 @@ from pydantic import AfterValidator, ConfigDict, Field, model_validator
 
 from rightofway.errors import quote
 from rightofway.io.fields import (
+    Amount,
     Count,
     Document,
     Name,
@@ -93,7 +94,6 @@ class MapCasesDocument(Document):
         json_schema_extra=finish_schema(
             oneOf=[{"required": [kind]} for kind in MAPS],
             dependentRequired={"file": ["scens"], "scens": ["file"]},
-            dependentSchemas={"counts": {"not": {"required": ["scenario"]}}},
         )
     )
 
@@ -103,9 +103,9 @@ class MapCasesDocument(Document):
         "a list of .scen files; the first k rows of one are its fleet of k robots", min_length=1
     )
     random: RandomGridDocument = make_optional("{size, walls, seed}")
-    scenario: Name = make_optional("a scenario file, whose fleet is taken as it is")
+    scenario: Name = make_optional("a scenario file; without counts its fleet is taken as it is")
     counts: Distinct[Count] = make_optional(
-        "a list of how many robots, 1 or more; that of the suite by default"
+        "a list of how many robots, 1 or more; that of the suite by default, but not for a scenario"
     )
 
     @model_validator(mode="after")
@@ -115,8 +115,6 @@ class MapCasesDocument(Document):
             raise ValueError("file is given without scens (give a list of .scen files too)")
         if kind != "file" and self.scens is not None:
             raise ValueError(f"scens is given with {kind} (take it out, or give a file)")
-        if kind == "scenario" and self.counts is not None:
-            raise ValueError("counts is given with a scenario, which has its robots (take it out)")
         return self
 
 
@@ -131,7 +129,11 @@ class SuiteFleetDocument(RuleAttributes):
     )
     work: WorkRange = Field(
         default=(0, 0),
-        description="[least, most]: the seed draws a whole number of time units for each robot",
+        description="[least, most]: the seed draws a whole number of time units for each robot;"
+        " robots of a scenario keep theirs",
+    )
+    chargers: Amount = make_optional(
+        "how many charging places a scenario keeps, the first ones; all by default"
     )
 
 
