@@ -100,7 +100,7 @@ def test_charges_are_valid_by_the_official_schemas(version: str) -> None:
             assert 0 < document[key][charge] <= 100
 
     drive_demo(floor_plan(), version=version, watch=look)
-    assert seen == {"startCharging", "stopCharging", "rightofway.job"}
+    assert seen == {"startCharging", "stopCharging", "rightofway.job", "pick", "drop"}
 
 
 @pytest.mark.parametrize(
@@ -129,7 +129,7 @@ def test_identities_name_the_actions_of_charges(tmp_path: Path) -> None:
     )
     first, second = load_identities(file, ["R1", "R2"])
     assert first.find_action("charge0").action == "dock"
-    assert first.find_action("charge0").parameters == {"side": "left"}
+    assert first.find_action("charge0").parameters == (("side", "left"),)
     assert first.find_action("charge0 end").action == "stopCharging"
     assert second.find_action("charge3 end").action == "undock"
     assert second.find_action("job3") == Identity(manufacturer="A", serial_number="1").work

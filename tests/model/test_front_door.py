@@ -218,7 +218,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "a stop of a job with another key": (
         lambda: door().add_job("J1", stops=[{"place": "N0"}]),
-        r"job 'J1': stops\[0\]: 'place' is unknown \(give at, work, load, earliest, latest\)",
+        r"stops\[0\]: 'place' is unknown \(give at, work, load, earliest, latest, actions\)",
     ),
     "a start in a wall": (
         lambda: door().add_robot("R1", home="N0", start={"at": "N3"}),

@@ -27,6 +27,7 @@ from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.round_driver import RoundDriver
 from rightofway.control.round_worker import Rounds, RoundsAtOnce
 from rightofway.control.routes import RouteToDrive, make_route_from, make_routes_to_drive
+from rightofway.control.stop_actions import StopActions
 from rightofway.errors import GaveUp, InputError
 from rightofway.facts import Fact
 from rightofway.model import Plan
@@ -109,6 +110,7 @@ class Dispatcher:
             self.rounds.list_closed = self._list_closed_edges
         control.dispatch, control.may_drive = self._add_laps, cache(self._may_drive)
         control.may_stop = self._rest.may_stop
+        control.list_actions = StopActions(plan.scenario, lambda: self.ledger.pool).find
 
     @property
     def ledger(self) -> Ledger:

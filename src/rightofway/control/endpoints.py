@@ -17,7 +17,14 @@ from typing import Any, TypeVar
 from rightofway.control import vda5050
 from rightofway.control.fleet_control import UNSOUND, FleetControl
 from rightofway.control.identities import Identity
-from rightofway.control.messages import Condition, InstantAction, Message, Order, StateReport
+from rightofway.control.messages import (
+    Condition,
+    InstantAction,
+    Load,
+    Message,
+    Order,
+    StateReport,
+)
 from rightofway.control.notices import Notices
 from rightofway.control.order_map import OrderLane, OrderMap, Place
 from rightofway.control.simulated_battery import SimulatedBattery
@@ -331,8 +338,10 @@ class ControlEnd:
         for message in messages:
             order_map = self._maps[message.robot]
             if isinstance(message, Order):
-                items = self.control.ledger.robots[message.robot].jobs_of
-                body: vda5050.Body = vda5050.OrderMessage.of(message, order_map, items)
+                own = self.control.ledger.robots[message.robot]
+                body: vda5050.Body = vda5050.OrderMessage.of(
+                    message, order_map, own.jobs_of, own.tasks
+                )
                 name = "order"
             else:
                 body, name = vda5050.InstantActions.of(message), "instantActions"
@@ -385,6 +394,14 @@ class RobotEnd:
         self.lanes: dict[tuple[str, str], OrderLane] = {}
         self._places: dict[str, Place] = {}
         self._writer = LetterWriter(now)
+        self._charges = {
+            identity.start_charging.action: True,
+            identity.stop_charging.action: False,
+        }
+        pick, drop = (identity.find_action("", use).action for use in ("pick", "drop"))
+        self._picks = {"pick": True, "drop": False}
+        if pick != drop:
+            self._picks |= {pick: True, drop: False}
 
     @property
     def topics(self) -> tuple[str, str]:
@@ -416,16 +433,15 @@ class RobotEnd:
 
     def _keep_order(self, message: vda5050.OrderMessage) -> None:
         """Keep how long and how fast the edges of an order are, and where its nodes are."""
-        steps = {
-            self._identity.start_charging.action: True,
-            self._identity.stop_charging.action: False,
-        }
-        self.robot.charging |= {
-            action.actionId: steps[action.actionType]
-            for node in message.nodes
-            for action in node.actions
-            if action.actionType in steps
-        }
+        actions = [action for node in message.nodes for action in node.actions]
+        for action in actions:
+            if action.actionType in self._charges:
+                self.robot.charging[action.actionId] = self._charges[action.actionType]
+            elif action.actionType in self._picks:
+                given = {own.key: own.value for own in action.actionParameters or ()}
+                load = Load(load_id=given.get("loadId"), load_type=given.get("loadType"))
+                picks = self._picks[action.actionType]
+                self.robot.handling[action.actionId] = picks, load
         names = {node.sequenceId: node.nodeId for node in message.nodes}
         for node in message.nodes:
             if node.nodePosition is not None:

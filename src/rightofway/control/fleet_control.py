@@ -30,6 +30,7 @@ from rightofway.control.releases import find_last_part, is_in_base
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive
 from rightofway.control.splices import refuse_changes, refuse_rotation, refuse_ways
+from rightofway.control.stop_actions import USUAL, ListActions
 from rightofway.errors import describe_defect
 from rightofway.facts import Fact
 from rightofway.precedence import Arrival, ReleaseGraph
@@ -101,6 +102,8 @@ class FleetControl:
         Tells of a robot whether an item of its work may begin, see
         `rightofway.control.work_items`: robots drive to the places of work that may not, and stand
         there. A dispatcher sets it.
+    list_actions
+        Returns the actions of a robot for an item of its work. A dispatcher sets it.
     kept_parts
         The last part of each robot that is released while a round is under way; None: no round is.
     stranded
@@ -133,6 +136,7 @@ class FleetControl:
         self.may_enter: Callable[[int, int], bool] = lambda *_: True
         self.may_stop: Callable[[str], bool] = lambda _: True
         self.may_begin: MayBegin = lambda *_: True
+        self.list_actions: ListActions = lambda *_: (USUAL,)
         self.charges: dict[int, float] = {}
         self.kept_parts: tuple[int, ...] | None = None
         self._since_snapshot = 0
@@ -415,11 +419,13 @@ class FleetControl:
 
     def _make_order(self, robot: int, begin: int, end: int) -> Entry:
         """Return the entry of a new order over some parts."""
-        return make_order(self.ledger, robot, begin, end, self._may_begin)
+        return make_order(
+            self.ledger, robot, begin, end, self._may_begin, list_actions=self.list_actions
+        )
 
     def _make_update(self, robot: int, end: int) -> Entry:
         """Return the entry of an update to a last part."""
-        return make_update(self.ledger, robot, end, self._may_begin)
+        return make_update(self.ledger, robot, end, self._may_begin, list_actions=self.list_actions)
 
     def _may_begin(self, robot: int, item: str) -> bool:
         """Return whether work may begin; none begins that a round may give to another robot."""

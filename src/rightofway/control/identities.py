@@ -6,11 +6,10 @@ do not have them themselves.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from decimal import Decimal
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field
 
@@ -21,12 +20,13 @@ from rightofway.io.documents import parse_document
 from rightofway.io.faults import Faults, validate
 from rightofway.io.fields import Angle, Document, NotNegative, make_optional
 from rightofway.io.scenario.writer import format_yaml
+from rightofway.model import ActionUse, StopAction
+from rightofway.model.actions import ACTION
 from rightofway.site.geometry import Frame
 
 __all__ = [
     "VERSIONS",
     "Identity",
-    "WorkAction",
     "format_identities",
     "load_identities",
     "make_simulated_identities",
@@ -41,20 +41,11 @@ FORBIDDEN = frozenset("/+#$")
 IDENTITIES_FORMAT = "rightofway-identities/1"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class WorkAction:
-    """The action of a robot at a stop, in words of its own.
+WORK = StopAction(action="rightofway.job")
+"""The action of a robot at a stop, where nothing else is given."""
 
-    Attributes
-    ----------
-    action
-        The type of the action.
-    parameters
-        Its parameters.
-    """
-
-    action: str = "rightofway.job"
-    parameters: Mapping[str, Any] = field(default_factory=dict)
+START_CHARGING = StopAction(action="startCharging")
+STOP_CHARGING = StopAction(action="stopCharging")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -76,7 +67,10 @@ class Identity:
     deviation
         How far from a vertex it may call itself arrived [m]; None for half the clearance.
     work
-        Its action at a stop.
+        Its usual action at a stop.
+    pick, drop
+        Its usual actions where a load is picked and dropped. None: `work`, if that is not the
+        default one, else an action of that name.
     start_charging, stop_charging
         Its actions at a charging place.
     repeats_work
@@ -96,9 +90,11 @@ class Identity:
     map_id: str = "map"
     frame: Frame = field(default_factory=Frame)
     deviation: float | None = None
-    work: WorkAction = field(default_factory=WorkAction)
-    start_charging: WorkAction = WorkAction(action="startCharging")
-    stop_charging: WorkAction = WorkAction(action="stopCharging")
+    work: StopAction = WORK
+    pick: StopAction | None = None
+    drop: StopAction | None = None
+    start_charging: StopAction = START_CHARGING
+    stop_charging: StopAction = STOP_CHARGING
     repeats_work: bool = True
 
     def __post_init__(self) -> None:
@@ -114,12 +110,23 @@ class Identity:
                 message = f"{quote(value)} cannot be part of a topic (leave out / + # $)"
                 raise InputError.at(key, message)
 
-    def find_action(self, item: str) -> WorkAction:
-        """Return the action for an item of work, see `rightofway.control.work_items`."""
+    def find_action(self, item: str, use: ActionUse = "work") -> StopAction:
+        """Return the usual action for an item of work, see `rightofway.control.work_items`.
+
+        Parameters
+        ----------
+        item
+            The item.
+        use
+            The kind of its stop.
+        """
         step = find_charge_step(item)
-        if step is None:
-            return self.work
-        return self.start_charging if step == "begin" else self.stop_charging
+        if step is not None:
+            return self.start_charging if step == "begin" else self.stop_charging
+        own = {"work": self.work, "pick": self.pick, "drop": self.drop}[use]
+        if own is not None:
+            return own
+        return StopAction(action=use) if self.work == WORK else self.work
 
     def get_topic(self, name: str) -> str:
         """Return a topic of this robot.
@@ -150,11 +157,7 @@ class _FrameDocument(Document):
     yaw: Angle = make_optional("the angle by which it is turned, counterclockwise [rad]")
 
 
-class _WorkDocument(Document):
-    """The action of a robot at a stop."""
-
-    action: str = Field(min_length=1, description="the type of the action")
-    parameters: dict[str, Any] = make_optional("parameters of the action")
+Action = Annotated[StopAction, ACTION]
 
 
 class _SharedDocument(Document):
@@ -174,12 +177,20 @@ class _SharedDocument(Document):
     deviation: NotNegative = make_optional(
         "how far from a place the robot may call itself arrived [m]; half the clearance by default"
     )
-    work: _WorkDocument = make_optional("{action, parameters} of what a robot does at a stop")
-    start_charging: _WorkDocument = make_optional(
-        "{action, parameters} with which a robot begins to charge; startCharging by default"
+    work: Action = make_optional(
+        "{action, parameters, blocking, retriable, description} of what a robot does at a stop"
     )
-    stop_charging: _WorkDocument = make_optional(
-        "{action, parameters} with which it ends that; stopCharging by default"
+    pick: Action = make_optional(
+        "the same where a load is picked; by default work, if it is given, else pick"
+    )
+    drop: Action = make_optional(
+        "the same where a load is dropped; by default work, if it is given, else drop"
+    )
+    start_charging: Action = make_optional(
+        "the same with which a robot begins to charge; startCharging by default"
+    )
+    stop_charging: Action = make_optional(
+        "the same with which it ends that; stopCharging by default"
     )
     repeats_work: bool = make_optional(
         "true, or false for robots that do work twice which the next update of an order repeats"
@@ -254,24 +265,11 @@ def _read_identity(own: _RobotDocument, shared: _SharedDocument) -> Identity:
     frame = given.pop("frame", None)
     if frame is not None:
         given["frame"] = Frame(**frame.get_given("x", "y", "yaw"))
-    for key in ("work", "start_charging", "stop_charging"):
-        if (work := given.get(key)) is not None:
-            parameters = work.get_given("parameters").get("parameters", {})
-            given[key] = WorkAction(action=work.action, parameters=_convert_to_json(parameters))
     if "map" in given:
         given["map_id"] = given.pop("map")
     if "deviation" in given:
         given["deviation"] = float(given["deviation"])
     return Identity(serial_number=own.serial, **given)
-
-
-def _convert_to_json(value: Any) -> Any:
-    """Return plain data with numbers as JSON has them."""
-    if isinstance(value, dict):
-        return {key: _convert_to_json(item) for key, item in value.items()}
-    if isinstance(value, list):
-        return [_convert_to_json(item) for item in value]
-    return float(value) if isinstance(value, Decimal) else value
 
 
 def make_simulated_identities(names: Sequence[str], version: str = "2.1.0") -> list[Identity]:

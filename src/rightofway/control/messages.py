@@ -146,6 +146,14 @@ class Condition:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Load:
+    """A load on a robot; both names may be unknown."""
+
+    load_id: str | None = None
+    load_type: str | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class StateReport:
     """A robot's message about itself; messages may be lost, doubled, late, and partly wrong.
 
@@ -167,6 +175,8 @@ class StateReport:
         Where it is: x and y [m], and the map; None where it does not say. For people only.
     charge
         The state of charge of its battery, from 0 to 1; None where it does not say.
+    loads
+        What it carries; None where it does not say.
     """
 
     order_id: str
@@ -180,6 +190,7 @@ class StateReport:
     condition: Condition = Condition()
     position: tuple[float, float, str] | None = None
     charge: float | None = None
+    loads: tuple[Load, ...] | None = None
 
     @property
     def is_idle(self) -> bool:

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
-from rightofway.control.identities import Identity, WorkAction
+from rightofway.control.identities import Identity
 from rightofway.errors import InputError
-from rightofway.model import Scenario
+from rightofway.model import Scenario, StopAction
 from rightofway.site import Point, Roadmap, VertexId
 
-__all__ = ["OrderLane", "OrderMap", "Place", "WorkAction", "make_order_maps"]
+__all__ = ["OrderLane", "OrderMap", "Place", "make_order_maps"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -191,9 +191,20 @@ class OrderMap:
             "frame": [str(identity.frame.x), str(identity.frame.y), str(identity.frame.yaw)],
             "map": identity.map_id,
             "deviation": self.deviation,
-            "work": [identity.work.action, identity.work.parameters, identity.repeats_work],
-            "charging": [asdict(identity.start_charging), asdict(identity.stop_charging)],
+            "work": [*_write_action(identity.work).values(), identity.repeats_work],
+            "charging": list(map(_write_action, (identity.start_charging, identity.stop_charging))),
+            **{
+                key: own.to_document()
+                for key, own in (("pick", identity.pick), ("drop", identity.drop))
+                if own is not None
+            },
         }
+
+
+def _write_action(action: StopAction) -> dict[str, Any]:
+    """Return an action with its parameters, also where it has none, and all that is unusual."""
+    own = action.to_document()
+    return {"action": own.pop("action"), "parameters": own.pop("parameters", {}), **own}
 
 
 def make_order_maps(scenario: Scenario, identities: Sequence[Identity]) -> list[OrderMap]:

@@ -11,6 +11,7 @@ from rightofway.control.journal import Entry
 from rightofway.control.ledger import Ledger
 from rightofway.control.messages import StateReport
 from rightofway.control.robot_ledger import RobotLedger
+from rightofway.control.stop_actions import split_action
 from rightofway.control.work_items import describe_item
 from rightofway.errors import escape_text
 from rightofway.facts import Fact
@@ -25,6 +26,9 @@ __all__ = [
     "take_fault",
 ]
 
+FAILED = frozenset({"FAILED", "RETRIABLE"})
+"""The status of an action that has failed; a person decides whether a retriable one is retried."""
+
 Report = Callable[[int, Fact], None]
 """Receives a robot and a fact about it."""
 
@@ -34,27 +38,46 @@ def list_facts(
 ) -> Iterator[Entry]:
     """Yield the facts that a state proves: finished jobs, an arrival, faults; report faults."""
     own = ledger.robots[robot]
-    # FINISHED counts whenever it comes, under any order: the id of an action is used once.
-    for action_id, status in state.actions.items():
-        job = own.jobs_of.get(action_id)
-        if job is None or job in own.finished:
-            continue
-        if status == "FINISHED":
+    ended = {*own.finished}
+    for job, steps in _list_finished(own, state).items():
+        done = {*own.steps_done.get(job, ())}
+        if own.count_steps(job) == len(done | steps):
+            ended.add(job)
             yield {"kind": "finished", "robot": robot, "job": job}
+            continue
+        for step in sorted(steps - done):
+            yield {"kind": "action finished", "robot": robot, "job": job, "step": step}
+    for action_id, status in state.actions.items():
+        failed = own.jobs_of.get(action_id)
+        if failed is None or failed in ended:
+            continue
         # FAILED counts for the current order and the latest attempt only: an older state may be
         # late.
-        elif (
-            status == "FAILED"
+        if (
+            status in FAILED
             and state.order_id == own.order_id
-            and _is_failure(own, action_id, job)
+            and _is_failure(own, action_id, failed)
         ):
-            report(robot, Fact("job failed", job=describe_item(job)))
-            yield {"kind": "failed", "robot": robot, "job": job}
+            report(robot, Fact("job failed", job=describe_item(failed)))
+            yield {"kind": "failed", "robot": robot, "job": failed}
     if visit is not None and visit > own.arrived:
         yield {"kind": "arrived", "robot": robot, "visit": visit}
     fault = None if own.fault else _find_fault(ledger, robot, state)
     if fault is not None:
         yield take_fault(robot, fault, state, report)
+
+
+def _list_finished(own: RobotLedger, state: StateReport) -> dict[str, set[int]]:
+    """Return the numbers of the actions that a state calls finished, by jobs that are not.
+
+    They count whenever they come, under any order: the id of an action is used once.
+    """
+    finished = dict[str, set[int]]()
+    for action_id, status in state.actions.items():
+        job = own.jobs_of.get(action_id)
+        if job is not None and job not in own.finished and status == "FINISHED":
+            finished.setdefault(job, set()).add(split_action(action_id)[1])
+    return finished
 
 
 def make_stray(state: StateReport) -> Fact:
@@ -71,7 +94,7 @@ def take_fault(robot: int, fault: Fact, state: StateReport, report: Report) -> E
 
 def _is_failure(own: RobotLedger, action_id: str, job: str) -> bool:
     """Return whether the last action for a job failed by itself, not by our withdrawal."""
-    is_last = action_id.endswith(f"-{own.attempts[job]}")
+    is_last = split_action(action_id)[0] == own.attempts[job]
     return is_last and job not in own.failed and own.cancel is None
 
 

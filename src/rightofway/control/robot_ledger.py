@@ -9,6 +9,7 @@ from typing import Any
 from rightofway.control.journal import Entry
 from rightofway.control.messages import Order
 from rightofway.control.routes import RouteToDrive
+from rightofway.control.stop_actions import split_action
 from rightofway.control.work_items import find_next_number
 
 __all__ = ["APPLY_TO_ROBOT", "RobotLedger", "SentOrder"]
@@ -67,6 +68,8 @@ class RobotLedger:
     attempts: dict[str, int] = field(default_factory=dict)  # job: number of its last action
     finished: set[str] = field(default_factory=set)  # jobs of the route, skipped ones too
     failed: set[str] = field(default_factory=set)
+    tasks: dict[str, Any] = field(default_factory=dict)  # what unusual actions are to do, by id
+    steps_done: dict[str, list[int]] = field(default_factory=dict)  # of jobs of several actions
     next_job: int = 0  # the number of the next new job: no name comes twice
     jobs_done: int = 0  # items of work of all
     whole_jobs: int = 0  # of the pool that it has ended
@@ -97,6 +100,10 @@ class RobotLedger:
     def is_sent(self, item: str) -> bool:
         """Return whether an order had the work of an item; that of a withdrawn job has none."""
         return self.attempts.get(item, 0) > 0
+
+    def count_steps(self, item: str) -> int:
+        """Return by how many actions an item is done that an order had."""
+        return len({split_action(action)[1] for action, job in self.jobs_of.items() if job == item})
 
     def is_asked_for(self, item: str) -> bool:
         """Return whether the last node of the last order has the work of an item, or it failed."""
@@ -133,6 +140,8 @@ class RobotLedger:
         self.failed &= jobs
         self.attempts = {job: number for job, number in self.attempts.items() if job in jobs}
         self.jobs_of = {action: job for action, job in self.jobs_of.items() if job in jobs}
+        self.tasks = {action: task for action, task in self.tasks.items() if action in self.jobs_of}
+        self.steps_done = {job: done for job, done in self.steps_done.items() if job in jobs}
         for sent in self.orders.values():
             ends = sent.ends.items()
             sent.ends = {update: end for update, end in ends if end >= self.route.first}
@@ -199,6 +208,7 @@ def _order(own: RobotLedger, entry: Entry) -> None:
         own.jobs_of[action_id] = job
         own.attempts[job] = attempt
         own.failed.discard(job)
+    own.tasks |= entry.get("tasks", {})
 
 
 def _record_acknowledgement(own: RobotLedger, _: Entry) -> None:
@@ -228,6 +238,12 @@ def _finish(own: RobotLedger, entry: Entry) -> None:
     own.jobs_done += entry["job"] not in own.finished
     own.finished.add(entry["job"])
     own.failed.discard(entry["job"])
+
+
+def _finish_action(own: RobotLedger, entry: Entry) -> None:
+    done = own.steps_done.setdefault(entry["job"], [])
+    if entry["step"] not in done:
+        done.append(entry["step"])
 
 
 def _fail(own: RobotLedger, entry: Entry) -> None:
@@ -284,6 +300,7 @@ APPLY_TO_ROBOT: Mapping[str, Callable[[RobotLedger, Entry], None]] = {
     "cancel wanted": _record_cancel,
     "cancel asked": _ask_cancel,
     "finished": _finish,
+    "action finished": _finish_action,
     "failed": _fail,
     "fault": _find_fault,
     "cleared": _clear,

@@ -11,7 +11,14 @@ from __future__ import annotations
 
 from typing import Literal
 
-from rightofway.control.messages import Condition, InstantAction, Order, OrderNode, StateReport
+from rightofway.control.messages import (
+    Condition,
+    InstantAction,
+    Load,
+    Order,
+    OrderNode,
+    StateReport,
+)
 
 Step = Literal["begin to drive", "arrive", "begin work", "end work"]
 """What a robot does next."""
@@ -46,6 +53,10 @@ class SimulatedRobot:
         Actions that begin a charge (True) or end one, by their ids; its owner knows.
     is_charging
         Whether its battery is charged; driving on ends it, too.
+    handling
+        Actions that pick a load (True) or drop one, by their ids; its owner knows.
+    loads
+        What it carries.
     """
 
     def __init__(self, place: str) -> None:
@@ -55,6 +66,8 @@ class SimulatedRobot:
         self.rejected, self.instant_actions = 0, set[str]()
         self.charging: dict[str, bool] = {}
         self.is_charging = False
+        self.handling: dict[str, tuple[bool, Load]] = {}
+        self.loads: list[Load] = []
         self._order_id, self._update_id, self._sequence_id = "", 0, 0
         self._actions: dict[str, str] = {}
         self._waiting: list[str] = []  # at this node
@@ -106,6 +119,7 @@ class SimulatedRobot:
             is_driving=self.is_driving,
             condition=condition,
             charge=charge,
+            loads=tuple(self.loads),
         )
 
     def take_order(self, order: Order) -> bool:
@@ -190,12 +204,23 @@ class SimulatedRobot:
                 self._actions[action] = "FINISHED"
                 self.done[action] = self.done.get(action, 0) + 1
                 self.is_charging = self.charging.get(action, self.is_charging)
+                if action in self.handling:
+                    self._handle_load(*self.handling[action])
                 self._finish_cancel()
             case "begin to drive":
                 self.is_driving, self.is_charging = True, False
             case None:
                 return False
         return True
+
+    def _handle_load(self, is_picked: bool, load: Load) -> None:
+        """Pick a load or drop it; an unknown load that is dropped is the last one picked."""
+        if is_picked:
+            self.loads.append(load)
+        elif load in self.loads:
+            self.loads.remove(load)
+        elif self.loads:
+            self.loads.pop()
 
     def forget(self) -> bool:
         """Forget the order, as after a reset; not between two nodes, nor while it works."""

@@ -8,6 +8,7 @@ place.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable, Mapping
 from itertools import pairwise
 from math import isfinite
@@ -15,16 +16,20 @@ from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field, ValidationError
 
+from rightofway.control.identities import Identity
 from rightofway.control.messages import (
     Condition,
     InstantAction,
+    Load,
     Order,
     OrderNode,
     RobotError,
     StateReport,
 )
-from rightofway.control.order_map import OrderLane, OrderMap, Place, WorkAction
+from rightofway.control.order_map import OrderLane, OrderMap, Place
+from rightofway.control.stop_actions import ActionToDo
 from rightofway.errors import InputError, InputFault, quote
+from rightofway.model.actions import thaw_value
 
 __all__ = [
     "ActionState",
@@ -41,6 +46,9 @@ __all__ = [
 
 # The names of fields are the norm's.
 # ruff: noqa: N815
+
+LOAD_ACTIONS = frozenset({"pick", "drop"})
+"""Actions of the norm with the parameters ``loadId`` and ``loadType``."""
 
 Sequence = Annotated[int, Field(ge=0, le=2**32 - 1)]
 
@@ -82,7 +90,9 @@ class _Parameter(_Model):
 class _Action(_Model):
     actionId: str
     actionType: str
+    actionDescription: str | None = None
     blockingType: str = "HARD"
+    retriable: bool | None = None  # from 3.0 on
     actionParameters: tuple[_Parameter, ...] | None = Field(default=None, strict=False)
 
 
@@ -138,7 +148,11 @@ class OrderMessage(_Model):
 
     @classmethod
     def of(
-        cls, order: Order, order_map: OrderMap, items: Mapping[str, str] | None = None
+        cls,
+        order: Order,
+        order_map: OrderMap,
+        items: Mapping[str, str] | None = None,
+        tasks: Mapping[str, Any] | None = None,
     ) -> OrderMessage:
         """Return the message of an order.
 
@@ -150,10 +164,13 @@ class OrderMessage(_Model):
             Where places and lanes lie for the robot, and its work.
         items
             The item of work of each action, see `rightofway.control.work_items`.
+        tasks
+            What actions are to do that are not usual, as a journal has it, by their ids.
         """
         # An update is released when the work of its first node is finished.
-        done, known = set[str](), items or {}
-        if order.update_id and not order_map.identity.repeats_work:
+        done, known, unusual = set[str](), items or {}, tasks or {}
+        identity = order_map.identity
+        if order.update_id and not identity.repeats_work:
             done = set(order.nodes[0].actions)
         nodes = tuple(
             _Node(
@@ -162,7 +179,12 @@ class OrderMessage(_Model):
                 released=True,
                 nodePosition=_make_position(order_map.get_place(node.place)),
                 actions=tuple(
-                    _make_work(action, order_map.identity.find_action(known.get(action, "")))
+                    _make_work(
+                        action,
+                        known.get(action, ""),
+                        ActionToDo.of_document(unusual.get(action)),
+                        identity,
+                    )
                     for action in node.actions
                     if action not in done
                 ),
@@ -202,13 +224,31 @@ def _make_position(place: Place | None) -> _NodePosition | None:
     return _NodePosition(x=x, y=y, mapId=place.map_id, allowedDeviationXY=place.deviation)
 
 
-def _make_work(action_id: str, work: WorkAction) -> _Action:
-    parameters = tuple(_Parameter(key=key, value=value) for key, value in work.parameters.items())
+def _make_work(action_id: str, item: str, task: ActionToDo, identity: Identity) -> _Action:
+    """Return an action of an item of work; that of a load has the load as parameters."""
+    own = task.action or identity.find_action(item, task.use)
+    handles_load = task.action is None or own.action in LOAD_ACTIONS
+    given: dict[str, Any] = thaw_value(own.parameters)
+    parameters = {**(task.load if handles_load else {}), **given}
+    blocking = own.blocking.upper()
+    is_new = identity.version >= "3"
+    if blocking == "SINGLE" and not is_new:
+        blocking = "HARD"  # the nearest type before 3.0 that allows no other action
+    if identity.version == "2.0.0":  # its parameters are no objects
+        parameters = {
+            key: json.dumps(value) if isinstance(value, dict) else value
+            for key, value in parameters.items()
+        }
     return _Action(
         actionId=action_id,
-        actionType=work.action,
-        blockingType="HARD",
-        actionParameters=parameters or None,
+        actionType=own.action,
+        actionDescription=own.description or None,
+        blockingType=blocking,
+        retriable=True if own.retriable and is_new else None,
+        actionParameters=tuple(
+            _Parameter(key=key, value=value) for key, value in parameters.items()
+        )
+        or None,
     )
 
 
@@ -337,6 +377,11 @@ class _Safety(_Model):
     fieldViolation: bool = False
 
 
+class _Load(_Model):
+    loadId: str | None = None
+    loadType: str | None = None
+
+
 class StateMessage(_Model):
     """The state of a robot; its keys without a default are those that count."""
 
@@ -355,6 +400,7 @@ class StateMessage(_Model):
     errors: tuple[ErrorState, ...] = Field(default=(), strict=False)
     safetyState: _Safety = _Safety()
     # No release depends on these, and a robot may send anything.
+    loads: Any = None
     agvPosition: Any = Field(
         default=None, validation_alias=AliasChoices("agvPosition", "mobileRobotPosition")
     )
@@ -423,6 +469,8 @@ class StateMessage(_Model):
                 for error in condition.errors
             ),
             safetyState=_Safety(eStop=condition.emergency_stop),
+            loads=state.loads
+            and tuple(_Load(loadId=own.load_id, loadType=own.load_type) for own in state.loads),
             batteryState=_Battery(
                 batteryCharge=100.0 if state.charge is None else 100 * state.charge,
                 charging=is_charging,
@@ -459,6 +507,7 @@ class StateMessage(_Model):
             ),
             position=_read_position(self.agvPosition),
             charge=_read_charge(self.batteryState),
+            loads=_read_loads(self.loads),
         )
 
 
@@ -480,6 +529,17 @@ def _read_charge(given: Any) -> float | None:
         return None
     charge = battery.batteryCharge / 100
     return charge if 0 <= charge <= 1 else None
+
+
+def _read_loads(given: Any) -> tuple[Load, ...] | None:
+    """Return the loads of a robot; None where it does not say, or they cannot be read."""
+    if not isinstance(given, list | tuple):
+        return None
+    try:
+        loads = [own if isinstance(own, _Load) else _Load.model_validate(own) for own in given]
+    except ValidationError:
+        return None
+    return tuple(Load(load_id=own.loadId, load_type=own.loadType) for own in loads)
 
 
 class ConnectionMessage(_Model):
@@ -514,6 +574,7 @@ _NAMES: dict[str, dict[str, str]] = {
     "2.1.0": {},
     "3.0.0": {
         "accelerationMax": "maximumAcceleration",
+        "actionDescription": "actionDescriptor",
         "agvActions": "mobileRobotActions",
         "agvClass": "mobileRobotClass",
         "agvGeometry": "mobileRobotGeometry",

@@ -14,10 +14,10 @@ from rightofway.errors import InputError, Where, locate_faults, name_file, quote
 from rightofway.files import as_path
 from rightofway.fleet_builder.lanes import DrawnLanes, read_graph
 from rightofway.fleet_builder.values import (
-    place_and_work,
     read_radius,
     read_rules,
     read_units,
+    split_stop,
 )
 from rightofway.fleet_builder.work import read_job_stops, read_state
 from rightofway.kinds.numbers import Number
@@ -32,13 +32,26 @@ from rightofway.kinds.table import (
     make_words,
     tuple_of,
 )
-from rightofway.model import Battery, Job, Robot, RobotState, Scenario, Stop, TripEnd
+from rightofway.model import (
+    Battery,
+    Job,
+    PlaceActions,
+    Robot,
+    RobotState,
+    Scenario,
+    Stop,
+    StopAction,
+    TripEnd,
+)
 from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.site import Roadmap, VertexId, make_grid_roadmap
 from rightofway.site.layout import Layout, LevelRoadmap, build_roadmap_of_level
 from rightofway.site.places import as_place, find_vertex_at
 from rightofway.site.zones import NamedZone
 from rightofway.units import Units
+
+Actions = str | StopAction | Mapping[str, Any] | Iterable[str | StopAction | Mapping[str, Any]]
+"""One or several actions, as users write them."""
 
 
 class FleetBuilder:
@@ -142,6 +155,7 @@ class FleetBuilder:
         self._jobs: list[Job] = []
         self._batteries: list[tuple[str, Battery]] = []
         self._charging: list[VertexId] = []
+        self._actions: list[PlaceActions] = []
         self._robots: list[Robot] = []
         self._roadmap: Roadmap | None = None
         self._level: Callable[..., LevelRoadmap] | None = None
@@ -292,6 +306,7 @@ class FleetBuilder:
         home: Any = None,
         target: Any = None,
         work: Number = 0,
+        actions: Actions = (),
         stops: Iterable[Any] | None = None,
         speed: Number = 1,
         turn: Number | None = None,
@@ -317,10 +332,12 @@ class FleetBuilder:
             The place that it starts from: ``"N8"`` or (row, column) on a grid, the name of a
             vertex, or ``{"x": 1.2, "y": 0.8}``, a point of the site [length unit]. Without one it
             gets a parking or charging place of the layout, near to its first stop.
-        target, work
-            The place to work at, and how long [time unit]; short for one stop.
+        target, work, actions
+            The place to work at, how long [time unit], and what the robot does there, see
+            `add_actions`; short for one stop.
         stops
-            Places to work at, in order, instead of ``target``: a place, or (place, work time).
+            Places to work at, in order, instead of ``target``: a place, (place, work time), or
+            (place, work time, actions).
         speed
             Length units per time unit.
         turn, ends, laps
@@ -352,21 +369,21 @@ class FleetBuilder:
         if target is not None and stops is not None:
             message = "has both target and stops (give either target or stops)"
             raise InputError.at("", message, source)
-        trip: list[tuple[Where, Any, Number]] = [("target", target, work)]
+        trip: list[tuple[Where, Any, Number, Any]] = [("target", target, work, actions)]
         if target is None and stops is None:
             trip = []  # in a fleet with jobs
         elif stops is not None:
             with name_file(source):
                 given = list_of(ANYTHING).read_at("stops", stops)
-            trip = [(("stops", k), *place_and_work(stop)) for k, stop in enumerate(given)]
+            trip = [(("stops", k), *split_stop(stop)) for k, stop in enumerate(given)]
         try:
             at_home = HOMELESS if home is None else self._find_vertex("home", home)
             robot = Robot(
                 name=name,
                 home=at_home,
                 stops=tuple(
-                    Stop(at=self._find_vertex(place, at), work=time)  # type: ignore[arg-type]
-                    for place, at, time in trip
+                    Stop(at=self._find_vertex(place, at), work=time, actions=own)  # type: ignore[arg-type]
+                    for place, at, time, own in trip
                 ),
                 speed=speed,  # type: ignore[arg-type]
                 turn=turn,  # type: ignore[arg-type]
@@ -405,6 +422,11 @@ class FleetBuilder:
         types: Iterable[str] = (),
         robot: str | None = None,
         after: Iterable[str] = (),
+        actions: Actions = (),
+        pickup_actions: Actions = (),
+        dropoff_actions: Actions = (),
+        load_id: str | None = None,
+        load_type: str | None = None,
     ) -> Self:
         """Add a job, so that robots have no trips of their own; the map must be complete.
 
@@ -419,12 +441,14 @@ class FleetBuilder:
             carried between them.
         stops
             Instead of both: mappings like ``{"at": "N3", "work": 2, "load": 1, "earliest": 5,
-            "latest": 9}``, in order.
+            "latest": 9, "actions": "beep"}``, in order.
         earliest, latest
             When the work of the first stop begins at the earliest, and that of the last one ends at
             the latest [time unit].
-        due, weight, types, robot, after
+        due, weight, types, robot, after, load_id, load_type
             As for `Job`.
+        actions, pickup_actions, dropoff_actions
+            What the robot does at each place, see `add_actions`; by default as the place says.
 
         Raises
         ------
@@ -434,7 +458,8 @@ class FleetBuilder:
         """
         given = {"at": at, "work": work, "pickup": pickup, "dropoff": dropoff, "stops": stops}
         given |= {"pickup_work": pickup_work, "dropoff_work": dropoff_work, "load": load}
-        given |= {"earliest": earliest, "latest": latest}
+        given |= {"earliest": earliest, "latest": latest, "actions": actions}
+        given |= {"pickup_actions": pickup_actions, "dropoff_actions": dropoff_actions}
         with name_file(f"job {quote(name)}"):
             job = Job(
                 name=name,
@@ -444,8 +469,38 @@ class FleetBuilder:
                 types=types,  # type: ignore[arg-type]
                 robot=robot,
                 after=after,  # type: ignore[arg-type]
+                load_id=load_id,
+                load_type=load_type,
             )
         self._jobs.append(job)
+        return self
+
+    def add_actions(
+        self, place: Any, *, work: Actions = (), pick: Actions = (), drop: Actions = ()
+    ) -> Self:
+        """Say what robots do at stops at a place; the map must be complete.
+
+        Stops and jobs with actions of their own do not follow it. No plan depends on actions: the
+        fleet control sends them to robots.
+
+        Parameters
+        ----------
+        place
+            The place, as for `add_robot`.
+        work, pick, drop
+            The actions at stops where the load stays as it is, grows and shrinks: one or several,
+            each its type, a mapping like ``{"action": "pick", "parameters": {"side": "left"},
+            "blocking": "soft"}``, or a `StopAction`. By default robots do their usual action.
+
+        Raises
+        ------
+        InputError
+            For a place that is not on the map, and for actions of a wrong kind.
+        """
+        with name_file(f"actions of {quote(place)}"):
+            at = self._find_vertex("place", place)
+            own = PlaceActions(at=at, work=work, pick=pick, drop=drop)  # type: ignore[arg-type]
+        self._actions.append(own)
         return self
 
     def add_battery(
@@ -589,6 +644,7 @@ class FleetBuilder:
             jobs=tuple(self._jobs) or None,
             batteries=tuple(self._batteries),
             charging=tuple(self._charging),
+            actions=tuple(self._actions),
         )
 
     def _refuse_robots_without_trip(self) -> None:

@@ -52,10 +52,12 @@ def read_radius(radius: Number | None, size: tuple[Number, Number] | None) -> Fr
     return circumscribe(long, wide)
 
 
-def place_and_work(stop: Any) -> tuple[Any, Number]:
-    """Return the place of a stop and the work there: of (place, work), or of a place alone.
+def split_stop(stop: Any) -> tuple[Any, Number, Any]:
+    """Return the place of a stop, the work and the actions there.
 
-    A pair of whole numbers is (row, column).
+    The place may be alone. A pair of whole numbers is (row, column).
     """
-    is_pair = isinstance(stop, list | tuple) and len(stop) == 2  # noqa: PLR2004 (place and work)
-    return (stop[0], stop[1]) if is_pair and not is_cell(stop) else (stop, 0)
+    if not isinstance(stop, list | tuple) or len(stop) not in {2, 3} or is_cell(stop):
+        return stop, 0, ()
+    place, work, *actions = stop
+    return place, work, actions[0] if actions else ()

@@ -45,11 +45,12 @@ def read_job_stops(find: Find, given: Mapping[str, Any]) -> tuple[JobStop, ...]:
 def _list_stops(given: Mapping[str, Any]) -> Iterator[tuple[Where, Mapping[str, Any]]]:
     """Yield the stops of a job as mappings, with the arguments that they are in."""
     if given["at"] is not None:
-        yield "at", {"at": given["at"], "work": given["work"]}
+        yield "at", {key: given[key] for key in ("at", "work", "actions")}
     elif given["pickup"] is not None:
         for key, sign in (("pickup", 1), ("dropoff", -1)):
             work, load = given[f"{key}_work"], sign * given["load"]
-            yield key, {"at": given[key], "work": work, "load": load}
+            actions = given[f"{key}_actions"]
+            yield key, {"at": given[key], "work": work, "load": load, "actions": actions}
     else:
         stops = list_of(MAPPING).read_at("stops", given["stops"])
         if not stops:

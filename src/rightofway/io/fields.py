@@ -36,6 +36,7 @@ from rightofway.kinds.table import (
     allow_words,
     tuple_of,
 )
+from rightofway.model.actions import ACTIONS, StopAction
 from rightofway.model.attributes import list_attributes
 from rightofway.site import VertexId
 
@@ -131,6 +132,7 @@ Place = Annotated[
     PlainValidator(_read_place),
     WithJsonSchema({"anyOf": [NAME.schema, _CELL, _SPOT]}),
 ]
+Actions = Annotated[tuple[StopAction, ...], ACTIONS]
 Lines = Annotated[
     list[str], BeforeValidator(_split_lines), WithJsonSchema({"anyOf": [TEXT.schema, _TEXTS]})
 ]

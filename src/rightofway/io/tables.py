@@ -1,7 +1,7 @@
 """Tables of robots, of a sheet or a CSV file, as the robots of a scenario document.
 
 A row is a robot. Headings are the keys of a robot; several stops are columns ``stop 1``,
-``work 1``, ``stop 2`` and so on.
+``work 1``, ``actions 1``, ``stop 2`` and so on.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
 NOTES = {"note", "notes", "hint", "comment", "remark"}
 """Columns that are not read."""
 
-STOP = re.compile(r"(stop|work) ?([1-9][0-9]?)")
-"""Headings of several stops and the work there."""
+STOP = re.compile(r"(stop|work|actions) ?([1-9][0-9]?)")
+"""Headings of several stops, the work and the actions there."""
 
 PLACE_KEYS = {"home", "target", "at", "pickup", "dropoff"}
 """Keys whose values are places."""
@@ -55,13 +55,15 @@ TRUTH_KEYS = {
 
 YES_NO = {"true": True, "yes": True, "false": False, "no": False}
 
-AT_STOP = {"stop": "at", "work": "work"}
+AT_STOP = {"stop": "at", "work": "work", "actions": "actions"}
 """The key of a stop for each heading."""
 
 WORD_KEYS = {
     "name",
     "battery",
     "robot",
+    "load_id",
+    "load_type",
     *(attribute.key for attribute in (*ROBOT_ATTRIBUTES, *RULE_ATTRIBUTES) if attribute.is_text),
 }
 """Keys whose values are text, also where they look like numbers."""

@@ -239,6 +239,7 @@ REMEDIES = {
     "ExecutionTrace": "give a trace of rightofway.simulate",
     "Job": "give Job(name=text, stops=list)",
     "JobStop": "give JobStop(at=vertex, work=time)",
+    "PlaceActions": "give PlaceActions(at=vertex, pick=list)",
     "Plan": "load a file with rightofway.load_plan",
     "RobotState": "give RobotState(at=vertex)",
     "Roadmap": "give a Roadmap, or build the fleet with FleetBuilder",

@@ -1,5 +1,6 @@
 """Robot, scenario, problem, plan: frozen, in integer ticks, without files."""
 
+from rightofway.model.actions import ActionUse, Blocking, PlaceActions, StopAction
 from rightofway.model.booking_rules import BookingRules
 from rightofway.model.closures import Closure, Closures
 from rightofway.model.kept_facts import RerouteReason, Status
@@ -60,9 +61,11 @@ from rightofway.model.work import (
 
 __all__ = [
     "NEVER",
+    "ActionUse",
     "Arc",
     "Assignment",
     "Battery",
+    "Blocking",
     "BookingRules",
     "BoundBattery",
     "BoundJob",
@@ -85,6 +88,7 @@ __all__ = [
     "Occupancy",
     "Outcome",
     "OutcomeKind",
+    "PlaceActions",
     "Plan",
     "PlannedItem",
     "PlannedTour",
@@ -106,6 +110,7 @@ __all__ = [
     "Stays",
     "SteadyState",
     "Stop",
+    "StopAction",
     "Tick",
     "Tour",
     "TourItem",

@@ -23,6 +23,7 @@ from rightofway.kinds.table import (
     make_class,
     make_words,
 )
+from rightofway.model.actions import ACTIONS, StopAction
 from rightofway.model.attributes import list_attributes, list_kinds, make_attribute
 from rightofway.model.work import RobotState, WorkObjective
 from rightofway.site import VertexId
@@ -55,18 +56,22 @@ class Stop:
         The vertex.
     work
         How long the robot works there [time unit], not negative; any `Number`, kept exactly.
+    actions
+        What the robot does there; empty for the actions of the place. No plan depends on it.
 
     Raises
     ------
     InputError
-        For a vertex that is not a number, and for a work time of another kind or below 0.
+        For a vertex that is not a number, for a work time of another kind or below 0, and for
+        actions of another kind.
     """
 
     at: VertexId
     work: Fraction = Fraction(0)
+    actions: tuple[StopAction, ...] = ()
 
     def __post_init__(self) -> None:
-        coerce_fields(self, "stop", at=VERTEX, work=NOT_NEGATIVE)
+        coerce_fields(self, "stop", at=VERTEX, work=NOT_NEGATIVE, actions=ACTIONS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from copy import copy
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 from rightofway.errors import InputError, InputFault, Where
 from rightofway.kinds.table import VERTEX, allow_none, coerce_fields, list_of, make_class
+from rightofway.model.actions import PLACE_ACTIONS, PlaceActions
 from rightofway.model.bind_work import bind_tours, bind_work
 from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.model.figures import get_figures
@@ -52,6 +54,8 @@ class Scenario:
     tours
         Which robot does which jobs in which order, one tour for each robot, where that is decided:
         itineraries are made from it. Files do not keep it.
+    actions
+        What robots do at stops that have no actions of their own, by places.
     problem
         The same in ticks; derived.
 
@@ -71,6 +75,7 @@ class Scenario:
     batteries: tuple[tuple[str, Battery], ...] = ()
     charging: tuple[VertexId, ...] = ()
     tours: tuple[Tour, ...] | None = field(default=None, repr=False)
+    actions: tuple[PlaceActions, ...] = ()
     problem: Problem = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -86,6 +91,7 @@ class Scenario:
             jobs=allow_none(list_of(make_class(Job))),
             batteries=BATTERIES,
             charging=list_of(VERTEX),
+            actions=PLACE_ACTIONS,
         )
         object.__setattr__(self, "rules", _resolve_rules(self))
         if self.rules.walls == "strict" and self.roadmap.grid is not None:
@@ -96,6 +102,7 @@ class Scenario:
             *_find_fleet_faults(self),
             *_find_space_faults(self),
             *find_work_faults(self),
+            *_find_action_faults(self),
         ]
         for index, closure in enumerate(self.closures):
             of_closure = find_closure_faults(closure, self.roadmap)
@@ -222,6 +229,28 @@ def _find_twice(
         if earlier != index:
             message = f"{value} is the {key} of {owners[earlier]} already ({remedy})"
             yield InputFault(("robots", index, key), message, ("robots", earlier))
+
+
+def _find_action_faults(scenario: Scenario) -> Iterator[InputFault]:
+    """Yield places of actions that are not on the map or given twice, and stops that differ."""
+    name, n_vertices = scenario.roadmap.name, scenario.roadmap.n_vertices
+    seen = set[int]()
+    for index, own in enumerate(scenario.actions):
+        where: Where = ("actions", index, "at")
+        if not 0 <= own.at < n_vertices:
+            message = f"vertex {own.at} is not on the roadmap (give 0 to {n_vertices - 1})"
+            yield InputFault(where, message)
+        elif own.at in seen:
+            yield InputFault(where, f"{name(own.at)} has actions already (give them once)")
+        seen.add(own.at)
+    for index, robot in enumerate(scenario.robots):
+        actions = dict[int, Any]()
+        for number, stop in enumerate(robot.stops):
+            # Orders find the actions of a stop of a trip by its place.
+            if actions.setdefault(stop.at, stop.actions) != stop.actions:
+                where = ("robots", index, "stops", number, "actions")
+                message = f"{name(stop.at)} has other actions at an earlier stop"
+                yield InputFault(where, f"{message} (give both the same, or use jobs)")
 
 
 def _find_weight_faults(robots: Sequence[Robot]) -> Iterator[InputFault]:

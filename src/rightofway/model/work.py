@@ -8,6 +8,7 @@ from typing import Literal
 
 from rightofway.errors import quote
 from rightofway.kinds.table import (
+    NAME,
     NOT_NEGATIVE,
     NUMBER,
     POSITIVE,
@@ -21,6 +22,7 @@ from rightofway.kinds.table import (
     make_class,
     mapping_of,
 )
+from rightofway.model.actions import ACTIONS, StopAction
 from rightofway.model.units import Tick
 from rightofway.site import VertexId
 
@@ -63,6 +65,8 @@ class JobStop:
         The work begins then or later [time unit].
     latest
         The work ends then or before [time unit]; None for no limit.
+    actions
+        What the robot does there; empty for the actions of the place. No plan depends on it.
 
     Raises
     ------
@@ -75,6 +79,7 @@ class JobStop:
     load: int = 0
     earliest: Fraction = Fraction(0)
     latest: Fraction | None = None
+    actions: tuple[StopAction, ...] = ()
 
     def __post_init__(self) -> None:
         coerce_fields(
@@ -85,6 +90,7 @@ class JobStop:
             load=WHOLE,
             earliest=NOT_NEGATIVE,
             latest=allow_none(NUMBER),
+            actions=ACTIONS,
         )
 
 
@@ -108,6 +114,8 @@ class Job:
         The only robot that may do the job; None for all robots.
     after
         Names of the jobs that end before this one begins.
+    load_id, load_type
+        The load that the job carries, for actions that pick and drop it; None where it is unknown.
 
     Raises
     ------
@@ -122,6 +130,8 @@ class Job:
     types: tuple[str, ...] = ()
     robot: str | None = None
     after: tuple[str, ...] = ()
+    load_id: str | None = None
+    load_type: str | None = None
 
     def __post_init__(self) -> None:
         coerce_fields(
@@ -134,6 +144,8 @@ class Job:
             types=list_of(TEXT),
             robot=allow_none(TEXT),
             after=list_of(TEXT),
+            load_id=allow_none(NAME),
+            load_type=allow_none(NAME),
         )
 
     @property

@@ -38,7 +38,7 @@ from rightofway.site.places import as_place, list_kinds_of_places
 
 if TYPE_CHECKING:
     from rightofway.io.fields import Document
-    from rightofway.io.scenario.shape import RobotDocument
+    from rightofway.io.scenario.shape import RobotDocument, StopDocument
     from rightofway.io.tables import CellDocument
 
 DEFAULT_SPEED, NO_WORK = Fraction(1), Fraction(0)
@@ -290,12 +290,12 @@ def _place_robot(robot: ListedRobot, on: LoadedMap | None) -> PlacedRobot | None
     faults.stop(list_keys(RobotDocument))
     if document is None or on is None:
         return None
-    trip: list[tuple[Steps, Fraction | None]] = []
+    trip: list[tuple[Steps, RobotDocument | StopDocument]] = []
     if document.target is not None:
-        trip = [(("target",), document.work)]
+        trip = [(("target",), document)]
     elif document.stops is not None:
-        trip = [(("stops", k, "at"), stop.work) for k, stop in enumerate(document.stops)]
-    stops = tuple(Stop(at=places[at], work=work or NO_WORK) for at, work in trip)
+        trip = [(("stops", k, "at"), stop) for k, stop in enumerate(document.stops)]
+    stops = tuple(Stop(at=places[at], **stop.get_given("work", "actions")) for at, stop in trip)
     home = places.get(("home",), HOMELESS)
     aliases: dict[Steps, Steps] = {("laps",): _place_of_laps(document, place)}
     if "turn_rate" not in robot.own:

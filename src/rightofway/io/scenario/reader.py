@@ -33,7 +33,7 @@ from rightofway.io.scenario.loaded_map import LoadedMap, note_on_hidden_stations
 from rightofway.io.scenario.maps import map_of, map_of_file
 from rightofway.io.scenario.picture import add_picture
 from rightofway.io.scenario.work import ReadWork, read_jobs_in_table, read_work
-from rightofway.model import Rules, Scenario
+from rightofway.model import PlaceActions, Rules, Scenario
 from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 from rightofway.site import Roadmap
@@ -137,12 +137,14 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
         faults.note(("rules", "walls"), f"'strict' is for grids and floors ({remedy})")
     placed = place_robots(robots, loaded, faults, deals=deals)
     closures = faults.read_part(document, "closures", _read_closures, loaded) or []
+    actions = faults.read_part(document, "actions", _read_actions, loaded) or []
     work = read_work(document, loaded, faults)
     scenario, notes = None, list[Fact]()
     if loaded and placed and deals:
         placed = faults.attempt("", _assign_homes, placed, loaded.roadmap, rules, notes) or ()
     if loaded and placed:
         others = {"rules": rules, "units": loaded.units, "closures": tuple(closures)}
+        others["actions"] = tuple(actions)
         scenario = build_scenario(loaded.roadmap, placed, others, faults, work)
     faults.stop(document)
     assert loaded is not None, "or there was a fault"
@@ -248,6 +250,28 @@ def _read_closures(data: Any, on: LoadedMap | None) -> list[Closure]:
         closures.append(closure)
     faults.stop()
     return closures
+
+
+def _read_actions(data: Any, on: LoadedMap | None) -> list[PlaceActions]:
+    """Return the actions of places, or raise all their faults; without a map, none."""
+    from rightofway.io.scenario.shape import PlaceActionsDocument
+
+    if not isinstance(data, dict):
+        remedy = "give for each place its name and {work, pick, drop}"
+        raise InputError.at("", f"{quote(data)} is no mapping of places to actions ({remedy})")
+    faults, actions = Faults(), list[PlaceActions]()
+    for place, own in data.items():
+        document = faults.attempt(place, validate, PlaceActionsDocument, own)
+        vertex = faults.attempt(place, on.find, place) if on else None
+        if document is None or vertex is None:
+            continue
+        if any(vertex == other.at for other in actions):
+            message = "is another name of a place that has actions already (give them once)"
+            faults.note(place, message)
+            continue
+        actions.append(PlaceActions(at=vertex, **document.get_given("work", "pick", "drop")))
+    faults.stop()
+    return actions
 
 
 def _assign_homes(

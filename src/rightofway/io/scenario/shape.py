@@ -11,6 +11,7 @@ from pydantic_core import CoreSchema
 from rightofway.deadline import READING, check_work
 from rightofway.errors import quote
 from rightofway.io.fields import (
+    Actions,
     Amount,
     Angle,
     CellSize,
@@ -34,6 +35,7 @@ from rightofway.io.fields import (
     make_optional,
 )
 from rightofway.io.scenario.work_shape import (
+    ACTIONS,
     BatteryDocument,
     JobDocument,
     JobTableDocument,
@@ -340,6 +342,7 @@ class StopDocument(Document):
 
     at: Place = Field(description=f"a place: {PLACES}")
     work: NotNegative = make_optional(WORK)
+    actions: Actions = make_optional(ACTIONS)
 
 
 @add_attributes(Robot)
@@ -347,7 +350,7 @@ class RobotAttributes(Document):
     """What a robot has beside its name and its trip."""
 
 
-OF_TRIPS = ("target", "work", "stops")
+OF_TRIPS = ("target", "work", "actions", "stops")
 """Keys of a robot for its trip."""
 
 OF_JOBS = ("start", "capacity", "battery", "charging")
@@ -362,7 +365,10 @@ class RobotDocument(Document):
         json_schema_extra=finish_schema(
             oneOf=[
                 {"required": ["target"]},
-                {"required": ["stops"], "not": {"required": ["work"]}},
+                {
+                    "required": ["stops"],
+                    "not": {"anyOf": [{"required": ["work"]}, {"required": ["actions"]}]},
+                },
                 {"not": {"anyOf": [{"required": [key]} for key in OF_TRIPS]}},
             ]
         )
@@ -372,7 +378,10 @@ class RobotDocument(Document):
     home: Place = make_optional(f"the place it starts from: {PLACES}; left out with homes: parking")
     target: Place = make_optional(f"the place to work at: {PLACES}")
     work: NotNegative = make_optional(WORK)
-    stops: list[StopDocument] = make_optional("one or more {at, work}, in order", min_length=1)
+    actions: Actions = make_optional(f"of target: {ACTIONS}")
+    stops: list[StopDocument] = make_optional(
+        "one or more {at, work, actions}, in order", min_length=1
+    )
     size: RobotSize = make_optional(
         "[length, width] instead of a radius: the circle around it [length unit]"
     )
@@ -389,12 +398,13 @@ class RobotDocument(Document):
 
     @model_validator(mode="after")
     def _check_one_trip(self) -> Self:
-        if self.work is not None and self.target is None and self.stops is None:
+        of_target = next((key for key in ("work", "actions") if getattr(self, key) is not None), "")
+        if of_target and self.target is None and self.stops is None:
             raise ValueError("has nowhere to go (give target, or stops)")
         if self.target is not None and self.stops is not None:
             raise ValueError("has both target and stops (give one of them)")
-        if self.stops is not None and self.work is not None:
-            raise ValueError("has work beside stops (write it at each stop)")
+        if self.stops is not None and of_target:
+            raise ValueError(f"has {of_target} beside stops (write it at each stop)")
         if "radius" in self.model_fields_set and self.size is not None:
             raise ValueError("has both radius and size (give one of them)")
         if self.size is not None and min(self.size) <= 0:
@@ -405,6 +415,14 @@ class RobotDocument(Document):
         """Return the attributes that were written; a size as the radius of the circle around it."""
         size = {} if self.size is None else {"radius": circumscribe(*self.size)}
         return super().get_own_attributes(owner) | size
+
+
+class PlaceActionsDocument(Document):
+    """What robots do at stops at a place, where a stop has no actions of its own."""
+
+    work: Actions = make_optional("at stops where the load stays as it is, as for stops")
+    pick: Actions = make_optional("at stops where the load grows, as for stops")
+    drop: Actions = make_optional("at stops where the load shrinks, as for stops")
 
 
 FLEETS = "a list of robots, {scen: file} or {table: file}"
@@ -494,6 +512,9 @@ class ScenarioFrame(Document):
     robots: Any = Field(description=FLEETS)
     rules: Any = make_optional("classic, or rules for the whole fleet")
     closures: Any = make_optional("a list of {at or edge, from, until, radius}")
+    actions: Any = make_optional(
+        "for places {work, pick, drop}: what robots do at stops without actions of their own"
+    )
     batteries: Any = make_optional(
         "for each battery its name and {drive, on, work, charge, reserve}, for jobs"
     )
@@ -517,6 +538,9 @@ class ScenarioDocument(ScenarioFrame):
         "classic (no turning, no way back), or rules for the whole fleet"
     )
     closures: list[ClosureDocument] = make_optional("what nobody may use for a while")
+    actions: dict[Name, PlaceActionsDocument] = make_optional(
+        "for places, by name, what robots do at stops without actions of their own"
+    )
     batteries: dict[Name, BatteryDocument] = make_optional(
         "for each battery its name and its shares"
     )

@@ -145,7 +145,7 @@ def _read_job(data: Any, on: LoadedMap | None) -> tuple[Job, dict[Steps, Steps]]
         stops=tuple(stops),
         types=tuple(document.types or ()),
         after=tuple(document.after or ()),
-        **document.get_given("weight", "due", "robot"),
+        **document.get_given("weight", "due", "robot", "load_id", "load_type"),
     )
     return job, starts
 
@@ -158,10 +158,10 @@ def _list_stops(document: JobDocument) -> Iterator[tuple[dict[str, Steps], dict[
             ends = document.get_given(
                 *(("earliest",) if number == 0 else ()), *(("latest",) if number == last else ())
             )
-            values = stop.get_given("at", "work", "load", "earliest", "latest")
+            values = stop.get_given("at", "work", "load", "earliest", "latest", "actions")
             yield {key: (key,) for key in ends}, values | ends
     elif document.at is not None:
-        given = document.get_given("work", "earliest", "latest")
+        given = document.get_given("work", "earliest", "latest", "actions")
         yield {key: (key,) for key in ("at", *given)}, {"at": document.at, **given}
     else:
         load = 1 if document.load is None else document.load
@@ -170,8 +170,11 @@ def _list_stops(document: JobDocument) -> Iterator[tuple[dict[str, Steps], dict[
             values = {"at": getattr(document, place), "load": sign * load, **given}
             if work is not None:
                 values["work"] = work
+            if actions := getattr(document, f"{place}_actions"):
+                values["actions"] = actions
             keys: dict[str, Steps] = {key: (key,) for key in (time, "load")}
-            yield keys | {"at": (place,), "work": (f"{place}_work",)}, values
+            of_place = {key: (f"{place}_{key}",) for key in ("work", "actions")}
+            yield keys | {"at": (place,), **of_place}, values
 
 
 def read_state(

@@ -7,6 +7,7 @@ from typing import Any, Self
 from pydantic import ConfigDict, Field, model_validator
 
 from rightofway.io.fields import (
+    Actions,
     Amount,
     Angle,
     Count,
@@ -25,6 +26,10 @@ from rightofway.site.places import list_kinds_of_places
 PLACES = list_kinds_of_places(None)
 WORK = "work time there [time unit], 0 by default"
 EARLIEST = "when the work begins at the earliest [time unit]; 0 by default"
+ACTIONS = (
+    "what the robot does there: an action or a list of actions, each its type or {action,"
+    " parameters, blocking, retriable, description}; those of the place by default"
+)
 LATEST = "when the work ends at the latest [time unit]; none by default"
 
 
@@ -36,11 +41,20 @@ class JobStopDocument(Document):
     load: Whole = make_optional("by how much the load changes there, 0 by default")
     earliest: NotNegative = make_optional(EARLIEST)
     latest: NotNegative = make_optional(LATEST)
+    actions: Actions = make_optional(ACTIONS)
 
 
 FORMS: dict[str, tuple[str, ...]] = {
-    "at": ("at", "work"),
-    "pickup": ("pickup", "dropoff", "pickup_work", "dropoff_work", "load"),
+    "at": ("at", "work", "actions"),
+    "pickup": (
+        "pickup",
+        "dropoff",
+        "pickup_work",
+        "dropoff_work",
+        "load",
+        "pickup_actions",
+        "dropoff_actions",
+    ),
     "stops": ("stops",),
 }
 """The keys of each form of a job, by the key that it has at least."""
@@ -71,8 +85,11 @@ class JobDocument(Document):
     pickup_work: NotNegative = make_optional("work time at the pickup [time unit], 0 by default")
     dropoff_work: NotNegative = make_optional("work time at the dropoff [time unit], 0 by default")
     load: Amount = make_optional("the load that is picked up, a whole number, 1 by default")
+    actions: Actions = make_optional(f"of at: {ACTIONS}")
+    pickup_actions: Actions = make_optional("the same at the pickup")
+    dropoff_actions: Actions = make_optional("the same at the dropoff")
     stops: list[JobStopDocument] = make_optional(
-        "one or more {at, work, load, earliest, latest}, in order", min_length=1
+        "one or more {at, work, load, earliest, latest, actions}, in order", min_length=1
     )
     earliest: NotNegative = make_optional(
         "when the work of the first stop begins at the earliest [time unit]; 0 by default"
@@ -87,6 +104,9 @@ class JobDocument(Document):
     types: list[Name] = make_optional("a list of types of the robots that may do it")
     robot: Name = make_optional("the name of the only robot that may do it")
     after: list[Name] = make_optional("a list of names of jobs that end before it begins")
+
+    load_id: Name = make_optional("the name of the load, for the actions pick and drop")
+    load_type: Name = make_optional("the type of the load, for the actions pick and drop")
 
     @model_validator(mode="after")
     def _check_one_form(self) -> Self:

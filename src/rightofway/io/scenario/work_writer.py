@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from fractions import Fraction
 from typing import Any
 
 from rightofway.kinds.numbers import format_number
-from rightofway.model import Job, JobStop, Robot, RobotState, Rules, Scenario
+from rightofway.model import Job, JobStop, Robot, RobotState, Rules, Scenario, StopAction
 from rightofway.site import Roadmap
 
 PAIR = 2
@@ -68,11 +68,25 @@ def _dump_stops(job: Job, roadmap: Roadmap) -> dict[str, Any]:
     works = {f"{key}_work": format_number(stop.work) for key, stop in ends.items() if stop.work}
     times = _dump_given(first, only=("earliest",)) | _dump_given(last, only=("latest",))
     places = {key: roadmap.name(stop.at) for key, stop in ends.items()}
-    return {**places, **works, "load": first.load, **times}
+    actions = dump_actions(**{f"{key}_actions": stop.actions for key, stop in ends.items()})
+    return {**places, **works, "load": first.load, **times, **actions}
 
 
 def _dump_stop(stop: JobStop, roadmap: Roadmap) -> dict[str, Any]:
-    return {"at": roadmap.name(stop.at), **_dump_given(stop, but=("at",))}
+    given = _dump_given(stop, but=("at", "actions"))
+    return {"at": roadmap.name(stop.at), **given, **dump_actions(actions=stop.actions)}
+
+
+def dump_actions(**actions: Sequence[StopAction]) -> dict[str, Any]:
+    """Return actions by their keys in documents, without those that are not given."""
+    return {key: _dump_list(own) for key, own in actions.items() if own}
+
+
+def _dump_list(actions: Sequence[StopAction]) -> Any:
+    """Return actions in the shortest form: one without a list, one of no parameters by its type."""
+    documents = [action.to_document() for action in actions]
+    short = [own["action"] if own.keys() == {"action"} else own for own in documents]
+    return short[0] if len(short) == 1 else short
 
 
 def _dump_given(

@@ -12,7 +12,12 @@ from rightofway.errors import InputError
 from rightofway.files import as_path, write_whole
 from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.json_text import format_json
-from rightofway.io.scenario.work_writer import dump_robot_of_jobs, dump_rules_of_jobs, dump_work
+from rightofway.io.scenario.work_writer import (
+    dump_actions,
+    dump_robot_of_jobs,
+    dump_rules_of_jobs,
+    dump_work,
+)
 from rightofway.kinds.arguments import checks_arguments
 from rightofway.kinds.numbers import format_number
 from rightofway.model import Robot, Scenario
@@ -43,6 +48,7 @@ def dump_scenario(scenario: Scenario) -> dict[str, Any]:
         "robots": [_write_robot(robot, scenario) for robot in scenario.robots],
         "rules": list_plain_attributes(scenario.rules) | dump_rules_of_jobs(scenario.rules),
         **_write_closures(scenario),
+        **_write_actions(scenario),
         **dump_work(scenario),
     }
 
@@ -282,16 +288,30 @@ def _write_closures(scenario: Scenario) -> dict[str, Any]:
     return {"closures": lanes} if lanes else {}
 
 
+def _write_actions(scenario: Scenario) -> dict[str, Any]:
+    """Return the actions of places."""
+    actions = {
+        scenario.roadmap.name(own.at): dump_actions(work=own.work, pick=own.pick, drop=own.drop)
+        for own in scenario.actions
+    }
+    return {"actions": actions} if actions else {}
+
+
 def _write_robot(robot: Robot, scenario: Scenario) -> dict[str, Any]:
     roadmap = scenario.roadmap
     stops = [
-        {"at": roadmap.name(stop.at), "work": format_number(stop.work)} for stop in robot.stops
+        {
+            "at": roadmap.name(stop.at),
+            "work": format_number(stop.work),
+            **dump_actions(actions=stop.actions),
+        }
+        for stop in robot.stops
     ]
     trip: dict[str, Any] = {"stops": stops}
     if scenario.jobs is not None:
         trip = dump_robot_of_jobs(robot, roadmap)
     elif len(stops) == 1:
-        trip = {"target": stops[0]["at"], "work": stops[0]["work"]}
+        trip = {"target": stops[0].pop("at"), **stops[0]}
     return {
         "name": robot.name,
         "home": roadmap.name(robot.home),

@@ -190,25 +190,34 @@ def _write_robots(sheet: Any, robots: Sequence[dict[str, Any]]) -> None:
     from rightofway.io.scenario.shape import RobotDocument
 
     most = max((len(robot.get("stops", ())) for robot in robots), default=0)
-    stops = [f"{noun} {number}" for number in range(1, most + 1) for noun in ("stop", "work")]
+    trips = [robot.get("stops") or [_get_only_stop(robot)] for robot in robots]
+    of_stop = ("work", "actions") if any("actions" in stop for stop in chain(*trips)) else ("work",)
+    stops = [f"{noun} {k}" for k in range(1, most + 1) for noun in ("stop", *of_stop)]
     hints = {key: (text, choices) for key, text, choices in ROBOT_HINTS}
     usual = [key for key in hints if not (stops and key in {"target", "work"})]
     keys = [*usual[:2], *stops, *usual[2:]]
-    keys += dict.fromkeys(key for robot in robots for key in robot if key in ROBOT_KEYS_OF_JOBS)
+    more = {*ROBOT_KEYS_OF_JOBS, *(() if stops else ("actions",))}
+    keys += dict.fromkeys(key for robot in robots for key in robot if key in more)
     rows = []
-    for robot in robots:
+    for robot, trip in zip(robots, trips, strict=True):
         cells = {key: _convert_to_cell(value) for key, value in robot.items() if key != "stops"}
-        trip = robot.get("stops") or [{"at": robot.get("target"), "work": robot.get("work")}]
         for number, stop in enumerate(trip if stops else (), 1):
-            cells[f"stop {number}"], cells[f"work {number}"] = stop["at"], stop.get("work")
+            cells[f"stop {number}"] = stop.get("at")
+            cells |= {f"{key} {number}": _convert_to_cell(stop.get(key)) for key in of_stop}
         rows.append([cells.get(key) for key in keys])
     _write_table(sheet, keys, rows)
     hints |= {"stop": ("a place to work at, in order", "")}
     for column, key in enumerate(keys, 1):
         kind = key.rstrip(" 0123456789")
-        text, choices = hints.get(kind) or (_find_description(RobotDocument, key), "")
+        text, choices = hints.get(kind) or (_find_description(RobotDocument, kind), "")
         letter = sheet.cell(1, column).column_letter
         _add_hint(sheet, f"{letter}2:{letter}{ROWS}", key, text, choices)
+
+
+def _get_only_stop(robot: dict[str, Any]) -> dict[str, Any]:
+    """Return the stop of a robot with a target."""
+    keys = {"at": "target", "work": "work", "actions": "actions"}
+    return {key: robot[name] for key, name in keys.items() if name in robot}
 
 
 def _write_rules(sheet: Any, given: dict[str, Any]) -> None:
