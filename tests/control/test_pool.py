@@ -251,6 +251,26 @@ def test_a_job_withdrawn_during_a_round_is_not_done_by_its_plan() -> None:
     assert len(shift.pool.left) == 4
 
 
+def test_a_round_begins_with_the_old_tracks_at_the_times_that_are_expected() -> None:
+    """Robots take two seconds for an edge: R1 is at N5 at 2, and at N10 at 3, if it drives on.
+
+    There J1 begins at 12 and ends at 15; then its way home leads over six edges.
+    """
+    rounds = SlowRounds()
+    shift = Shift(rounds=rounds)
+    shift.drive(2)
+    shift.ask("add", name="A1", pickup="N12", dropoff="N0")
+    view = rounds.requests[0].view.robots[0]
+    name = shift.plan.scenario.roadmap.name
+    assert view.free == 1
+    assert view.track is not None
+    places = [name(vertex) for vertex in view.track.vertices.tolist()]
+    assert places == ["N10", "N11", "N12", "N7", "N2", "N1", "N0"]
+    assert view.track.enter.tolist() == [0, 14, 15, 16, 17, 18, 19]
+    steps = [(step.visit, step.job, step.stop) for step in view.steps]
+    assert steps == [(0, "J1", 0), (4, "J1", 1)]
+
+
 def test_rounds_plan_routes_for_the_next_two_stops_of_long_tours() -> None:
     """As in shifts: the other stops are in the tour, and a later round plans their routes."""
     shift = Shift()

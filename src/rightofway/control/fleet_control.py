@@ -12,6 +12,7 @@ was not acknowledged. A robot that has it discards it.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from fractions import Fraction
 
 from rightofway.control.journal import Entry, Journal, JournalFailed
 from rightofway.control.ledger import Ledger, make_plan_entry
@@ -110,6 +111,8 @@ class FleetControl:
         Robots whose batteries are too low for the way to a charging place.
     charges
         The state of charge of each robot, by its last state since the start, from 0 to 1.
+    headings
+        The heading that each robot has reported last, as `RobotState.heading` [degrees].
     """
 
     def __init__(
@@ -138,6 +141,7 @@ class FleetControl:
         self.may_begin: MayBegin = lambda *_: True
         self.list_actions: ListActions = lambda *_: (USUAL,)
         self.charges: dict[int, float] = {}
+        self.headings: dict[int, Fraction] = {}
         self.kept_parts: tuple[int, ...] | None = None
         self._since_snapshot = 0
         for number, entry in enumerate(journal.read_entries(), 1):

@@ -17,6 +17,7 @@ from rightofway.control.journal import Entry
 from rightofway.control.laps import build_graph_behind_released
 from rightofway.control.ledger import Edge
 from rightofway.control.messages import Message
+from rightofway.control.round_floor import FloorReports, mirror_floor
 from rightofway.control.round_view import (
     ViewOfRound,
     find_kept_parts,
@@ -100,6 +101,7 @@ class RoundDriver:
         self._count = 0  # rounds since the start
         self._pause = 0  # calls of `go_on` until the next try after a failure
         self._batteries = FleetBatteries(self.scenario)
+        self._reports = FloorReports(control.charges, control.headings)
         self._short_graph: ReleaseGraph | None = None  # of a plan that batteries do not last for
         self._tried: object = None  # what was known when a round was last wanted for idle robots
         self._later: tuple[object, Mapping[int, StopsLater]] = None, {}  # a graph, and its own
@@ -145,6 +147,7 @@ class RoundDriver:
         Call it every second.
         """
         self._pause = max(0, self._pause - 1)
+        self._reports.look(self._control.ledger, self.read_ticks())
         ledger, waiting = self._control.ledger, self.list_waiting()
         robots = ledger.robots
         idle = [
@@ -215,11 +218,11 @@ class RoundDriver:
         if self.rounds.time_limit is not None:
             seconds = float(self.scenario.problem.clock.tick * (self.scenario.units.seconds or 1))
             lead = int(self.rounds.time_limit / seconds)
+        floor = mirror_floor(self._fleet, ledger, self._reports, now=now, unable=self.unable)
         self._seen = seen = view_fleet(
-            self.scenario,
+            floor,
             ledger,
             kept_parts,
-            charges=control.charges,
             unable=() if ignores_closures else self.unable,
             closed=() if ignores_closures else self.list_closed(),
             later=self.later,

@@ -7,25 +7,23 @@ in the new order, so commitments wait for no robot.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 
 from rightofway.control.batteries import FleetBatteries, follow_charge
 from rightofway.control.commitments import RobotCommitment, make_robot_commitment
 from rightofway.control.ledger import Edge, Ledger
 from rightofway.control.robot_ledger import RobotLedger
+from rightofway.control.round_floor import ItemToDo, forecast_kept_parts, list_items_to_do
 from rightofway.control.routes import RouteToDrive
 from rightofway.control.work_items import find_charge_step, find_stop, name_charge, name_stop
 from rightofway.dispatch import FleetView, PlannedStep, PooledJob, RobotView, Round, StopsLater
+from rightofway.dispatch.floor import SimulatedFloor
 from rightofway.model import Scenario, Tick, Track
 from rightofway.precedence import Part
-from rightofway.site import VertexId
+from rightofway.site import Roadmap
 
 __all__ = ["ViewOfRound", "find_kept_parts", "make_routes_of_round", "map_later", "view_fleet"]
-
-WHOLE = 1000
-"""Into how many parts a measured charge is rounded: shares of a battery are exact."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -92,11 +90,10 @@ def _is_kept(ledger: Ledger, kept_parts: Sequence[int], robot: int, visit: int) 
 
 
 def view_fleet(
-    scenario: Scenario,
+    floor: SimulatedFloor,
     ledger: Ledger,
     kept_parts: Sequence[int],
     *,
-    charges: Mapping[int, float],
     unable: Collection[int],
     closed: Collection[Edge],
     later: Mapping[int, StopsLater],
@@ -107,14 +104,12 @@ def view_fleet(
 
     Parameters
     ----------
-    scenario
-        The problem, with bookings of ``both``.
+    floor
+        The floor as it is expected to be now, by `mirror_floor`.
     ledger
         The state that the journal describes.
     kept_parts
         The last part of each robot that is kept.
-    charges
-        Measured states of charge, from 0 to 1; a robot that reports none counts as full.
     unable
         Robots that do not go on: what they hold is a closure.
     closed
@@ -124,8 +119,8 @@ def view_fleet(
     now, takeover
         When the round begins, and when its plan takes over [ticks].
     """
+    scenario, roadmap = floor.scenario, floor.roadmap
     present = tuple(robot for robot, own in enumerate(ledger.robots) if not own.is_off)
-    batteries, roadmap = FleetBatteries(scenario), scenario.roadmap
     known = {
         name: own
         for name, own in ledger.pool.jobs.items()
@@ -134,6 +129,9 @@ def view_fleet(
     jobs = dict(known)
     views, commitments, ends = list[RobotView](), list[RobotCommitment](), list[tuple[str, Tick]]()
     latest = max(ledger.robots[k].route.get_enter(kept_parts[k]) for k in present)
+    items = {k: list(list_items_to_do(scenario, ledger.robots[k], kept_parts[k])) for k in present}
+    kept = {k: (kept_parts[k], sum(map(_is_kept_item, items[k]))) for k in present}
+    expected, expected_ends = forecast_kept_parts(floor, kept, now, takeover)
     for robot in present:
         own = _leave_out_unsent(ledger.robots[robot], kept_parts[robot])
         commitment = make_robot_commitment(scenario, robot, own, kept_parts[robot])
@@ -146,25 +144,35 @@ def view_fleet(
             del begun[name]
             bound = replace(known[name].job, robot=ledger.names[robot])
             jobs[name] = replace(known[name], job=bound, robot=None, begun=0)
-        busy = Tick(max(0, commitment.part.busy - (takeover - now)))
+        ahead, busy = expected[robot], now + commitment.part.busy
+        free = max(0, (busy if ahead.free is None else ahead.free) - takeover)
         lengths = {name: len(known[name].job.stops) for name in begun}
-        ends += [(name, busy) for name, count in begun.items() if count == lengths[name]]
-        vertices = commitment.part.vertices
+        ends += [
+            (name, Tick(max(0, expected_ends.get(name, takeover + free) - takeover)))
+            for name, count in begun.items()
+            if count == lengths[name]
+        ]
         commitments.append(commitment)
         views.append(
             RobotView(
-                kept_track=Track.of(vertices, [tick - latest for tick in commitment.route.enter]),
+                kept_track=Track.of(
+                    commitment.part.vertices, [tick - latest for tick in commitment.route.enter]
+                ),
                 last=kept_parts[robot],
-                free=busy,
-                soc=_forecast_soc(batteries, robot, own, charges.get(robot)),
+                free=Tick(free),
+                heading=ahead.heading,
+                soc=ahead.soc,
                 begun=tuple(
                     (name, count) for name, count in begun.items() if count < lengths[name]
                 ),
                 is_able=robot not in unable,
+                track=_make_old_track(roadmap, own, kept_parts[robot], ahead.times, takeover),
                 steps=tuple(
-                    step
-                    for step in _list_old_steps(ledger.robots[robot], kept_parts[robot], scenario)
-                    if step.job in jobs and step.job not in ledger.outdated
+                    item.step
+                    for item in items[robot]
+                    if not _is_kept_item(item)
+                    and (item.step.job is None or item.step.job in jobs)
+                    and item.step.job not in ledger.outdated
                 ),
                 later=tuple(
                     stop for stop in later.get(robot, ()) if stop[0] not in ledger.outdated
@@ -189,6 +197,26 @@ def view_fleet(
     )
 
 
+def _is_kept_item(item: ItemToDo) -> bool:
+    """Return whether an order has an item, which is then at the end of the kept part."""
+    return item.step.visit == 0 and item.is_sent
+
+
+def _make_old_track(
+    roadmap: Roadmap,
+    own: RobotLedger,
+    last: int,
+    times: tuple[int, ...] | None,
+    takeover: int,
+) -> Track | None:
+    """Return the rest of the old plan at the times that are expected; None where there is none."""
+    if times is None:
+        return None
+    places = own.route.stretch(last, own.route.end)
+    vertices = roadmap.unfold_route(list(map(roadmap.get_vertex, places)))
+    return Track.of(vertices, [0, *(tick - takeover for tick in times)])
+
+
 def _count_begun(job: PooledJob, own: RobotLedger, kept_parts: RouteToDrive) -> int:
     """Return how many first stops of a job are done, or asked for in what its robot keeps."""
     items = (item for names in kept_parts.jobs for item in names if own.is_sent(item))
@@ -204,40 +232,6 @@ def _leave_out_unsent(own: RobotLedger, kept_parts: int) -> RobotLedger:
     jobs = (*route.jobs[:index], tuple(item for item, _ in sent), *route.jobs[index + 1 :])
     work = (*route.work[:index], tuple(ticks for _, ticks in sent), *route.work[index + 1 :])
     return replace(own, route=replace(route, jobs=jobs, work=work))
-
-
-def _forecast_soc(
-    batteries: FleetBatteries, robot: int, own: RobotLedger, charge: float | None
-) -> Fraction:
-    """Return the state of charge at the end of the kept part."""
-    battery = batteries.of_robot[robot]
-    if battery is None or charge is None:
-        return Fraction(1)
-    places = own.route.stretch(own.arrived, own.route.end)
-    measured = Fraction(round(charge * WHOLE), WHOLE)
-    drives = sum(
-        (batteries.measure_drive(robot, tail, head) for tail, head in itertools.pairwise(places)),
-        Fraction(0),
-    )
-    return max(measured - drives, Fraction(0))
-
-
-def _list_old_steps(own: RobotLedger, kept_parts: int, scenario: Scenario) -> Iterator[PlannedStep]:
-    """Yield the stops of jobs behind what is kept, and those there that no order has yet."""
-    for visit in range(kept_parts, own.route.end):
-        for item in own.route.get_jobs(visit):
-            stop = find_stop(item)
-            if stop is None or (visit == kept_parts and own.is_sent(item)):
-                continue
-            vertex = VertexId(scenario.roadmap.get_vertex(own.route.get_place(visit)))
-            yield PlannedStep(
-                visit=visit - kept_parts,
-                vertex=vertex,
-                begin=Tick(0),
-                end=Tick(0),
-                job=stop[0],
-                stop=stop[1],
-            )
 
 
 def make_routes_of_round(

@@ -12,7 +12,7 @@ from rightofway.dispatch.triggers import Outlook
 from rightofway.execution.monitor import LOOKS
 from rightofway.model import NEVER
 
-__all__ = ["FloorWatch"]
+__all__ = ["FloorWatch", "make_outlook"]
 
 
 class FloorWatch:
@@ -84,22 +84,51 @@ class FloorWatch:
         jobs
             The jobs of the pool.
         """
-        floor, ahead = self._floor, self._floor.fork(now, None)
-        ahead.advance(NEVER - 1)
-        self._noted = [_measure_lateness(own, now) for own in floor.robots]
-        driving = [k for k, own in enumerate(floor.robots) if own.lost is None]
-        ends = {
-            k: own.recent[-1][1]
-            for k, own in enumerate(ahead.robots)
-            if own.lost is None and len(own.visits) == 1
-        }
-        self.outlook = Outlook(
-            planned=self.outlook.planned,
-            expected=sum(max(0, ends[k] - self._takeover) for k in driving if k in ends),
-            too_late=frozenset(_list_late(ahead, jobs)),
-            short=frozenset(k for k in driving if _is_short(ahead, k)),
-            shut_out=frozenset(k for k in driving if len(ahead.robots[k].visits) > 1),
+        self._noted = [_measure_lateness(own, now) for own in self._floor.robots]
+        self.outlook = make_outlook(
+            self._floor, now, self._takeover, jobs, planned=self.outlook.planned
         )
+
+
+def make_outlook(
+    floor: SimulatedFloor,
+    now: int,
+    takeover: int,
+    jobs: Mapping[str, PooledJob],
+    *,
+    planned: int | None,
+) -> Outlook:
+    """Return the forecast of a floor.
+
+    Parameters
+    ----------
+    floor
+        The floor.
+    now
+        The tick.
+    takeover
+        When the plan has taken over [ticks].
+    jobs
+        The jobs of the pool.
+    planned
+        As in `Outlook`; None where it is not known: then as it is expected now.
+    """
+    ahead = floor.fork(now, None)
+    ahead.advance(NEVER - 1)
+    driving = [k for k, own in enumerate(floor.robots) if own.lost is None]
+    ends = {
+        k: own.recent[-1][1]
+        for k, own in enumerate(ahead.robots)
+        if own.lost is None and len(own.visits) == 1
+    }
+    expected = sum(max(0, ends[k] - takeover) for k in driving if k in ends)
+    return Outlook(
+        planned=expected if planned is None else planned,
+        expected=expected,
+        too_late=frozenset(_list_late(ahead, jobs)),
+        short=frozenset(k for k in driving if _is_short(ahead, k)),
+        shut_out=frozenset(k for k in driving if len(ahead.robots[k].visits) > 1),
+    )
 
 
 def _measure_lateness(own: FloorRobot, now: int) -> int:

@@ -30,7 +30,15 @@ from rightofway.model.turning import compute_first_turns, turn_towards
 from rightofway.precedence import list_waits
 from rightofway.site import VertexId
 
-__all__ = ["cap_floor", "lift_caps", "look_at_floor", "splice_round"]
+__all__ = [
+    "cap_floor",
+    "forecast_free",
+    "lift_caps",
+    "list_coming_visits",
+    "look_at_floor",
+    "make_step_to_do",
+    "splice_round",
+]
 
 
 def look_at_floor(
@@ -91,19 +99,8 @@ def _look_at_robot(
     begun: Mapping[str, int],
 ) -> RobotView:
     own, (now, takeover) = ahead.robots[robot], times
-    state, battery = floor.states[robot], floor.states[robot].battery
     own.forget_before(now, floor.rules)
-    turn = state.turn if own.has_worked else 0
-    free = own.free + turn
-    if own.charging is not None or own.lost is not None:  # a charge can be ended at any time
-        free = takeover + turn
-    free, soc = max(free, takeover), Fraction(1)
-    if battery is not None:
-        is_charging, until = own.charging is not None, free - turn
-        ticks = max(0, until - own.counted)
-        left = count_soc(battery, own.soc, ticks, is_charging=is_charging)
-        left -= battery.on * (free - max(until, own.counted))
-        soc = Fraction(max(left, 0), battery.full)
+    free, soc = forecast_free(ahead, robot, takeover)
     rest = list(islice(floor.robots[robot].visits, own.first - floor.robots[robot].first, None))
     return RobotView(
         kept_track=Track.of(
@@ -123,6 +120,33 @@ def _look_at_robot(
         ),
         steps=tuple(_list_rest(rest, own.n_begun)),
     )
+
+
+def forecast_free(ahead: SimulatedFloor, robot: int, takeover: int) -> tuple[Tick, Fraction]:
+    """Return when a robot is free, at the takeover or later, and its state of charge then.
+
+    Parameters
+    ----------
+    ahead
+        A forecast in which the robot has begun all that it keeps.
+    robot
+        Its number.
+    takeover
+        When a plan takes over [ticks].
+    """
+    own, state = ahead.robots[robot], ahead.states[robot]
+    turn, battery = state.turn if own.has_worked else 0, state.battery
+    free = own.free + turn
+    if own.charging is not None or own.lost is not None:  # a charge can be ended at any time
+        free = takeover + turn
+    free = max(free, takeover)
+    if battery is None:
+        return Tick(free), Fraction(1)
+    is_charging, until = own.charging is not None, free - turn
+    ticks = max(0, until - own.counted)
+    left = count_soc(battery, own.soc, ticks, is_charging=is_charging)
+    left -= battery.on * (free - max(until, own.counted))
+    return Tick(free), Fraction(max(left, 0), battery.full)
 
 
 def _expect_times(
@@ -227,7 +251,9 @@ def splice_round(
             own.free = min(own.free, view.takeover)
         steps = _place_steps(floor.scenario, planned.steps[robot], jobs)
         expected = (view.takeover + seen.kept_track.enter).tolist()[-len(kept) :]
-        coming = _list_visits(floor, robot, seen, planned.tracks[robot], view.takeover)
+        coming = list_coming_visits(
+            floor, robot, planned.tracks[robot], seen.heading, view.takeover
+        )
         steps_at_end = (*kept[-1].steps[: seen.n_steps], *steps[0])
         route = [visit._replace(planned=at) for visit, at in zip(kept, expected, strict=True)]
         route[-1] = route[-1]._replace(steps=steps_at_end)
@@ -241,20 +267,32 @@ def splice_round(
         own.forget_before(view.takeover, floor.rules)
 
 
-def _list_visits(
-    floor: SimulatedFloor, robot: int, seen: RobotView, track: Track, takeover: int
+def list_coming_visits(
+    floor: SimulatedFloor, robot: int, track: Track, heading: Fraction | None, begin: int
 ) -> Iterator[tuple[int, int, int, int, int]]:
-    """Yield a new track behind the kept part: the first values of each `VisitToCome`."""
+    """Yield the visits of a track behind its first one: the first values of each `VisitToCome`.
+
+    Parameters
+    ----------
+    floor, robot
+        The floor, and the number of the robot.
+    track
+        Its track.
+    heading
+        Where it begins, as `RobotState.heading` [degrees].
+    begin
+        When the times of the track begin [ticks].
+    """
     roadmap, itinerary = floor.roadmap, floor.scenario.problem.itineraries[robot]
     edges = roadmap.find_edges(track.vertices[:-1], track.vertices[1:])
     drives = np.array(itinerary.edge_ticks, np.int64)[roadmap.class_of_edge[edges]].tolist()
     turns = [0] * len(edges)
     if itinerary.turning is not None and len(edges):
         turns[1:] = itinerary.turning.compute_turns(edges).tolist()
-        heading = floor.convert_heading(seen.heading)
-        first = compute_first_turns(roadmap, itinerary.turning, seen.at, heading)
-        turns[0] = first[int(edges[0]) - int(roadmap.indptr[seen.at])] if first else 0
-    planned = (takeover + track.enter).tolist()
+        start, at_start = int(track.vertices[0]), floor.convert_heading(heading)
+        first = compute_first_turns(roadmap, itinerary.turning, start, at_start)
+        turns[0] = first[int(edges[0]) - int(roadmap.indptr[start])] if first else 0
+    planned = (begin + track.enter).tolist()
     rows = (track.vertices.tolist()[1:], planned[1:], edges.tolist(), turns, drives)
     yield from zip(*rows, strict=True)
 
@@ -265,11 +303,24 @@ def _place_steps(
     """Return what is to do in each visit of a new track."""
     by_visit = defaultdict[int, list[StepToDo]](list)
     for step in steps:
-        by_visit[step.visit].append(_make_step(scenario, step, jobs))
+        by_visit[step.visit].append(make_step_to_do(scenario, step, jobs))
     return by_visit
 
 
-def _make_step(scenario: Scenario, step: PlannedStep, jobs: Mapping[str, PooledJob]) -> StepToDo:
+def make_step_to_do(
+    scenario: Scenario, step: PlannedStep, jobs: Mapping[str, PooledJob]
+) -> StepToDo:
+    """Return work at a stop, or a charge, as a floor has it.
+
+    Parameters
+    ----------
+    scenario
+        The fleet.
+    step
+        What is planned.
+    jobs
+        The jobs of the pool.
+    """
     if step.job is None or step.stop is None:
         return StepToDo(job="", stop=0, ticks=step.least)
     job, count = jobs[step.job].job, scenario.problem.clock.count_ticks
