@@ -13,13 +13,18 @@ from typing import Any
 import pytest
 
 from rightofway.control.broker import Broker
-from rightofway.control.identities import VERSIONS
+from rightofway.control.identities import VERSIONS, make_simulated_identities
+from rightofway.control.plan_fit import PlanFit
 from rightofway.control.probe import Probe
 from rightofway.execution.probe_result import ProbeResult
+from rightofway.facts import Fact
 from rightofway.io import write_plan
 from tests.builders.brokers import MOSQUITTO, Command, Mosquitto, wait_for
 from tests.builders.foreign import NODE, NOOP, PACKAGE, virtual_agvs
+from tests.builders.pages import DOCS, blocks
 from tests.builders.plans import door
+
+CHECKLIST = DOCS / "first-agv.md"
 
 pytestmark = [
     pytest.mark.slow,
@@ -152,3 +157,59 @@ def test_a_broker_that_is_not_there_is_named(broker: Mosquitto) -> None:
     answer = run_command(broker)
     assert answer.returncode == 2
     assert "cannot be reached" in answer.stderr
+
+
+def read_lines(name: str, url: str) -> list[str]:
+    """Return the commands of a block of the checklist, at another broker."""
+    [block] = [one for one in blocks(CHECKLIST) if one.info == ("sh", name)]
+    return [line.replace("mqtt://localhost", url) for line in block.text.splitlines()]
+
+
+def follow(folder: Path, line: str, said: str = "") -> subprocess.CompletedProcess[str]:
+    """Run a command of the page to its end."""
+    words = [sys.executable, "-m", *line.split()]
+    options: Any = {"capture_output": True, "text": True, "timeout": 90}
+    return subprocess.run(words, input=said, cwd=folder, check=False, **options)
+
+
+def test_the_checklist_is_followed_word_for_word(tmp_path: Path, broker: Mosquitto) -> None:
+    """All but mosquitto itself; `test_examples` runs the blocks that need no broker."""
+    for block in blocks(CHECKLIST):
+        if block.file_name is not None:
+            (tmp_path / block.file_name).write_text(block.text, encoding="utf-8")
+    assert follow(tmp_path, "rightofway plan site.yaml -o site.json").returncode == 0
+    _, robots = (line.split()[1:] for line in read_lines("rehearsal", broker.url))
+    with Command(tmp_path, *robots).running() as running:
+        wait_for(lambda: "2 robots are at" in running.log, 60, "robots")
+        for name in ("probe", "fit"):
+            [line] = read_lines(name, broker.url)
+            answer = follow(tmp_path, line, said="y\n")
+            assert "0 findings block the control" in answer.stdout, answer.stdout + answer.stderr
+            if name == "fit":
+                assert "the plan begins at Home" in answer.stdout
+                assert "orders name 4 nodes: Home, Gate, Rack and Dock" in answer.stdout
+                assert "the braking distance of" in answer.stdout
+        drive, go_one, hold, go = read_lines("drive", broker.url)
+        with Command(tmp_path, *drive.split()[1:]).running() as driving:
+            wait_for(lambda: "all robots: hold" in driving.log, 60, "the hold")
+            for line in (go_one, hold, go):
+                assert follow(tmp_path, line).returncode == 0
+            wait_for(lambda: "A2 sets out from Park" in driving.log, 60, "the first drive")
+            assert "A1 sets out" not in driving.log.partition("A2: go")[0]
+
+
+def test_a_robot_that_is_not_at_its_home_is_a_finding(tmp_path: Path, broker: Mosquitto) -> None:
+    """The fit is against the second robot, which begins at N2; the first one is at N0."""
+    write_plan(door(), tmp_path / "plan.json")
+    names = [robot.name for robot in door().scenario.robots]
+    fit = PlanFit(plan=door(), identities=make_simulated_identities(names), robot=1)
+    options = ("--broker", broker.url)
+    with Command(tmp_path, "robots", "plan.json", *options).running() as robots:
+        wait_for(lambda: "2 robots are at" in robots.log, 60, "robots")
+        result = probe(broker, "rightofway", "robot0", fit=fit, settle=0.5)
+    [found] = [it for it in result.findings if it.verdict == "blocks"]
+    assert (found.step, found.fact) == ("plan", Fact("not at home", node="N0", home="N2"))
+    assert list_kinds(result, "plan") == [
+        "not at home", "fits into plan", "nodes to know", "length of base",
+        "base longer than braking", "actions of plan", "actions not listed",
+    ]  # fmt: skip

@@ -23,7 +23,14 @@ from rightofway.facts import Fact
 if TYPE_CHECKING:
     from jsonschema import Draft202012Validator, ValidationError
 
-__all__ = ["MessageAudit", "choose_version", "find_schema"]
+__all__ = [
+    "MessageAudit",
+    "choose_version",
+    "find_schema",
+    "get_list",
+    "get_mapping",
+    "read_position",
+]
 
 SCHEMAS = Path(__file__).with_name("schemas")
 """The official schemas, see the README there."""
@@ -236,3 +243,28 @@ def _name_key(path: Any) -> str:
     for part in path:
         name += "[]" if isinstance(part, int) else f".{part}" if name else str(part)
     return name
+
+
+def read_position(state: Mapping[str, Any]) -> dict[str, Any] | None:
+    """Return x, y and map of a state, None where it has no complete position."""
+    given = get_mapping(state, "agvPosition", "mobileRobotPosition")
+    is_known = given.get("positionInitialized", given.get("localized", True)) is not False
+    numbers = [given.get("x"), given.get("y")]
+    is_complete = all(
+        isinstance(number, int | float) and not isinstance(number, bool) for number in numbers
+    ) and isinstance(given.get("mapId"), str)
+    if not (is_known and is_complete):
+        return None
+    return {"x": float(given["x"]), "y": float(given["y"]), "mapId": given["mapId"]}
+
+
+def get_mapping(document: Mapping[str, Any], *keys: str) -> Mapping[str, Any]:
+    """Return the first of some keys that has a mapping, an empty one without."""
+    values = map(document.get, keys)
+    return next((value for value in values if isinstance(value, Mapping)), {})
+
+
+def get_list(document: Mapping[str, Any], key: str) -> list[Mapping[str, Any]]:
+    """Return the mappings in the list of a key."""
+    given = document.get(key)
+    return [item for item in given if isinstance(item, Mapping)] if isinstance(given, list) else []

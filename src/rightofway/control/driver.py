@@ -227,7 +227,8 @@ class Driver:
         self._heard = [time.monotonic()] * len(self._heard)
         async with asyncio.TaskGroup() as tasks:
             reader = tasks.create_task(self._read(client))
-            fresh = [*self.end.make_letters(self.control.start()), *self.end.ask_for_factsheets()]
+            begun = [*self._supervisor.obey(), *self.control.start()]  # a hold counts at once
+            fresh = [*self.end.make_letters(begun), *self.end.ask_for_factsheets()]
             await self._turn(client, fresh)
             reminded = time.monotonic()
             while stays or not self.is_done:

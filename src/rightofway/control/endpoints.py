@@ -31,8 +31,18 @@ from rightofway.control.simulated_battery import SimulatedBattery
 from rightofway.control.simulated_robot import SimulatedRobot
 from rightofway.errors import InputError, describe_defect, escape_text, quote
 from rightofway.facts import Fact
+from rightofway.model import Scenario
 
-__all__ = ["ControlEnd", "Letter", "RobotEnd", "format_timestamp", "make_timestamp"]
+__all__ = [
+    "ControlEnd",
+    "Letter",
+    "LetterWriter",
+    "RobotEnd",
+    "compare_size",
+    "compare_speed",
+    "format_timestamp",
+    "make_timestamp",
+]
 
 READ = ("state", "connection", "factsheet")
 """Topics that a control listens to."""
@@ -138,7 +148,13 @@ def format_timestamp(moment: datetime) -> str:
 
 
 class LetterWriter:
-    """Writes messages of one end with their heads; `now` gives timestamps."""
+    """A writer of messages of one end with their headers.
+
+    Parameters
+    ----------
+    now
+        Returns the time as messages have it.
+    """
 
     def __init__(self, now: Callable[[], str]) -> None:
         self._now, self._sent = now, Counter[str]()
@@ -146,6 +162,17 @@ class LetterWriter:
     def make_letter(
         self, identity: Identity, name: str, body: vda5050.Body | Mapping[str, Any]
     ) -> Letter:
+        """Return a message with the next header of its topic.
+
+        Parameters
+        ----------
+        identity
+            The robot that sends it or receives it.
+        name
+            The last part of its topic.
+        body
+            The content; a mapping has the names of version 2.1.
+        """
         topic = identity.get_topic(name)
         number, moment = self._sent[topic], self._now()
         self._sent[topic] += 1
@@ -302,29 +329,15 @@ class ControlEnd:
 
     def _compare(self, robot: int, sheet: vda5050.Factsheet) -> None:
         """Report where a robot is slower or larger than the plan takes it to be."""
-        scenario, physical = self._maps[robot].scenario, sheet.physicalParameters
-        own = scenario.robots[robot]
-        metre, second = scenario.units.metres or 1, scenario.units.seconds or 1
-        speed, radius = float(own.speed * metre / second), float(own.radius * metre)
-        top = physical.speedMax
-        if top is not None and top < speed - ROUNDING:
-            begin = Fact("slower than planned", top=top, speed=speed)
+        scenario = self._maps[robot].scenario
+        if (begin := compare_speed(scenario, robot, sheet)) is not None:
             self.notices.begin(robot, "speed", begin, Fact("fast enough"))
         else:
             self.notices.end(robot, "speed")
-        if radius and physical.length is not None and physical.width is not None:
-            needed = hypot(physical.length, physical.width) / 2
-            if needed > radius + ROUNDING:
-                begin = Fact(
-                    "larger than planned",
-                    length=physical.length,
-                    width=physical.width,
-                    radius=radius,
-                    needed=needed,
-                )
-                self.control.refuse(robot)
-                # The control refuses it as long as it runs, so this trouble does not end.
-                self.notices.begin(robot, "size", begin, None)
+        if (begin := compare_size(scenario, robot, sheet)) is not None:
+            self.control.refuse(robot)
+            # The control refuses it as long as it runs, so this trouble does not end.
+            self.notices.begin(robot, "size", begin, None)
 
     def make_letters(self, messages: Iterable[Message]) -> list[Letter]:
         """Return messages of the control as they are sent.
@@ -354,6 +367,36 @@ class ControlEnd:
             InstantAction(robot=robot, action_id=f"factsheet{robot}", kind="factsheetRequest")
             for robot in range(len(self._maps))
         )
+
+
+def compare_speed(scenario: Scenario, robot: int, sheet: vda5050.Factsheet) -> Fact | None:
+    """Return that a robot is slower than in its scenario, None if it is not known to be."""
+    metre, second = scenario.units.metres or 1, scenario.units.seconds or 1
+    speed, top = (
+        float(scenario.robots[robot].speed * metre / second),
+        sheet.physicalParameters.speedMax,
+    )
+    if top is None or top >= speed - ROUNDING:
+        return None
+    return Fact("slower than planned", top=top, speed=speed)
+
+
+def compare_size(scenario: Scenario, robot: int, sheet: vda5050.Factsheet) -> Fact | None:
+    """Return that a robot is larger than in its scenario, None if it is not known to be."""
+    physical = sheet.physicalParameters
+    radius = float(scenario.robots[robot].radius * (scenario.units.metres or 1))
+    if not radius or physical.length is None or physical.width is None:
+        return None
+    needed = hypot(physical.length, physical.width) / 2
+    if needed <= radius + ROUNDING:
+        return None
+    return Fact(
+        "larger than planned",
+        length=physical.length,
+        width=physical.width,
+        radius=radius,
+        needed=needed,
+    )
 
 
 class RobotEnd:

@@ -16,10 +16,17 @@ from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from rightofway.control.broker import Broker
-from rightofway.control.conformance import MessageAudit, choose_version
+from rightofway.control.conformance import (
+    MessageAudit,
+    choose_version,
+    get_list,
+    get_mapping,
+    read_position,
+)
 from rightofway.control.endpoints import Letter, LetterWriter, make_timestamp
 from rightofway.control.identities import Identity
 from rightofway.control.messages import InstantAction
+from rightofway.control.plan_fit import PlanFit
 from rightofway.control.vda5050 import Body, InstantActions, OrderMessage
 from rightofway.errors import InputError, escape_text, quote
 from rightofway.execution.probe_result import ProbeFinding, ProbeResult, Verdict
@@ -79,6 +86,8 @@ class Probe:
         Is called with the node of the first order; returns whether the order may be sent.
     node
         The node of the orders; None for the last node that the robot reports.
+    fit
+        A robot of a plan, with which the real one is compared.
     silence, answer, settle
         How long to wait for a message of the robot, for an answer, and for consequences [s].
     """
@@ -90,12 +99,13 @@ class Probe:
         *,
         ask: Callable[[str], bool],
         node: str | None = None,
+        fit: PlanFit | None = None,
         silence: float = SILENCE,
         answer: float = ANSWER,
         settle: float = SETTLE,
     ) -> None:
         self._names = manufacturer, serial_number
-        self._ask, self._node = ask, node
+        self._ask, self._node, self._fit = ask, node, fit
         self._silence, self._answer, self._settle = silence, answer, settle
         self._findings: list[ProbeFinding] = []
         self._heard = dict[str, dict[str, Any]]()  # the latest message of each topic
@@ -156,6 +166,8 @@ class Probe:
         state = self._heard.get("state")
         if state is None:
             return
+        if self._fit is not None:
+            self._findings += self._fit.compare(state, self._heard.get("factsheet"))
         node = state.get("lastNodeId") if self._node is None else self._node
         if not isinstance(node, str) or not node:
             self._note("order", "note", Fact("no node for an order"))
@@ -273,7 +285,7 @@ class Probe:
         place = state.get("lastNodeId")
         known = Fact("last node reported", node=escape_text(place)) if place else None
         self._note("state", "ok" if known else "note", known or Fact("no last node"))
-        position = _read_position(state)
+        position = read_position(state)
         if position is None:
             self._note("state", "note", Fact("no position"))
         else:
@@ -284,7 +296,7 @@ class Probe:
         mode = state.get("operatingMode")
         if mode not in DRIVING_MODES:
             self._note("state", "blocks", Fact("mode without orders", mode=escape_text(str(mode))))
-        safety = _get_mapping(state, "safetyState")
+        safety = get_mapping(state, "safetyState")
         stop = safety.get("eStop", safety.get("activeEmergencyStop", "NONE"))
         if stop not in {"NONE", None}:
             self._note("state", "blocks", Fact("in emergency stop", stop=escape_text(str(stop))))
@@ -296,7 +308,7 @@ class Probe:
         self._note_charge(state)
 
     def _note_charge(self, state: State) -> None:
-        battery = _get_mapping(state, "batteryState", "powerSupply")
+        battery = get_mapping(state, "batteryState", "powerSupply")
         charge = battery.get("batteryCharge", battery.get("stateOfCharge"))
         if not isinstance(charge, int | float) or isinstance(charge, bool):
             self._note("state", "note", Fact("no charge"))
@@ -323,7 +335,7 @@ class Probe:
         """Return the status of an action in the latest state."""
         state = self._heard.get("state", {})
         for key in ("actionStates", "instantActionStates"):
-            for action in _get_list(state, key):
+            for action in get_list(state, key):
                 if action.get("actionId") == action_id:
                     return escape_text(str(action.get("actionStatus")))
         return None
@@ -440,7 +452,7 @@ class Probe:
 
     def _make_result(self) -> ProbeResult:
         identity, audit = self._identity, self._audit
-        position = _read_position(self._heard.get("state", {}))
+        position = read_position(self._heard.get("state", {}))
         return ProbeResult(
             manufacturer=self._names[0],
             serial_number=self._names[1],
@@ -465,7 +477,7 @@ def _make_order(
     order_id: str, update_id: int, sequence_id: int, node: str, state: State
 ) -> OrderMessage:
     """Return an order of a single node, at the position that the robot reports."""
-    position = _read_position(state)
+    position = read_position(state)
     place = position and {**position, "allowedDeviationXY": 1.0}
     only = {"nodeId": node, "sequenceId": sequence_id, "released": True, "actions": []}
     document = {
@@ -477,42 +489,17 @@ def _make_order(
     return OrderMessage.model_validate(document)
 
 
-def _read_position(state: State) -> dict[str, Any] | None:
-    """Return x, y and map of a state, None where it has no complete position."""
-    given = _get_mapping(state, "agvPosition", "mobileRobotPosition")
-    is_known = given.get("positionInitialized", given.get("localized", True)) is not False
-    numbers = [given.get("x"), given.get("y")]
-    is_complete = all(
-        isinstance(number, int | float) and not isinstance(number, bool) for number in numbers
-    ) and isinstance(given.get("mapId"), str)
-    if not (is_known and is_complete):
-        return None
-    return {"x": float(given["x"]), "y": float(given["y"]), "mapId": given["mapId"]}
-
-
 def _list_errors(state: State) -> list[tuple[str, str]]:
     """Return type and level of each error of a state."""
     return [
         (escape_text(str(error.get("errorType"))), escape_text(str(error.get("errorLevel"))))
-        for error in _get_list(state, "errors")
+        for error in get_list(state, "errors")
     ]
-
-
-def _get_mapping(document: State, *keys: str) -> Mapping[str, Any]:
-    """Return the first of some keys that has a mapping, an empty one without."""
-    values = map(document.get, keys)
-    return next((value for value in values if isinstance(value, Mapping)), {})
-
-
-def _get_list(document: State, key: str) -> list[Mapping[str, Any]]:
-    """Return the mappings in the list of a key."""
-    given = document.get(key)
-    return [item for item in given if isinstance(item, Mapping)] if isinstance(given, list) else []
 
 
 def _read_sheet(sheet: State) -> Iterator[tuple[Verdict, Fact]]:
     """Yield the findings in a factsheet."""
-    physical = _get_mapping(sheet, "physicalParameters")
+    physical = get_mapping(sheet, "physicalParameters")
     speed = physical.get("speedMax", physical.get("maximumSpeed"))
     sizes = [physical.get("length"), physical.get("width"), speed]
     if all(isinstance(size, int | float) for size in sizes):
@@ -520,15 +507,15 @@ def _read_sheet(sheet: State) -> Iterator[tuple[Verdict, Fact]]:
         yield "ok", fact
     else:
         yield "note", Fact("no size")
-    features = _get_mapping(sheet, "protocolFeatures")
+    features = get_mapping(sheet, "protocolFeatures")
     names = "agvActions" if "agvActions" in features else "mobileRobotActions"
-    known = {escape_text(str(action.get("actionType"))) for action in _get_list(features, names)}
+    known = {escape_text(str(action.get("actionType"))) for action in get_list(features, names)}
     if known:
         yield "ok", Fact("actions known", names=tuple(sorted(known)))
     if missing := [name for name in ACTIONS if name not in known]:
         yield "note", Fact("actions not listed", names=tuple(missing))
-    limits = _get_mapping(
-        _get_mapping(sheet, "protocolLimits"), "maxArrayLens", "maximumArrayLengths"
+    limits = get_mapping(
+        get_mapping(sheet, "protocolLimits"), "maxArrayLens", "maximumArrayLengths"
     )
     longest = limits.get("order.nodes")
     if isinstance(longest, int) and longest > 0:

@@ -26,9 +26,13 @@ def add_login_options(command: Any) -> Any:
     return command
 
 
+def add_identities_option(command: Any) -> Any:
+    """Add the option that names the robots."""
+    return click.option("--identities", metavar="FILE",
+                        help="Manufacturer and serial number of each robot (YAML)."
+                        )(command)  # fmt: skip
+
+
 def add_broker_options(command: Any) -> Any:
     """Add the options of a broker, and of the identities of its robots."""
-    identities = click.option("--identities", metavar="FILE",
-                              help="Manufacturer and serial number of each robot (YAML)."
-                              )  # fmt: skip
-    return add_login_options(identities(command))
+    return add_login_options(add_identities_option(command))

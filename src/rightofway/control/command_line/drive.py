@@ -111,6 +111,9 @@ def _count(_context: click.Context, _parameter: click.Parameter, given: str | No
               help="Serve metrics for Prometheus at a port of this machine.")  # fmt: skip
 @click.option("--stay", is_flag=True,
               help="Go on when all robots have come to the end of their way.")  # fmt: skip
+@click.option("--hold", is_flag=True,
+              help="With --broker, begin with all robots on hold: `rightofway jobs` and the page"
+              " release them.")  # fmt: skip
 @click.option("--time-scale", default="10", show_default=True, callback=_read_factor,
               metavar="FACTOR",
               help="With --demo, seconds of the plan in each second, or its time units where it has"
@@ -144,6 +147,7 @@ def drive(
     port: int | None,
     metrics: int | None,
     stay: bool,
+    hold: bool,
     time_scale: float,
     delays: tuple[str, ...],
     seed: int,
@@ -193,7 +197,7 @@ def drive(
         address = Broker.of(broker, password_file=password_file, ca_file=ca_file)
         return _drive_at(
             address, known, journal_file, output,
-            laps=laps, switch=switch, metrics=metrics, stays=stay,
+            laps=laps, switch=switch, metrics=metrics, stays=stay, holds=hold,
         )  # fmt: skip
     if dry_run:
         from rightofway.control.demo import drive_demo
@@ -329,6 +333,7 @@ def _drive_at(
     metrics: int | None,
     switch: bool,
     stays: bool,
+    holds: bool,
 ) -> int:
     """Drive a plan with robots at a broker, and report; return the exit code."""
     from rightofway.control.commands import Commands
@@ -347,13 +352,16 @@ def _drive_at(
         counted.serve(metrics)
     with ExitStack() as stack:
         with closing(SqliteJournal(journal)) as opened:
+            commands = Commands(journal)
+            if holds:
+                commands.ask({"kind": "hold"})
             with name_file(str(journal)):
                 driver = Driver(
                     plan,
                     identities,
                     opened,
                     laps=laps,
-                    commands=Commands(journal),
+                    commands=commands,
                     switch=switch,
                     report=lambda fact: _print_sentence(writer.write(fact)),
                     metrics=counted,

@@ -3,25 +3,40 @@
 from __future__ import annotations
 
 import asyncio
+from typing import TYPE_CHECKING
 
 import click
 
+from rightofway.cli.completion import PLANS, complete_files
+from rightofway.cli.inputs import read_plan
 from rightofway.cli.options import as_json_option
 from rightofway.cli.terminal import complain, put_json, put_report
-from rightofway.control.command_line.broker_options import add_login_options
-from rightofway.errors import InputError, quote
+from rightofway.control.command_line.broker_options import (
+    add_identities_option,
+    add_login_options,
+)
+from rightofway.errors import InputError, find_nearest, quote
+
+if TYPE_CHECKING:
+    from rightofway.control.plan_fit import PlanFit
 
 EXAMPLES = """\b
 Examples:
   rightofway probe --broker mqtt://hub --identity ACME/A-001
   rightofway probe --broker mqtt://hub --identity ACME/A-001 --order N4 --json
+  rightofway probe --broker mqtt://hub --plan p.json --identities r.yaml --robot R1
 """
 
 
 @click.command(epilog=EXAMPLES, short_help="Ask one robot how it speaks VDA 5050.")
 @add_login_options
-@click.option("--identity", required=True, metavar="MANUFACTURER/SERIAL",
+@click.option("--identity", metavar="MANUFACTURER/SERIAL",
               help="The robot, as its topics name it.")  # fmt: skip
+@click.option("--plan", "plan", type=click.Path(), shell_complete=complete_files(*PLANS),
+              help="Compare the robot with the orders of this plan; it needs --identities and"
+              " --robot.")  # fmt: skip
+@add_identities_option
+@click.option("--robot", metavar="NAME", help="The robot in the plan.")
 @click.option("--order", "node", metavar="NODE",
               help="Send the orders of the probe without asking, at this node. By default the"
               " command asks first, and takes the node where the robot is.")  # fmt: skip
@@ -31,7 +46,10 @@ def probe(
     broker: str | None,
     password_file: str | None,
     ca_file: str | None,
-    identity: str,
+    identity: str | None,
+    plan: str | None,
+    identities: str | None,
+    robot: str | None,
     node: str | None,
     as_json: bool,
 ) -> int:
@@ -46,10 +64,8 @@ def probe(
 
     if broker is None:
         raise click.UsageError("a robot is at a broker (give --broker)")
-    manufacturer, slash, serial = identity.partition("/")
-    if not (manufacturer and slash and serial):
-        message = f"{quote(identity)} is no robot (give its manufacturer and serial: ACME/A-001)"
-        raise InputError.at("identity", message)
+    fit = _choose_robot(plan, identities, robot)
+    manufacturer, serial = _read_identity(identity, fit)
     address = Broker.of(broker, password_file=password_file, ca_file=ca_file)
 
     def ask(place: str) -> bool:
@@ -58,7 +74,7 @@ def probe(
         )
 
     complain(f"listening at {address.address}; a robot reports every 30 s at least")
-    talk = Probe(manufacturer, serial, ask=ask, node=node)
+    talk = Probe(manufacturer, serial, ask=ask, node=node, fit=fit)
     result = asyncio.run(talk.run(address))
     if as_json:
         put_json(result.as_dict())
@@ -67,3 +83,36 @@ def probe(
 
         put_report(report_probe(result))
     return int(result.count("departs") + result.count("blocks") > 0)
+
+
+def _choose_robot(plan: str | None, identities: str | None, robot: str | None) -> PlanFit | None:
+    """Return the robot of a plan with which the real one is compared; None without a plan."""
+    if plan is None and identities is None and robot is None:
+        return None
+    if plan is None or identities is None or robot is None:
+        raise click.UsageError("--plan, --identities and --robot belong together (give all three)")
+    from rightofway.control.identities import load_identities
+    from rightofway.control.plan_fit import PlanFit
+
+    opened = read_plan(plan)
+    names = [known.name for known in opened.scenario.robots]
+    if robot not in names:
+        near = find_nearest(robot, names)
+        remedy = f"did you mean {near!r}?" if near else f"the first one is {names[0]!r}"
+        raise InputError.at("robot", f"the plan has no robot {quote(robot)} ({remedy})")
+    fleet = load_identities(identities, names)
+    return PlanFit(plan=opened, identities=fleet, robot=names.index(robot))
+
+
+def _read_identity(identity: str | None, fit: PlanFit | None) -> tuple[str, str]:
+    """Return manufacturer and serial number of the robot."""
+    if fit is not None and identity is None:
+        own = fit.identities[fit.robot]
+        return own.manufacturer, own.serial_number
+    if identity is None:
+        raise click.UsageError("a probe is of one robot (give --identity, or --plan and --robot)")
+    manufacturer, _, serial = identity.partition("/")
+    if not (manufacturer and serial):
+        message = f"{quote(identity)} is no robot (give its manufacturer and serial: ACME/A-001)"
+        raise InputError.at("identity", message)
+    return manufacturer, serial
