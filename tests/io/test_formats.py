@@ -1,17 +1,21 @@
 """The JSON Schemas say what the readers take."""
 
 import copy
+import json
 from pathlib import Path
 from typing import Any
 
 import jsonschema
 import pytest
 
+from rightofway.dispatch import ShiftRecord
+from rightofway.dispatch.record_file import dump_shift, parse_shift
 from rightofway.errors import InputError
 from rightofway.io import dump_plan, load, make_schema, parse_plan
 from rightofway.io.documents import parse_document
 from rightofway.io.yaml_text import parse_yaml
 from rightofway.model import Job, Plan, PlannerRun, Track
+from tests.builders.shifts import draw_shift, make_shift
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = sorted((ROOT / "examples").glob("*.yaml"))
@@ -31,7 +35,7 @@ def fits(document: Any, kind: Any) -> bool:
     return bool(validator.is_valid(document))
 
 
-@pytest.mark.parametrize("kind", ["scenario", "plan"])
+@pytest.mark.parametrize("kind", ["scenario", "plan", "shift"])
 def test_a_schema_is_a_schema_and_says_what_each_key_is_for(kind: Any) -> None:
     jsonschema.Draft202012Validator.check_schema(make_schema(kind))
     format_name = make_schema(kind)["properties"]["format"]
@@ -63,6 +67,30 @@ def test_every_plan_that_is_written_fits(path: Path) -> None:
     plan = Plan(scenario=scenario, tracks=homes, run=run, **idle)
     assert fits(dump_plan(plan), "plan")
     assert parse_plan(dump_plan(plan)) == plan
+
+
+@pytest.mark.parametrize("shift", [make_shift(), make_shift(8), draw_shift(3)])
+def test_every_shift_that_is_written_fits(shift: ShiftRecord) -> None:
+    document = json.loads(json.dumps(dump_shift(shift)))
+    assert fits(document, "shift")
+    assert dump_shift(parse_shift(document)) == document
+
+
+def test_a_shift_is_refused_with_every_fault_and_its_place() -> None:
+    document = json.loads(json.dumps(dump_shift(make_shift())))
+    document["until"] = "late"
+    document["robots"][0]["soc"] = [[1]]
+    document["jobs"][1]["reason"] = "no"
+    del document["rounds"][0]["facts"]
+    assert not fits(document, "shift")
+    with pytest.raises(InputError) as caught:
+        parse_shift(document)
+    assert [str(fault).partition(" (give")[0] for fault in caught.value.faults] == [
+        "until: 'late' is not a whole number",
+        "robots[0].soc[0][1]: is missing",
+        "jobs[1].reason: 'no' does not fit",
+        "rounds[0].facts: is missing",
+    ]
 
 
 @pytest.mark.parametrize("name", BY_SHAPE)
@@ -102,5 +130,6 @@ def test_a_wrong_value_does_not_fit(key: str, value: Any) -> None:
 
 
 def test_there_is_no_schema_of_anything_else() -> None:
-    with pytest.raises(InputError, match=r"kind: 'fleet' is unknown \(give plan, scenario or"):
+    message = r"kind: 'fleet' is unknown \(give plan, scenario, shift or suite\)"
+    with pytest.raises(InputError, match=message):
         make_schema("fleet")  # type: ignore[arg-type]

@@ -137,9 +137,10 @@ def convert(
 
 def _read_shift(source: str) -> Plan | None:
     """Return what robots have done in a shift as a plan, or None for any other file."""
-    from rightofway.dispatch.record_file import SHIFT_FORMAT, parse_shift
+    from rightofway.dispatch.record_file import parse_shift
     from rightofway.errors import name_file
     from rightofway.io.content import read_text
+    from rightofway.io.formats import SHIFT_FORMAT
     from rightofway.io.json_text import parse_json
 
     if not source.lower().endswith(".json"):
@@ -294,9 +295,9 @@ def _write_pair(scenario: Scenario, path: Path) -> None:
 
 
 @click.command(epilog="Example:  rightofway schema scenario > scenario.schema.json")
-@click.argument("kind", type=click.Choice(["scenario", "plan", "suite"]))
-def schema(kind: Literal["scenario", "plan", "suite"]) -> None:
-    """Print the JSON Schema of scenario, plan or suite files."""
+@click.argument("kind", type=click.Choice(["scenario", "plan", "shift", "suite"]))
+def schema(kind: Literal["scenario", "plan", "shift", "suite"]) -> None:
+    """Print the JSON Schema of scenario, plan, shift or suite files."""
     from rightofway.io import make_schema
 
     put_json(make_schema(kind))

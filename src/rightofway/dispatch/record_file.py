@@ -20,7 +20,8 @@ from rightofway.dispatch.record import (
 from rightofway.errors import InputError, name_file
 from rightofway.facts import read_fact
 from rightofway.io.content import read_text
-from rightofway.io.formats import check_format
+from rightofway.io.faults import validate
+from rightofway.io.formats import SHIFT_FORMAT, check_format
 from rightofway.io.json_text import parse_json
 from rightofway.io.scenario.loaded_map import LoadedMap
 from rightofway.io.scenario.reader import parse_scenario
@@ -31,10 +32,7 @@ from rightofway.kinds.numbers import format_number
 from rightofway.model import Tick
 from rightofway.site import Roadmap
 
-__all__ = ["SHIFT_FORMAT", "dump_shift", "load_shift", "parse_shift"]
-
-SHIFT_FORMAT = "rightofway-shift/1"
-"""The value of the key ``format``."""
+__all__ = ["dump_shift", "load_shift", "parse_shift"]
 
 
 def dump_shift(record: ShiftRecord) -> dict[str, Any]:
@@ -118,9 +116,12 @@ def parse_shift(document: Mapping[str, Any]) -> ShiftRecord:
     Raises
     ------
     InputError
-        If it is of another format, or a key is missing or has another kind of value.
+        If it is of another format, or with every key that is missing or has another kind of value.
     """
-    check_format(document, SHIFT_FORMAT)
+    from rightofway.io.shift import ShiftFrame
+
+    document = check_format(document, SHIFT_FORMAT)
+    validate(ShiftFrame, document)
     try:
         return _parse(document)
     except (KeyError, TypeError, ValueError, AttributeError) as error:

@@ -11,6 +11,7 @@ SCENARIO_FORMAT = "rightofway-scenario/1"
 PLAN_FORMAT = "rightofway-plan/1"
 PLAN_OF_JOBS_FORMAT = "rightofway-plan/2"
 SUITE_FORMAT = "rightofway-suite/1"
+SHIFT_FORMAT = "rightofway-shift/1"
 
 
 def check_format(document: Any, known: str, *others: str) -> dict[str, Any]:
@@ -44,7 +45,7 @@ def _describe_unwanted(value: object, known: str) -> str:
     return f"not known here (give {known}, or update)"
 
 
-def make_schema(kind: Literal["scenario", "plan", "suite"]) -> dict[str, Any]:
+def make_schema(kind: Literal["scenario", "plan", "shift", "suite"]) -> dict[str, Any]:
     """Return the JSON Schema (2020-12) of a kind of document.
 
     Parameters
@@ -66,11 +67,13 @@ def make_schema(kind: Literal["scenario", "plan", "suite"]) -> dict[str, Any]:
 
     from rightofway.io.plan.shape import PlanDocument
     from rightofway.io.scenario.shape import ScenarioDocument
+    from rightofway.io.shift import ShiftDocument
     from rightofway.io.suite import SuiteDocument
 
     models: dict[str, type[BaseModel]] = {
         "scenario": ScenarioDocument,
         "plan": PlanDocument,
+        "shift": ShiftDocument,
         "suite": SuiteDocument,
     }
     model = models[make_words(*sorted(models)).read_at("kind", kind)]
