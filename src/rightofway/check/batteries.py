@@ -12,7 +12,7 @@ from math import lcm
 from rightofway.check.faults import Fault, FaultKind
 from rightofway.check.visits import Visits
 from rightofway.check.work import TourOfPlan, lay_out_tours
-from rightofway.model import Battery, PlannedItem, Scenario, Tick
+from rightofway.model import NEVER, Battery, PlannedItem, Scenario, Tick
 from rightofway.site import VertexId
 
 
@@ -80,13 +80,13 @@ class _Charge:
         battery, of which a full one has `unit`.
         """
         state, tick = self.own.state, self.scenario.problem.clock.tick
-        falls = self._list_drives(unit)
-        moments = {state.ready, self.rest, *falls}
+        falls, rest = self._list_drives(unit), self.rest
+        moments = {state.ready, rest, *falls}
         moments.update(moment for item in self.own.tour for moment in (item.begin, item.end))
-        within = sorted(moment for moment in moments if state.ready <= moment <= self.rest)
+        within = sorted(moment for moment in moments if state.ready <= moment <= rest)
         charge = int(self.battery.charge * tick * unit)
         on, work = (int(share * tick * unit) for share in (self.battery.on, self.battery.work))
-        reserve = int(self.battery.reserve * unit)
+        reserve, low_until = int(self.battery.reserve * unit), self._find_end_of_low()
         soc, visit = int(self.soc * unit) - falls.get(state.ready, 0), 0
         coming = sorted(self.own.tour, key=lambda item: item.begin, reverse=True)
         during = list[PlannedItem]()
@@ -102,7 +102,7 @@ class _Charge:
                 soc -= falls.get(moment, 0)
             while visit + 1 < len(self.own.enter) and self.own.enter[visit + 1] <= moment:
                 visit += 1
-            least = 0 if self._may_be_low(moment) else reserve
+            least = 0 if moment < low_until else reserve
             yield moment, self.own.vertices[visit], soc, least
 
     def _list_drives(self, unit: int) -> dict[int, int]:
@@ -115,12 +115,14 @@ class _Charge:
                 falls[enter] = falls.get(enter, 0) + share
         return falls
 
-    def _may_be_low(self, moment: int) -> bool:
-        """Return whether the reserve may be used: a robot that begins below it charges first."""
+    def _find_end_of_low(self) -> int:
+        """Return until when the reserve may be used: a robot that begins below it charges first."""
         if self.soc >= self.battery.reserve:
-            return False
+            return 0
         first: PlannedItem | None = self.own.tour[0] if self.own.tour else None
-        return first is None or (first.job is None and moment < first.end)
+        if first is None:
+            return NEVER
+        return first.end if first.job is None else 0
 
     def _measure_way_to_charge(self) -> Fraction | None:
         """Return the least share for a drive from the last vertex to a charging place.

@@ -41,7 +41,7 @@ class FloorWatch:
         self._drive = median_low(drives) if drives else 1
 
     def take_over(self, now: int, jobs: Mapping[str, PooledJob]) -> None:
-        """Begin to look at the plan that has taken over.
+        """Begin to look at a plan that has just taken over.
 
         Parameters
         ----------
@@ -57,7 +57,7 @@ class FloorWatch:
         planned = sum(max(0, span) for span in spans)
         self.outlook = Outlook(planned=planned, expected=planned)
         if before.too_late or before.short or before.shut_out:  # the plan may not have mended it
-            self.look_ahead(now, jobs)
+            self._look_ahead(now, jobs)
 
     def look(self, now: int, jobs: Mapping[str, PooledJob]) -> None:
         """Renew the forecast if a robot is later than last expected.
@@ -72,18 +72,10 @@ class FloorWatch:
         late = [_measure_lateness(own, now) for own in self._floor.robots]
         self._noted = list(map(min, self._noted, late))
         if any(own > noted + self._patience for own, noted in zip(late, self._noted, strict=True)):
-            self.look_ahead(now, jobs)
+            self._look_ahead(now, jobs)
 
-    def look_ahead(self, now: int, jobs: Mapping[str, PooledJob]) -> None:
-        """Renew the forecast.
-
-        Parameters
-        ----------
-        now
-            The tick.
-        jobs
-            The jobs of the pool.
-        """
+    def _look_ahead(self, now: int, jobs: Mapping[str, PooledJob]) -> None:
+        """Renew the forecast."""
         self._noted = [_measure_lateness(own, now) for own in self._floor.robots]
         self.outlook = make_outlook(
             self._floor, now, self._takeover, jobs, planned=self.outlook.planned

@@ -273,7 +273,6 @@ class _Shift:
         if planned.stands:
             lift_caps(self._floor)
             self._n_stood += 1
-            self._watch.look_ahead(self._now, jobs)
         else:
             self._n_stood = 0
             splice_round(self._floor, view, planned, jobs)

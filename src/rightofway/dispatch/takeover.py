@@ -243,19 +243,19 @@ def splice_round(
     ):
         waits[robot, number].append((other, visit))
     for robot, (own, seen) in enumerate(zip(floor.robots, view.robots, strict=True)):
-        kept = list(islice(own.visits, seen.last - own.first + 1))
-        if len(kept) == 1:
+        route = list(islice(own.visits, seen.last - own.first + 1))
+        if len(route) == 1:
             own.heading = floor.convert_heading(seen.heading)
         own.since, own.cap = view.takeover, None
         if own.charging is not None:
             own.free = min(own.free, view.takeover)
         steps = _place_steps(floor.scenario, planned.steps[robot], jobs)
-        expected = (view.takeover + seen.kept_track.enter).tolist()[-len(kept) :]
+        expected = (view.takeover + seen.kept_track.enter).tolist()[-len(route) :]
         coming = list_coming_visits(
             floor, robot, planned.tracks[robot], seen.heading, view.takeover
         )
-        steps_at_end = (*kept[-1].steps[: seen.n_steps], *steps[0])
-        route = [visit._replace(planned=at) for visit, at in zip(kept, expected, strict=True)]
+        steps_at_end = (*route[-1].steps[: seen.n_steps], *steps[0])
+        route = [visit._replace(planned=at) for visit, at in zip(route, expected, strict=True)]
         route[-1] = route[-1]._replace(steps=steps_at_end)
         route += (
             VisitToCome(*row, steps=tuple(steps.get(k, ()))) for k, row in enumerate(coming, 1)

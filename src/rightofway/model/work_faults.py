@@ -6,13 +6,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from graphlib import CycleError, TopologicalSorter
 from itertools import takewhile
+from math import lcm
 
 from rightofway.errors import InputFault, Where, find_nearest, quote
 from rightofway.model.bind_work import Shift, get_state
 from rightofway.model.problem import HEAVIEST, scale_weights
 from rightofway.model.robot import Robot
 from rightofway.model.work import Job, JobStop, RobotState
-from rightofway.site import Point, Roadmap, measure_squared_distance
+from rightofway.site import Roadmap
 from rightofway.units import write_decimal
 
 MAX_STOPS = 1_000_000
@@ -244,27 +245,43 @@ def _find_near_starts(scenario: Shift) -> Iterator[InputFault]:
     largest = max(robot.radius for robot in robots)
     if largest <= 0 or not all(0 <= at < roadmap.n_vertices for at in starts):
         return
-    at = [roadmap.get_position(start) for start in starts]
-    reach = 2 * largest + scenario.rules.clearance
+    at, least_of = _scale_starts(scenario, starts)
     by_x = sorted(range(len(robots)), key=lambda robot: at[robot])
+    reach = least_of[largest, largest]
     near = (
         sorted((first, other))
         for place, first in enumerate(by_x)
-        for other in _list_within(by_x[place + 1 :], at, at[first][0] + reach)
+        for other in takewhile(
+            lambda robot, end=at[first][0] + reach: at[robot][0] < end,  # type: ignore[misc]
+            by_x[place + 1 :],
+        )
+        if abs(at[first][1] - at[other][1]) < reach
     )
     for first, other in near:
-        radii = robots[first].radius + robots[other].radius
-        least = radii + scenario.rules.clearance if radii else Fraction(0)
-        square = measure_squared_distance(at[first], at[other])
-        if starts[first] != starts[other] and square < least**2:
+        radii = robots[first].radius, robots[other].radius
+        (x, y), (other_x, other_y) = at[first], at[other]
+        square = (x - other_x) ** 2 + (y - other_y) ** 2
+        if starts[first] != starts[other] and square < least_of[radii] ** 2:
+            least = sum(radii) + scenario.rules.clearance
             message = f"{roadmap.name(starts[other])} is nearer than {write_decimal(least)} to the"
             message += f" start of {robots[first].name} (move one of them)"
             yield InputFault(("robots", other, "start", "at"), message, ("robots", first))
 
 
-def _list_within(robots: Sequence[int], at: Sequence[Point], end: Fraction) -> Iterator[int]:
-    """Yield robots, sorted by x, as long as their x is below the end."""
-    return takewhile(lambda robot: at[robot][0] < end, robots)
+def _scale_starts(
+    scenario: Shift, starts: Sequence[int]
+) -> tuple[list[tuple[int, int]], dict[tuple[Fraction, Fraction], int]]:
+    """Return starts, and least distances of robots by their radii, as multiples of one length."""
+    clearance, radii = scenario.rules.clearance, {robot.radius for robot in scenario.robots}
+    points = [scenario.roadmap.get_position(start) for start in starts]
+    numbers = (clearance, *radii, *(axis for point in points for axis in point))
+    scale = lcm(*(number.denominator for number in numbers))
+    least_of = {
+        (radius, other): int((radius + other + clearance) * scale) if radius + other else 0
+        for radius in radii
+        for other in radii
+    }
+    return [(int(x * scale), int(y * scale)) for x, y in points], least_of
 
 
 def _name(vertex: int, roadmap: Roadmap) -> str:
