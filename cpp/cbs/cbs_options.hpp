@@ -1,4 +1,4 @@
-// What makes conflict-based search fast, each part to be switched.
+// Techniques that accelerate conflict-based search; each can be switched off.
 #pragma once
 
 #include <cstdint>

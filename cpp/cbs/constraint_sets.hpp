@@ -1,4 +1,4 @@
-// Constraints of conflict-based search: bookings of nobody, in sets of which each is kept once.
+// Constraints of conflict-based search: bookings without a robot, in sets that are stored once.
 #pragma once
 
 #include <compare>

@@ -1,4 +1,4 @@
-// What pairs of robots lose to each other, each pair solved for itself.
+// Time that pairs of robots lose to each other; each pair is solved separately.
 //
 // Li, Felner, Boyarski, Ma & Koenig, "Improved heuristics for multi-agent path finding with
 // conflict-based search", IJCAI 2019 (weighted dependency graph).

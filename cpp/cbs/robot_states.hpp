@@ -1,4 +1,4 @@
-// What one robot of a joint search can do: its states, numbered, and the steps between them.
+// States of one robot of a joint search, numbered, and the steps between them.
 //
 // A state says what the robot does and since when, counted from the instant of the state: it stays
 // at a vertex, or drives along an edge, and what it has left is booked for a headway more. How long

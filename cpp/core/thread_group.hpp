@@ -1,4 +1,4 @@
-// Threads that are joined on every way out of a block, and what one of them throws.
+// Threads that are joined on every way out of a block; an exception of a thread is rethrown.
 //
 // An exception that leaves a thread ends the program, and so does a thread that nobody joins. Here
 // the first exception waits for the calling thread. (std::jthread only joins, and libc++ on Apple

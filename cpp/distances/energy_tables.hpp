@@ -1,4 +1,4 @@
-// What drives take from a battery: on the quickest ways to a place, and at least to one of several.
+// Charge that drives take: on the quickest ways to a place, and at least to one of several.
 //
 // Energies are whole numbers; sums end at a given most, because no battery has more.
 #pragma once

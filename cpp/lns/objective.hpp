@@ -1,4 +1,4 @@
-// What plans of a fleet are compared by: the objective, and the worth of a plan under it.
+// Comparison of plans of a fleet: the objective, and the worth of a plan under it.
 #pragma once
 
 #include <compare>

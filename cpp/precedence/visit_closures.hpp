@@ -1,5 +1,5 @@
 // When the places that visits book are closed: the vertex of each visit, and the edge driven into
-// it. Closures are bookings of nobody; see Closures in problem.hpp.
+// it. Closures are bookings without a robot; see problem.hpp.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The tour of one robot: its stops in order, their times, and what a change would cost.
+// The tour of one robot: its stops in order, their times, and the cost of a change.
 //
 // Insertions are evaluated in constant time per position, without battery exactly. Up to each gap
 // the tour keeps when the robot leaves, its load and its cost so far; from each gap on, as

@@ -1,4 +1,4 @@
-// The tours of a fleet, which jobs they serve, and what they cost.
+// The tours of a fleet, the jobs that they serve, and their cost.
 //
 // Where jobs come after others, the ends of jobs in one tour are releases in another: tours are
 // timed again until no release changes. Insertions keep the order acyclic, so this ends.
