@@ -92,7 +92,7 @@ def test_findings_have_places_in_json(cli: Cli) -> None:
 
 def test_a_site_without_findings_says_so(cli: Cli) -> None:
     Path("open.map").write_text("type octile\nheight 2\nwidth 2\nmap\n..\n..\n", encoding="utf-8")
-    assert cli("inspect", "open.map").out.endswith("Nothing was found that will hurt.\n")
+    assert cli("inspect", "open.map").out.endswith("No problems found.\n")
 
 
 def test_a_scenario_may_come_from_standard_input(

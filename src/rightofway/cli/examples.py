@@ -68,7 +68,7 @@ def new(file: str) -> None:
 @click.command(epilog=EXAMPLES_EXAMPLES, short_help="List, print or copy the example files.")
 @click.argument("name", required=False, shell_complete=complete_words(list_example_names))
 @click.option("-o", "--output", metavar="FILE", callback=require_writable(),
-              help="Write the example NAME to this file, and the maps that it needs beside it.",
+              help="Write the example NAME to this file, with its maps in the same folder.",
               )  # fmt: skip
 @click.option("--copy", "parent", metavar="FOLDER", type=click.Path(exists=True, file_okay=False),
               help="Copy all examples to FOLDER/examples.")  # fmt: skip

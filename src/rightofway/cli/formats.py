@@ -107,7 +107,7 @@ def convert(
     layout of another program (LIF, Nav2, Open-RMF, ROS map, openTCS, GraphML, CSV) becomes a
     scenario, .yaml or .json, that has the layout as its map and a few robots to begin with.
     With --to, or to a file that ends in .geojson (Nav2), .graphml or .lif.json, it is written
-    for another program, and a message names what its format cannot say.
+    for another program, and a message names the parts that its format cannot hold.
     """
     from rightofway.model import Plan
 

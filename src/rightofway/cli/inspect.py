@@ -34,7 +34,7 @@ Examples:
 """
 
 
-@click.command(epilog=EXAMPLES, short_help="List what will hurt on a layout, map or scenario.")
+@click.command(epilog=EXAMPLES, short_help="Report problems of a layout, map or scenario.")
 @click.argument(
     "source",
     type=click.Path(),
@@ -84,7 +84,7 @@ def inspect(
     page: str | None,
     as_json: bool,
 ) -> None:
-    """Say what FILE is, how large, what was repaired in it, and what will hurt.
+    """Report the kind and size of FILE, repairs made while reading, and problems.
 
     FILE is a layout of another program in any format that is known, a map or a scenario. Each
     finding has a place and a remedy: places that cannot be reached or left, vertices and lanes that

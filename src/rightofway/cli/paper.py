@@ -58,7 +58,7 @@ class _Table:
 @click.option("--log", is_flag=True, help="Print the decisions below each table.")
 @as_json_option("rows")
 def paper(tables: tuple[int, ...], *, log: bool, as_json: bool) -> int:
-    """Print the tables of the paper beside ours; exit code 1 if a row differs.
+    """Print the tables of the paper next to ours; exit code 1 if a row differs.
 
     Each scenario is planned with the planner paper. NUMBERS choose tables from 1 to 11. Tables 2
     and 3 are planned for two targets of R2: P3 as in Figure 1, and P2 as in the columns of the

@@ -194,13 +194,12 @@ Examples:
     "--time-limit",
     type=click.FloatRange(min=0),
     metavar="SECONDS",
-    help="Time limit of the whole command, to raise the bound by what robots lose to each"
-    " other; the bound is not raised unless given.",
+    help="Raise the bound of the flowtime by search until this time limit of the whole command.",
 )
 def bound(
     *, scenario: str, count: int | None, in_ticks: bool, as_json: bool, time_limit: float | None
 ) -> None:
-    """Print the flowtime and the makespan that no plan of a SCENARIO can be below.
+    """Print lower bounds of the flowtime and makespan of all plans of a SCENARIO.
 
     Both follow from the times at which the robots would be done if each drove alone. With a time
     limit, conflict-based search and prices of places then raise the bound of the flowtime, and

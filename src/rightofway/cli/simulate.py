@@ -40,7 +40,7 @@ Examples:
     cls=ListingCommand,
     listing=list_delays,
     epilog=EXAMPLES,
-    short_help="Execute a PLAN many times with robots that are late.",
+    short_help="Execute a PLAN many times with random delays.",
 )
 @click.argument("plan", type=click.Path(), shell_complete=complete_files(*PLANS))
 @add_foreign_options
@@ -53,7 +53,7 @@ Examples:
               " to save time.")  # fmt: skip
 @click.option("--replan", is_flag=True,
               help="Replan the rest of the work where this is expected to save time, and when a"
-              " robot breaks down for ever.")  # fmt: skip
+              " robot breaks down permanently.")  # fmt: skip
 @click.option("-o", "--output", metavar="FILE", callback=require_writable(".json"),
               help="Write the outcome to this file (.json); - for standard output.")  # fmt: skip
 @make_page_option("one run beside the plan")
@@ -76,7 +76,7 @@ def simulate(
     in_ticks: bool,
     as_json: bool,
 ) -> int:
-    """Execute a PLAN many times with robots that are late, and report how late.
+    """Execute a PLAN many times with random delays, and report the lateness.
 
     Two ways of execution are compared. By right of way, robots keep the order of the plan at each
     place and ignore its clock: they can neither collide nor deadlock (exit code 1 if they did). By

@@ -166,7 +166,7 @@ class TimedRobot:
         self.is_busy = True
         end = now + lasts
         for first, length in self.stoppages:
-            assert length is not None, "a demo has no robot that breaks down for ever"
+            assert length is not None, "a demo has no robot that breaks down permanently"
             if first < end and now < first + length:  # the rest of the step comes after it
                 end += first + length - max(first, now)
         return end

@@ -69,14 +69,14 @@ CAUSES = {
         examples=(
             (
                 "breaks:0.05",
-                "each robot breaks down for ever with chance 0.05, at any time of the plan",
+                "each robot breaks down permanently with chance 0.05, at any time of the plan",
             ),
         ),
     ),
     "stop": Cause(
         form=rf"(.+)@{_NUMBER}(?:\+{_NUMBER})?",
         examples=(
-            ("stop:R3@12", "R3 breaks down for ever at time 12"),
+            ("stop:R3@12", "R3 breaks down permanently at time 12"),
             ("stop:R3@12+30", "R3 stands still for 30 time units from time 12"),
         ),
     ),

@@ -113,7 +113,7 @@ def report_inspection(
 
 def _list_findings(site: Site, inspection: Inspection, limit: int) -> Iterator[Part]:
     if not inspection.findings:
-        yield "Nothing was found that will hurt."
+        yield "No problems found."
         return
     of_severity = Counter(finding.severity for finding in inspection.findings)
     of_kind = Counter((finding.severity, finding.kind) for finding in inspection.findings)

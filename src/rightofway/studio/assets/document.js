@@ -265,7 +265,7 @@ export class ScenarioStore extends Observable {
     }
   }
 
-  /** Find out what will hurt on a large map, which takes longer than to draw it. */
+  /** Inspect a large map, which takes longer than to draw it. */
   async #inspect() {
     const { document, folder } = this;
     const { findings, sentences, phrases } = await post("/survey", { document, folder }).catch(

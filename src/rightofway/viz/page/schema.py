@@ -522,7 +522,7 @@ class Payload(PlanData):
 
 
 class FindingData(TypedDict):
-    """One thing on a site that will hurt."""
+    """A problem of a site."""
 
     severity: Literal["error", "warning", "note"]
     kind: str

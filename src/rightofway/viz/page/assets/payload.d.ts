@@ -152,7 +152,7 @@ export interface FiguresText {
   seconds: PhraseData;
 }
 
-/** One thing on a site that will hurt. */
+/** A problem of a site. */
 export interface FindingData {
   severity: "error" | "warning" | "note";
   kind: string;

@@ -51,7 +51,7 @@ export function createInspection(box, payload) {
   };
 }
 
-/** The parts of an inspection: a level of the site at a time, what will hurt on it as a list. */
+/** The parts of an inspection: a level of the site at a time, its problems as a list. */
 class InspectPage {
   /**
    * @param {Root} root
