@@ -4,20 +4,24 @@ import ast
 import json
 import re
 from collections.abc import Iterator
+from typing import get_args
 
 import pytest
 
-from rightofway.cyclic import RULES
+from rightofway.cyclic import RULES, TIMETABLE
 from rightofway.facts import Fact
 from rightofway.io import FOREIGN_FORMATS
-from rightofway.languages import find_text
-from rightofway.model import RerouteReason
+from rightofway.languages import LANGUAGES, find_text, read_texts
+from rightofway.model import RerouteReason, UnservedReason
 from rightofway.planners.registry import PLANNERS
+from rightofway.report.facts import FactWriter
 from tests.builders.fleets import grid_fleet
+from tests.builders.languages import translate
 from tests.builders.sources import SOURCES, parse_modules
 
 TEMPLATES = json.loads((SOURCES / "texts" / "en.json").read_text("utf-8"))["facts"]
 STARTS = ("planner ", "option ")
+PAIR = grid_fleet(["...."], [("N0", "N1"), ("N3", "N2")])
 VALUE = re.compile(r"\{(\w+)(?::\w+)?\}")
 
 
@@ -46,6 +50,48 @@ def test_every_fact_has_the_values_of_its_template() -> None:
     assert lacking == []
 
 
+REASONS = (*get_args(UnservedReason), "not yet")
+
+FILLED = {
+    "unserved {}": REASONS,
+    "place {}": ("open", "closed", "opened"),
+    "lane {}": ("open", "closed", "opened"),
+    "{} in one zone": ("start", "end"),
+    "{} too near": ("start", "end"),
+    "{} elsewhere": ("start", "end"),
+    "rule {}": (*RULES, TIMETABLE),
+    "format {}": tuple(FOREIGN_FORMATS),
+}
+"""Kinds that are made of a word, with all words."""
+
+
+def list_made_kinds() -> Iterator[str]:
+    """Yield the kinds of facts that are no constants, with braces for what is filled in."""
+    for module in parse_modules().values():
+        for node in ast.walk(module):
+            match node:
+                case ast.Call(func=ast.Name(id="Fact"), args=[ast.JoinedStr(values=parts), *_]):
+                    yield "".join(
+                        str(part.value) if isinstance(part, ast.Constant) else "{}"
+                        for part in parts
+                    )
+
+
+def test_every_kind_that_is_made_of_a_word_has_a_template() -> None:
+    assert set(list_made_kinds()) == set(FILLED)
+    made = {kind.replace("{}", word) for kind, words in FILLED.items() for word in words}
+    assert made - set(TEMPLATES) == set()
+
+
+@pytest.mark.parametrize("reason", REASONS)
+def test_the_reasons_of_a_standstill_are_sentences_in_each_language(reason: str) -> None:
+    fact = Fact("nothing moves", PAIR, jobs=2, reasons=(Fact(f"unserved {reason}"),))
+    sentence = FactWriter(PAIR).write(fact)
+    why = {code: read_texts(code)["facts"][f"unserved {reason}"] for code in LANGUAGES}
+    assert sentence == f"nothing moves, and 2 jobs are known: {why['en']}"
+    assert translate(sentence) == f"nichts bewegt sich, und 2 Aufträge sind bekannt: {why['de']}"
+
+
 ABOVE = {"bench", "cli", "control", "figures.py", "report", "studio", "viz"}
 """Rooms that may have sentences."""
 
@@ -70,7 +116,6 @@ def test_rooms_below_report_raise_and_report_facts() -> None:
     assert sentences == []
 
 
-PAIR = grid_fleet(["...."], [("N0", "N1"), ("N3", "N2")])
 IN_THE_WAY = Fact("starts in its way", robot=1)
 
 
