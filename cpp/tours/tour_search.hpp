@@ -65,6 +65,10 @@ class TourSearch {
   private:
     struct Method;
 
+    static constexpr double impossible = 1e15;  // score of an insertion that does not exist
+    static constexpr std::size_t n_near_tours = 12;
+    static constexpr std::uint32_t polls_per_step = 64;
+
     void step();
     void exchange_tails();
     void go_back_to_best();
