@@ -105,11 +105,11 @@ def of_requests(client: httpx.Client, document: Any, moved: Any, number: int) ->
     yield "findings after a robot has moved", milliseconds(survey(moved, inspects=True), 1)
     yield "findings after a speed has changed", milliseconds(survey(moved, inspects=True))
     payload = f"/runs/{number}/payload"
-    yield "what plays, at first", milliseconds(lambda: client.get(payload), 1)
-    yield "what plays, again", milliseconds(lambda: client.get(payload))
+    yield "playback, first request", milliseconds(lambda: client.get(payload), 1)
+    yield "playback, further requests", milliseconds(lambda: client.get(payload))
     size = int(client.get(payload).headers["content-length"])
     yield "its size, compressed", f"{size / 1000:.0f} kB"
-    yield "why robots wait", milliseconds(lambda: client.get(f"/runs/{number}/losses"), 1)
+    yield "reasons of waits", milliseconds(lambda: client.get(f"/runs/{number}/losses"), 1)
 
 
 def of_change(client: httpx.Client, document: Any) -> Iterator[Row]:
