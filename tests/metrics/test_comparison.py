@@ -11,8 +11,20 @@ import pytest
 
 from rightofway.errors import InputError
 from rightofway.facts import Fact
+from rightofway.io.scenario.reader import parse_scenario
+from rightofway.io.yaml_text import parse_yaml
 from rightofway.metrics import compare, find_changes
-from rightofway.model import Closure, Robot, Scenario, Stop
+from rightofway.model import (
+    Closure,
+    Plan,
+    PlannedItem,
+    PlannerRun,
+    Robot,
+    Scenario,
+    Stop,
+    Tick,
+    Track,
+)
 from rightofway.model.attributes import Attribute
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
 from rightofway.site import VertexId, make_grid_roadmap
@@ -171,3 +183,78 @@ def test_a_finer_grid_of_one_floor_keeps_the_places() -> None:
         robots=(Robot(name="R", home=VertexId(0), stops=(stop(2),)),),
     )
     assert [change.subject for change in find_changes(coarse, fine)] == ["map"]
+
+
+STREET = """
+format: rightofway-scenario/1
+map: {grid: ["......"]}
+units: {time: s}
+robots: [{name: R1, home: N0}, {name: R2, home: N5}]
+rules: {turn: 0}
+jobs:
+  - {name: J1, at: N1, work: 1}
+  - {name: J2, at: N4, work: 1}
+  - {name: J3, at: N3, work: 1, robot: R2}
+"""
+
+
+def plan_street(*tours: list[tuple[int, int, int]], **changes: Any) -> Plan:
+    """Return a plan in which robots do jobs, each at its visit and begin; they stay where it is."""
+    scenario = parse_scenario({**parse_yaml(STREET), **changes})
+    tracks = [
+        Track.of([robot.home] * (1 + max((visit for _, visit, _ in tour), default=0)),
+                 range(1 + max((visit for _, visit, _ in tour), default=0)))
+        for robot, tour in zip(scenario.robots, tours, strict=True)
+    ]  # fmt: skip
+    items = tuple(
+        tuple(PlannedItem(visit=visit, begin=Tick(begin), end=Tick(begin + 1), job=job, stop=0)
+              for job, visit, begin in tour)
+        for tour in tours
+    )  # fmt: skip
+    done = {job for tour in tours for job, _, _ in tour}
+    left = tuple((job, "latest") for job in range(len(scenario.jobs or ())) if job not in done)
+    return Plan(
+        scenario=scenario, tracks=tuple(tracks), run=PlannerRun(), tours=items, unserved=left
+    )
+
+
+def tell_jobs(before: Plan, after: Plan) -> list[str]:
+    return [str(change) for change in compare([before, after]).changes[1]]
+
+
+def test_jobs_that_change_robots_or_end_at_other_times_are_told() -> None:
+    before = plan_street([(0, 1, 1)], [(1, 1, 1), (2, 2, 3)])
+    after = plan_street([(0, 1, 1), (1, 2, 5)], [(2, 1, 2)])
+    assert tell_jobs(before, after) == [
+        "J2: robot R2 → R1",
+        "J2: later 2 s → 6 s",
+        "J3: earlier 4 s → 3 s",
+    ]
+    assert tell_jobs(before, before) == []
+
+
+def test_jobs_that_are_served_or_not_are_told_with_the_reason() -> None:
+    before = plan_street([(0, 1, 1)], [(1, 1, 1)])
+    after = plan_street([(0, 1, 1)], [(2, 1, 1)])
+    assert tell_jobs(before, after) == [
+        "J2: unserved no robot would end it in time",
+        "J3: served",
+    ]
+
+
+def test_jobs_with_the_same_change_are_one_entry() -> None:
+    before = plan_street([(0, 1, 1)], [(1, 1, 1), (2, 2, 3)])
+    after = plan_street([(0, 1, 2)], [(1, 1, 2), (2, 2, 4)])
+    assert tell_jobs(before, after) == ["3 jobs: later"]
+
+
+def test_jobs_that_are_added_removed_or_changed_are_told() -> None:
+    before, jobs = plan_street([], []), parse_yaml(STREET)["jobs"]
+    changed = [{**jobs[0], "due": 9}, jobs[1], {"name": "J4", "at": "N2"}]
+    assert tell_jobs(before, plan_street([], [], jobs=changed)) == [
+        "J1: changed", "J4: added", "J3: removed",
+    ]  # fmt: skip
+    hours = plan_street([], [], units={"time": "min"}, jobs=[
+        {**job, "work": "1/60"} for job in jobs
+    ])  # fmt: skip
+    assert not [text for text in tell_jobs(before, hours) if text.startswith("J")]

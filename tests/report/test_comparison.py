@@ -40,6 +40,7 @@ def test_a_change_is_plain_data_with_its_text() -> None:
         {
             "subject": "R1",
             "robots": ["R1"],
+            "jobs": [],
             "key": "speed",
             "before": ["speed", {"value": "1"}],
             "after": ["speed", {"value": "2"}],
@@ -48,6 +49,7 @@ def test_a_change_is_plain_data_with_its_text() -> None:
         {
             "subject": ["listed edge", {"tail": "N0", "head": "N1"}],
             "robots": [],
+            "jobs": [],
             "key": "closed",
             "before": "",
             "after": "",

@@ -14,7 +14,7 @@ from rightofway.metrics.waits import waits
 from rightofway.provision import import_later
 
 if TYPE_CHECKING:
-    from rightofway.metrics.changes import Change, find_changes
+    from rightofway.metrics.changes import Change, find_changes, find_job_changes
     from rightofway.metrics.collisions import (
         Collision,
         NamedCollision,
@@ -37,6 +37,7 @@ _MODULES = {
     "changes": (
         "Change",
         "find_changes",
+        "find_job_changes",
     ),
     "collisions": (
         "Collision",
@@ -93,6 +94,7 @@ __all__ = [
     "find_collisions",
     "find_forced_losses",
     "find_forced_makespan",
+    "find_job_changes",
     "find_near_misses",
     "find_swaps",
     "free_running",

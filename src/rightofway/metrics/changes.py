@@ -1,7 +1,7 @@
-"""Differences of two scenarios: robots, map, rules and closures, each with both values.
+"""Differences of two scenarios and of plans of jobs, each with both values.
 
-Robots are the same where their names are; places, where their names are or, on maps of cells of
-different sizes, where they lie within a cell of each other.
+Robots and jobs are the same where their names are; places, where their names are or, on maps of
+cells of different sizes, where they lie within a cell of each other.
 """
 
 from __future__ import annotations
@@ -14,14 +14,15 @@ from typing import Any, Literal
 import numpy as np
 
 from rightofway.facts import Fact, get_teller
-from rightofway.model import Robot, Scenario
+from rightofway.metrics.jobs import JobTimes, list_job_times
+from rightofway.model import Plan, Robot, Scenario
 from rightofway.model.attributes import Attribute
 from rightofway.model.closures import Closure
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
 from rightofway.site import Roadmap
 from rightofway.units import Units
 
-Subject = Literal["robots", "map", "rules", "place"]
+Subject = Literal["robots", "map", "rules", "place", "jobs"]
 """The parts of a scenario that differ."""
 
 Difference = tuple[str, Fact | None, Fact | None]
@@ -30,7 +31,7 @@ Difference = tuple[str, Fact | None, Fact | None]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Change:
-    """A difference of two scenarios.
+    """A difference of two scenarios or plans.
 
     Attributes
     ----------
@@ -38,11 +39,14 @@ class Change:
         The part of the scenario.
     robots
         The names of the robots that have changed in this way; empty for other subjects.
+    jobs
+        The names of the jobs that have changed in this way; empty for other subjects.
     place
         The place that is closed or open; None for other subjects.
     key
         The attribute or the event: ``speed``, ``home``, ``headway``, ``added``, ``removed``,
-        ``closed``, ``open``; empty for the size of a map.
+        ``closed``, ``open``; empty for the size of a map. Of jobs ``added``, ``removed`` and
+        ``changed``, and in plans ``robot``, ``served``, ``unserved``, ``earlier`` and ``later``.
     before, after
         The values; None where there is none.
     """
@@ -53,6 +57,7 @@ class Change:
     after: Fact | None = None
     robots: tuple[str, ...] = ()
     place: Fact | None = None
+    jobs: tuple[str, ...] = ()
 
     def __str__(self) -> str:
         return get_teller().tell_fact(self)
@@ -69,8 +74,8 @@ def find_changes(before: Scenario, after: Scenario) -> tuple[Change, ...]:
     Returns
     -------
     tuple of Change
-        Robots, in the order of ``after``, those that are removed last; then map, rules, closures.
-        Robots that change in the same way are one entry.
+        Robots, in the order of ``after``, those that are removed last; then map, rules, closures
+        and jobs. Robots that change in the same way are one entry, and so are jobs.
     """
     robots_of_change: dict[Difference, list[str]] = {}
     was = {robot.name: robot for robot in before.robots}
@@ -95,7 +100,111 @@ def find_changes(before: Scenario, after: Scenario) -> tuple[Change, ...]:
         *_compare_maps(before, after),
         *_compare_rules(before, after),
         *_compare_closures(before, after),
+        *_group_jobs(_compare_jobs(before, after)),
     )
+
+
+def find_job_changes(before: Plan, after: Plan) -> tuple[Change, ...]:
+    """Return the differences of what two plans do with the jobs that both scenarios have.
+
+    Parameters
+    ----------
+    before, after
+        The plans.
+
+    Returns
+    -------
+    tuple of Change
+        Jobs of another robot, jobs that are served or not served only in ``after``, and jobs that
+        end earlier or later. Jobs that change in the same way are one entry; both times are in
+        the entry of one job.
+    """
+    return tuple(_group_jobs(_compare_served_jobs(before, after)))
+
+
+def _compare_jobs(before: Scenario, after: Scenario) -> Iterator[tuple[str, Difference]]:
+    """Yield the names of jobs with their differences, those that are removed last."""
+    was, now = _describe_jobs(before), _describe_jobs(after)
+    for name, job in now.items():
+        if name not in was:
+            yield name, ("added", None, None)
+        elif was[name] != job:
+            yield name, ("changed", None, None)
+    yield from ((name, ("removed", None, None)) for name in was if name not in now)
+
+
+def _describe_jobs(scenario: Scenario) -> dict[str, Hashable]:
+    """Return all of each job, by its name: places by names, times in seconds if units are known."""
+    seconds = scenario.units.seconds
+
+    def scale(time: Fraction | None) -> Hashable:
+        return time if time is None or seconds is None else time * seconds
+
+    return {
+        job.name: (
+            seconds is None,
+            tuple(
+                (scenario.roadmap.name(stop.at), stop.load,
+                 *map(scale, (stop.work, stop.earliest, stop.latest)))
+                for stop in job.stops
+            ),
+            scale(job.due), job.weight, job.types, job.robot, job.after,
+        )
+        for job in scenario.jobs or ()
+    }  # fmt: skip
+
+
+def _compare_served_jobs(before: Plan, after: Plan) -> Iterator[tuple[str, Difference]]:
+    was, now = _list_served(before), _list_served(after)
+    reasons = dict(after.unserved)
+    for index, job in enumerate(after.scenario.jobs or ()):
+        if job.name not in was or job.name not in now:
+            continue
+        old, new = was[job.name], now[job.name]
+        if old is None or new is None:
+            if old is not new:
+                why = None if new else Fact(f"unserved {reasons.get(index, 'not found')}")
+                yield job.name, ("served" if new else "unserved", None, why)
+            continue
+        robots = [
+            plan.scenario.robots[times.robot].name for plan, times in ((before, old), (after, new))
+        ]
+        if robots[0] != robots[1]:
+            first, second = (Fact("word", value=name) for name in robots)
+            yield job.name, ("robot", first, second)
+        ends = [
+            plan.scenario.problem.clock.convert_to_time(times.end)
+            for plan, times in ((before, old), (after, new))
+        ]
+        if not _has_same("time", before.scenario, ends[0], after.scenario, ends[1]):
+            yield job.name, _compare_ends(before.scenario, ends[0], after.scenario, ends[1])
+
+
+def _compare_ends(before: Scenario, was: Fraction, after: Scenario, now: Fraction) -> Difference:
+    seconds = [scenario.units.seconds or 1 for scenario in (before, after)]
+    key = "earlier" if now * seconds[1] < was * seconds[0] else "later"
+    return key, Fact("time", before, value=was), Fact("time", after, value=now)
+
+
+def _list_served(plan: Plan) -> dict[str, JobTimes | None]:
+    """Return the times of each job by its name; None where the plan does not serve it."""
+    served = {times.job: times for times in list_job_times(plan)}
+    return {job.name: served.get(index) for index, job in enumerate(plan.scenario.jobs or ())}
+
+
+def _group_jobs(differences: Iterable[tuple[str, Difference]]) -> Iterator[Change]:
+    """Yield the differences of jobs, each once; ends are told of a single job only."""
+    groups: dict[Difference, list[str]] = {}
+    ends: dict[str, Difference] = {}
+    for name, (key, old, new) in differences:
+        is_end = key in {"earlier", "later"}
+        groups.setdefault((key, None, None) if is_end else (key, old, new), []).append(name)
+        if is_end:
+            ends[name] = (key, old, new)
+    for (key, old, new), names in groups.items():
+        if len(names) == 1 and key in {"earlier", "later"}:
+            _, old, new = ends[names[0]]  # noqa: PLW2901
+        yield Change(subject="jobs", jobs=tuple(names), key=key, before=old, after=new)
 
 
 def _make_place_test(before: Roadmap, after: Roadmap) -> Callable[[int, int], bool]:

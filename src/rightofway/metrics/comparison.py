@@ -13,7 +13,7 @@ from math import gcd, lcm
 from typing import Any
 
 from rightofway.errors import InputError
-from rightofway.metrics.changes import Change, find_changes
+from rightofway.metrics.changes import Change, find_changes, find_job_changes
 from rightofway.metrics.measure import measure
 from rightofway.model import Plan
 
@@ -39,7 +39,8 @@ class Comparison:
     robots
         The names of all robots, those of the first plan first.
     changes
-        Differences of the scenario of each plan from that of the first one.
+        Differences of the scenario of each plan from that of the first one, and of what both do
+        with jobs.
     """
 
     plans: tuple[Plan, ...]
@@ -144,7 +145,10 @@ def compare(plans: Sequence[Plan], titles: Sequence[str] = ()) -> Comparison:
         tick=common,
         scales=tuple(int(tick / common) for tick in ticks),
         robots=tuple(dict.fromkeys(name for plan in plans for name in _list_names(plan))),
-        changes=tuple(find_changes(first, plan.scenario) for plan in plans),
+        changes=tuple(
+            (*find_changes(first, plan.scenario), *find_job_changes(plans[0], plan))
+            for plan in plans
+        ),
     )
 
 

@@ -17,7 +17,7 @@ COSTS = ("flowtime", "makespan", "lower_bound", "alone")
 """Figures in ticks."""
 
 NAMED = 2
-"""Robots with the same change that are named; more are counted."""
+"""Robots or jobs with the same change that are named; more are counted."""
 
 
 def export_comparison(comparison: Comparison) -> dict[str, Any]:
@@ -41,16 +41,17 @@ def _write_figures(figures: dict[str, Any], plan: Plan, scale: int) -> dict[str,
 
 
 def describe_change(change: Change) -> dict[str, Any]:
-    """Return a difference of two scenarios as plain data, with its text: ``R2: speed 1 → 2``."""
+    """Return a difference as plain data, with its text: ``R2: speed 1 → 2``."""
     subject = _name_subject(change)
     before, after = map(_write_value, (change.before, change.after))
-    values = f"{before} → {after}" if before or after else ""
+    values = " → ".join(filter(None, (before, after)))
     return {
         "subject": to_parts(subject),
         "key": change.key,
         "before": to_parts(before),
         "after": to_parts(after),
         "robots": list(change.robots),
+        "jobs": list(change.jobs),
         "text": f"{subject}: {' '.join(filter(None, (change.key, values)))}",
     }
 
@@ -62,9 +63,10 @@ def _write_value(value: Fact | None) -> str:
 def _name_subject(change: Change) -> str:
     if change.place is not None:
         return _write_value(change.place)
-    robots = change.robots
-    if not robots:
+    names = change.robots or change.jobs
+    if not names:
         return change.subject
-    if len(robots) > NAMED:
-        return FactWriter(None).write(Fact("n_robots", number=len(robots)))
-    return join_items(robots)
+    if len(names) > NAMED:
+        kind = "n_robots" if change.robots else "n_jobs"
+        return FactWriter(None).write(Fact(kind, number=len(names)))
+    return join_items(names)

@@ -680,6 +680,7 @@ export interface Saved {
 export interface ScenarioChange {
   subject: PhraseData | string;
   robots: Array<string>;
+  jobs: Array<string>;
   key: string;
   before: PhraseData | string;
   after: PhraseData | string;

@@ -500,6 +500,7 @@ class ScenarioChange(TypedDict):
 
     subject: Phrase | str
     robots: list[str]
+    jobs: list[str]
     key: str
     before: Phrase | str
     after: Phrase | str

@@ -351,6 +351,7 @@ class ChangeData(TypedDict):
 
     subject: PhraseData
     robots: list[str]
+    jobs: list[str]
     key: str
     before: PhraseData
     after: PhraseData

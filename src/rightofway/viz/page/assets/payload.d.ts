@@ -25,6 +25,7 @@ export interface BestData {
 export interface ChangeData {
   subject: PhraseData;
   robots: string[];
+  jobs: string[];
   key: string;
   before: PhraseData;
   after: PhraseData;

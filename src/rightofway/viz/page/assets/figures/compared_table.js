@@ -111,16 +111,18 @@ export class ComparedTable {
 }
 
 /**
- * A change of a scenario: "R2: speed 1 m/s → 2 m/s".
+ * A change of a scenario or of its jobs: "R2: speed 1 m/s → 2 m/s".
  *
  * @param {ChangeData} options
  */
-export function changeInWords({ subject, robots, key, before, after }) {
+export function changeInWords({ subject, robots, jobs, key, before, after }) {
   /** @type {Record<"whats" | "keys", Partial<Record<string, string>>>} */
   const { whats, keys } = texts.compared;
+  const names = robots.length ? robots : jobs;
+  const counted = robots.length ? texts.robots : texts.jobs.counted;
   const named =
-    robots.length > FEW_NAMES ? texts.robots({ count: robots.length }) : joined(robots).join("");
+    names.length > FEW_NAMES ? counted({ count: names.length }) : joined(names).join("");
   const whose = named || (whats[said(subject)] ?? said(subject));
-  const values = before || after ? `${said(before)} → ${said(after)}` : "";
+  const values = [before, after].filter(Boolean).map(said).join(" → ");
   return `${whose}: ${[keys[key] ?? key, values].filter(Boolean).join(" ")}`;
 }

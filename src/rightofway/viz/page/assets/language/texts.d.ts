@@ -219,6 +219,7 @@ export interface PageTexts {
     early: Text<"time">;
   };
   jobs: {
+    counted: Text<"count">;
     done: string;
     doneAtLength: string;
     serviceTimeAtLength: string;
@@ -361,6 +362,11 @@ export interface PageTexts {
       [key: string]: string;
     };
     keys: {
+      robot: string;
+      served: string;
+      unserved: string;
+      earlier: string;
+      later: string;
       added: string;
       removed: string;
       changed: string;
