@@ -47,6 +47,7 @@ from rightofway.planners import (
 )
 from rightofway.planners.features import refuse_unknown
 from rightofway.planners.registry import name_able
+from rightofway.progress import log_progress
 
 __all__ = ["improve", "solve"]
 
@@ -94,7 +95,8 @@ def solve(
         Options of the planner: its own dataclass, like ``LnsOptions(iterations=100)``, or names
         with values.
     report
-        Takes facts on the progress; ``str`` of one is an English sentence.
+        Takes facts on the progress; ``str`` of one is an English sentence. By default they go to
+        the logger ``rightofway``.
     on_plan
         Takes each better plan while the planner goes on. The judge has not seen it.
     keep_best
@@ -130,7 +132,7 @@ def solve(
             raise InputError.at("start", f"is not for a scenario with jobs ({remedy})")
     settled = _settle_options(spec, options, named, seed)
     request = PlanRequest(
-        scenario=scenario, **settled, report=report or _discard_progress, keep_best=keep_best
+        scenario=scenario, **settled, report=report or log_progress, keep_best=keep_best
     )
     if scenario.jobs is not None and scenario.tours is None:
         return _run_rounds(spec, request, limit, seconds_per_visit, on_plan)
@@ -182,7 +184,7 @@ def improve(
         raise InputError.at("", f"{message} ({remedy})")
     settled = _settle_options(spec, options, named, seed)
     request = PlanRequest(
-        scenario=plan.scenario, **settled, report=report or _discard_progress, keep_best=keep_best
+        scenario=plan.scenario, **settled, report=report or log_progress, keep_best=keep_best
     )
     request = replace(request, start=plan.tracks)
     improved, judged = _run(
@@ -196,10 +198,6 @@ def _refuse_start(spec: PlannerSpec) -> None:
     if Feature.IMPROVES not in spec.features:
         message = f"{spec.name} cannot start from a plan (choose {name_able(Feature.IMPROVES)})"
         raise InputError.at("planner", message)
-
-
-def _discard_progress(_: Fact | str) -> None:
-    """Take a fact on progress, and do nothing."""
 
 
 def _settle_options(
@@ -280,6 +278,7 @@ def _run(
 
     seconds_per_visit = make_range(0, 3600).read_at("seconds_per_visit", seconds_per_visit)
     _refuse_unknown(spec, request)
+    request.report(Fact("planning begins", planner=spec.name, robots=len(request.scenario.robots)))
     began, deadline = time.perf_counter(), Deadline.after(time_limit)
     with_plan: list[float] = []  # how long planning took until there was a plan [s]
 
@@ -331,6 +330,8 @@ def _run(
     if not may_have.issuperset(report.counts):
         raise InvalidPlan(f"{spec.name} made a plan with {report}")
     outcome = _classify_outcome(spec, request, draft, plan, keeps_rules=report.ok)
+    values = {"objective": outcome.objective.value, "value": plan.compute_value(outcome.objective)}
+    request.report(Fact("plan judged", request.scenario, **values, seconds=round(run.seconds, 2)))
     return replace(plan, run=replace(run, outcome=outcome)), report
 
 

@@ -9,7 +9,9 @@ import time
 
 import pytest
 
+import rightofway
 from rightofway.cli.terminal import CLEAR, show_progress
+from tests.cli.conftest import EXAMPLES, Cli
 
 
 def test_a_terminal_shows_the_time_and_the_latest_sentence_in_one_line(
@@ -24,6 +26,29 @@ def test_a_terminal_shows_the_time_and_the_latest_sentence_in_one_line(
         report("cost 18, more than fits")
     shown = capsys.readouterr().err
     assert shown == f"{CLEAR}0.0 of 10 s, cost 19{CLEAR}3.1 of 10 s, cost 18{CLEAR}"
+
+
+def test_verbose_prints_each_step_as_a_line(cli: Cli) -> None:
+    door = str(EXAMPLES / "door.yaml")
+    for words in (("plan", door, "-v"), ("-v", "plan", door)):
+        lines = cli(*words).err.splitlines()
+        assert re.fullmatch(r" +\d+\.\d\d s  auto plans 2 robots", lines[0])
+        assert "judged: flowtime 19 time units" in lines[-1]
+    assert cli("plan", door).err == ""
+    assert cli("plan", door, "-v", "-q").err == ""
+
+
+def test_the_library_logs_progress_for_programs_that_listen(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    scenario = rightofway.load(EXAMPLES / "door.yaml")
+    with caplog.at_level("INFO", logger="rightofway"):
+        rightofway.solve(scenario)
+        rightofway.run_laps(scenario)
+    assert caplog.records[0].getMessage() == "auto plans 2 robots"
+    caplog.clear()
+    rightofway.solve(scenario, report=lambda _: None)
+    assert not caplog.records
 
 
 def test_the_line_is_kept_up_to_date_while_a_planner_says_nothing(

@@ -21,8 +21,8 @@ from rightofway.facts import Fact
 if TYPE_CHECKING:
     from rightofway.report.lines import Part
 
-QUIET = "rightofway.quiet"
-"""Where a command keeps whether the user wants no messages."""
+QUIET, VERBOSE = "rightofway.quiet", "rightofway.verbose"
+"""Where a command keeps whether the user wants no messages, or those on each step."""
 
 CLEAR = "\r\x1b[2K"
 """Empties the line that the cursor is in."""
@@ -46,21 +46,35 @@ def choose_deadline(seconds: float | None) -> Deadline:
 
 def is_quiet() -> bool:
     """Whether the user wants neither reports nor messages, but results and errors."""
+    return _is_set(QUIET)
+
+
+def _is_set(wish: str) -> bool:
     context = click.get_current_context(silent=True)
-    return context is not None and context.meta.get(QUIET, False)
+    return context is not None and context.meta.get(wish, False)
 
 
-def _set_quiet(context: click.Context, _parameter: click.Parameter, given: bool) -> None:
-    if given:
-        context.meta[QUIET] = True
+def _add_wish(name: str, wish: str, explanation: str) -> Callable[[Any], Any]:
+    """Return a decorator that adds a flag, which counts before and after the command's name."""
+
+    def keep(context: click.Context, _parameter: click.Parameter, given: bool) -> None:
+        if given:
+            context.meta[wish] = True
+
+    return click.option(
+        *(f"-{name[0]}", f"--{name}"),
+        is_flag=True,
+        expose_value=False,
+        callback=keep,
+        help=explanation,
+    )
 
 
 def add_shared_options(command: Any) -> Any:
-    """Add the option -q to a command or a function."""
-    return click.option(
-        *("-q", "--quiet"), is_flag=True, expose_value=False, callback=_set_quiet,
-        help="Print no report and no messages, only errors.",
-    )(command)  # fmt: skip
+    """Add the options -v and -q to a command or a function."""
+    verbose = _add_wish("verbose", VERBOSE, "Print each step of the work with its time.")
+    quiet = _add_wish("quiet", QUIET, "Print no report and no messages, only errors.")
+    return verbose(quiet(command))
 
 
 def say(message: str) -> None:
@@ -109,14 +123,19 @@ def show_progress(
 ) -> Iterator[Callable[[Fact | str], None]]:
     """Yield a function that shows progress in the last line of a terminal; elsewhere, nothing.
 
+    With -v, it prints each step as a line of its own instead, in any output.
+
     The line begins with the time since the command began, and the time limit [s] if there is one:
     ``3.1 of 10 s, flowtime 5273``. It is brought up to date twice a second. Of a line that is too
     long for the terminal, the text after the last commas is left out.
     """
+    began = time.monotonic() if since is None else since
+    if _is_set(VERBOSE):
+        yield lambda step: say(f"{time.monotonic() - began:8.2f} s  {step}")
+        return
     if is_quiet() or not sys.stderr.isatty():
         yield lambda _: None
         return
-    began = time.monotonic() if since is None else since
     latest, ended = [""], threading.Event()
     from rightofway.report.quantities import format_decimal
 

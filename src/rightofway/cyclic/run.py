@@ -23,6 +23,7 @@ from rightofway.kinds.arguments import checks_arguments
 from rightofway.kinds.table import make_words
 from rightofway.model import Scenario, require_time_limit
 from rightofway.planners import Deadline
+from rightofway.progress import log_progress
 
 Simulation = CyclicSimulator | RollingHorizon
 """The simulation of a group under a lap rule."""
@@ -35,7 +36,7 @@ def run_laps(
     *,
     routes: str = "clear",
     time_limit: float | None = 10,
-    report: Callable[[Fact], None] | None = None,
+    report: Callable[[Fact], None] = log_progress,
 ) -> CyclicResult:
     """Simulate repeated laps of all robots until the pattern of the fleet repeats.
 
@@ -86,7 +87,7 @@ def run_laps(
 
     def simulate(chosen: Sequence[GroupContext], until: Deadline) -> list[GroupResult]:
         simulations = [make_simulation(context, rule) for context in chosen]
-        return share_time(simulations, until, report or (lambda _: None))
+        return share_time(simulations, until, report)
 
     may_repeat = any(context.might_rotate for context in contexts)
     results = simulate(contexts, deadline.shorten(0.5) if may_repeat else deadline)

@@ -37,6 +37,7 @@ from rightofway.kinds.table import POSITIVE, SEED, SHARE, allow_none, list_of, m
 from rightofway.model import Scenario, Tick, require_time_limit
 from rightofway.planners import Deadline
 from rightofway.precedence import unroll_schedule
+from rightofway.progress import log_progress
 from rightofway.repair.routing import ROUTING
 from rightofway.search import Distances, RoundTrip
 
@@ -77,7 +78,7 @@ def find_best_timetable(
     time_limit: float | None = 10,
     rounds: int | None = None,
     seed: int = 0,
-    report: Callable[[Fact], None] | None = None,
+    report: Callable[[Fact], None] = log_progress,
 ) -> CyclicResult:
     """Choose laps, their numbers per period and rights of way for the most value of laps per tick.
 
@@ -143,7 +144,7 @@ def _choose_all(
     *,
     rounds: int | None,
     seed: int,
-    report: Callable[[Fact], None] | None,
+    report: Callable[[Fact], None],
 ) -> list[GroupResult]:
     """Choose a timetable for each independent group, or one for all robots."""
     params = ChoiceParams()
@@ -188,7 +189,7 @@ def _choose_by_groups(
     *,
     rounds: int | None,
     seed: int,
-    report: Callable[[Fact], None] | None,
+    report: Callable[[Fact], None],
 ) -> list[GroupResult]:
     """Choose a timetable for each group, small groups first, without vertices of other groups."""
     scenario = fleet.context.scenario
@@ -204,8 +205,7 @@ def _choose_by_groups(
     left = len(fleet)
     for index in sorted(range(len(groups)), key=lambda index: len(groups[index])):
         group = groups[index]
-        if report is not None:
-            report(Fact("groups done", number=len(results), groups=len(groups), robots=len(group)))
+        report(Fact("groups done", number=len(results), groups=len(groups), robots=len(group)))
         uses.subtract(excluded[index])
         taken.difference_update(row for row in excluded[index] if not uses[row])
         draw = random.Random(f"{seed} {index}")  # noqa: S311 (no secret depends on it)

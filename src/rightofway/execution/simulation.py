@@ -26,6 +26,7 @@ from rightofway.kinds.table import SEED, make_whole
 from rightofway.model import NEVER, ExecutionTrace, Plan, require_time_limit
 from rightofway.planners import Deadline
 from rightofway.precedence import ActionDependencyGraph, RunBatch
+from rightofway.progress import log_progress
 
 CHUNK = 1 << 20
 """Visits per call of the kernel; time limit and Ctrl-C are checked between calls."""
@@ -45,7 +46,7 @@ def simulate(
     replan: bool = False,
     time_limit: float | None = None,
     keep_runs: bool = False,
-    report: Callable[[Fact], None] = lambda _: None,
+    report: Callable[[Fact], None] = log_progress,
 ) -> SimulationResult:
     """Execute a plan many times with delays: by right of way, and by the clock for comparison.
 

@@ -28,6 +28,7 @@ from rightofway.model.outcome import classify_cost
 from rightofway.model.work import Assignment, TourItem, UnservedReason, WorkObjective
 from rightofway.plan_work.cost import WorkCost, measure_work
 from rightofway.plan_work.neighbourhoods import Neighbourhoods
+from rightofway.progress import log_progress
 from rightofway.search import Distances
 
 ROUNDS = 8
@@ -71,7 +72,7 @@ def plan_work(
     deadline: Deadline,
     seed: int = 0,
     better: Callable[[Plan], None] = lambda _: None,
-    report: Callable[[Fact], None] = lambda _: None,
+    report: Callable[[Fact], None] = log_progress,
 ) -> Plan:
     """Return the best judged plan of a scenario with jobs, with its tours and unserved jobs.
 

@@ -27,6 +27,7 @@ from rightofway.model import (
 )
 from rightofway.model.outcome import choose_objective
 from rightofway.model.stays import compute_service
+from rightofway.progress import log_progress
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -72,7 +73,7 @@ class PlanRequest:
     options: Mapping[str, Any] = field(default_factory=dict)
     seed: int = 0
     deadline: Deadline = NO_DEADLINE
-    report: Callable[[Fact | str], None] = lambda _: None
+    report: Callable[[Fact | str], None] = log_progress
     has_plan: Callable[[], None] = lambda: None
     better: Callable[[Callable[[], Sequence[Track]]], None] = lambda _: None
     start: tuple[Track, ...] | None = None
