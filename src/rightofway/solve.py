@@ -331,7 +331,7 @@ def _run(
         raise InvalidPlan(f"{spec.name} made a plan with {report}")
     outcome = _classify_outcome(spec, request, draft, plan, keeps_rules=report.ok)
     values = {"objective": outcome.objective.value, "value": plan.compute_value(outcome.objective)}
-    request.report(Fact("plan judged", request.scenario, **values, seconds=round(run.seconds, 2)))
+    request.report(Fact("plan judged", request.scenario, **values, seconds=round(with_plan[-1], 2)))
     return replace(plan, run=replace(run, outcome=outcome)), report
 
 
