@@ -272,6 +272,31 @@ def test_a_person_holds_robots_and_lets_them_go(
     assert viewer.complaints == []
 
 
+def test_two_people_at_two_screens_see_the_orders_of_each_other(
+    browser: Browser, stack: ExitStack, tmp_path: Path
+) -> None:
+    """One holds all robots; both let them go, which counts once and is refused to no one."""
+    journal = tmp_path / "demo.journal"
+    drive = stack.enter_context(driven(door(), journal))
+    address = stack.enter_context(watched(door(), journal))
+    first, second = (opened(browser, stack, address) for _ in range(2))
+    first.page.get_by_role("button", name="Hold all robots").click()
+    is_asked(first, journal)
+    drive.let(5)
+    for viewer in (first, second):
+        expect(row_of(viewer, "R2")).to_contain_text("held by a person")
+    for viewer in (first, second):
+        viewer.page.get_by_role("button", name="Let all robots go").click()
+        viewer.page.get_by_role("dialog").get_by_role("button", name="Yes").click()
+    with closing(Commands(journal)) as commands:
+        first.poll(lambda: len(commands.list_unanswered()) == 2, "both orders")
+    drive.let(10**9)
+    for viewer in (first, second):
+        expect(viewer.page.get_by_text("the control has ended")).to_be_visible()
+        assert viewer.complaints == []
+    assert told(first) == told(second)
+
+
 def test_a_robot_that_was_taken_off_the_floor_is_placed_by_a_person(
     browser: Browser, stack: ExitStack, tmp_path: Path
 ) -> None:
