@@ -59,6 +59,15 @@ FILLED = {
     "{} in one zone": ("start", "end"),
     "{} too near": ("start", "end"),
     "{} elsewhere": ("start", "end"),
+    "purpose {}": (
+        "home",
+        "start",
+        "charge",
+        "turn",
+        "wait",
+        "make room",
+        "drive through",
+    ),
     "rule {}": (*RULES, TIMETABLE),
     "format {}": tuple(FOREIGN_FORMATS),
 }

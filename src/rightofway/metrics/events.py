@@ -8,10 +8,12 @@ reports are made.
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 from rightofway.errors import NoPlanExists
+from rightofway.facts import Fact
 from rightofway.metrics.lost_time import compute_lost_time, join_waits
 from rightofway.model import Loss, Plan, PlannedItem, Scenario, Stays, Tick
 from rightofway.site import VertexId
@@ -28,10 +30,8 @@ class Event(NamedTuple):
         The number of the visit, from 0.
     vertex
         Where it is.
-    purpose
-        The activity of the robot there: ``home``, ``work at stop 1, turn``, ``stop 2 of lap 3``,
-        ``turn``, ``drive through``, ``make room``, or ``wait`` where it only waits. With jobs,
-        ``work at stop 1 of J2``, ``charge``, and ``start`` where it begins elsewhere than at home.
+    purposes
+        The activities of the robot there, in order.
     enter
         When the visit begins [ticks].
     leave
@@ -48,12 +48,35 @@ class Event(NamedTuple):
     robot: int
     visit: int
     vertex: VertexId
-    purpose: str
+    purposes: tuple[Fact, ...]
     enter: Tick
     leave: Tick | None
     waits: Tick
     waits_for: int | None
     to_leave: VertexId | None
+
+    @property
+    def purpose(self) -> str:
+        """The activities in English.
+
+        ``home``, ``work at stop 1, turn``, ``stop 2 of lap 3``, ``turn``, ``drive through``,
+        ``make room``, or ``wait`` where the robot only waits. With jobs, ``work at stop 1 of J2``,
+        ``charge``, and ``start`` where it begins elsewhere than at home.
+        """
+        return ", ".join(map(_tell_purpose, self.purposes))
+
+
+@lru_cache(maxsize=4096)
+def _tell_purpose(purpose: Fact) -> str:
+    """Return an activity in English; the same few are at most visits."""
+    return str(purpose)
+
+
+HOME, START, CHARGE, TURN, WAIT, MAKE_ROOM, DRIVE_THROUGH = (
+    Fact(f"purpose {word}")
+    for word in ("home", "start", "charge", "turn", "wait", "make room", "drive through")
+)
+"""Activities without values."""
 
 
 def list_events(plan: Plan) -> tuple[Event, ...]:
@@ -93,15 +116,15 @@ def _list_events_of(plan: Plan, robot: int, stay: Stays, losses: Sequence[Loss])
     rows = zip(*(column.tolist() for column in columns), strict=True)
     for visit, (vertex, dwell, waiting, turns) in enumerate(rows):
         reason = _find_holding(waited, enters[visit] + dwell) if waiting else None
-        idle = "make room" if _find_holding(room, enters[visit]) else "drive through"
-        purpose = purposes.get(visit) or ("wait" if waiting else idle)
-        if turns and not purpose.endswith("turn"):
-            purpose = "turn" if purpose == "drive through" else f"{purpose}, turn"
+        idle = MAKE_ROOM if _find_holding(room, enters[visit]) else DRIVE_THROUGH
+        doing = purposes.get(visit) or (WAIT if waiting else idle,)
+        if turns and doing[-1] != TURN:
+            doing = (TURN,) if doing == (DRIVE_THROUGH,) else (*doing, TURN)
         yield Event(
             robot=robot,
             visit=visit,
             vertex=VertexId(vertex),
-            purpose=purpose,
+            purposes=doing,
             enter=Tick(enters[visit]),
             leave=Tick(enters[visit + 1]) if visit + 1 < len(enters) else None,
             waits=Tick(waiting),
@@ -116,49 +139,60 @@ def _find_holding(losses: Sequence[Loss], tick: int) -> Loss | None:
     return losses[index] if index >= 0 and tick < losses[index].end else None
 
 
-def _list_purposes(scenario: Scenario, robot: int, stay: Stays, n_visits: int) -> dict[int, str]:
+def _list_purposes(
+    scenario: Scenario, robot: int, stay: Stays, n_visits: int
+) -> dict[int, tuple[Fact, ...]]:
     """Return the activities of a robot in its visits, except drives through."""
     stages, n_stops = scenario.problem.itineraries[robot].stages, len(scenario.robots[robot].stops)
     ends_at_home = (scenario.robots[robot].ends or scenario.rules.ends) == "home"
     per_lap = n_stops + ends_at_home
     laps = len(stages) // per_lap
-    parts: dict[int, list[str]] = {0: ["home"]}
+    parts: dict[int, list[Fact]] = {0: [HOME]}
     turning = set()
     for number, (stage, visit) in enumerate(zip(stages, stay.serves, strict=False)):
         lap, place = divmod(number, per_lap)
-        words = "home" if place == n_stops else f"stop {place + 1}"
-        words = f"work at {words}" if stage.work else words
-        words += f" of lap {lap + 1}" if laps > 1 and place < n_stops else ""
-        if words not in parts.setdefault(visit, []):
-            parts[visit].append(words)
+        if place == n_stops:
+            stop = HOME
+        elif laps > 1:
+            stop = Fact("purpose stop of lap", number=place + 1, lap=lap + 1)
+        else:
+            stop = Fact("purpose stop", number=place + 1)
+        doing = Fact("purpose work", place=stop) if stage.work else stop
+        if doing not in parts.setdefault(visit, []):
+            parts[visit].append(doing)
         if stage.turn and visit < n_visits - 1:
             turning.add(visit)
-    return {
-        visit: ", ".join([*words, *(["turn"] if visit in turning else [])])
-        for visit, words in parts.items()
-    }
+    return _add_turns(parts, turning)
 
 
-def _list_purposes_of_tour(plan: Plan, robot: int, tour: Sequence[PlannedItem]) -> dict[int, str]:
+def _list_purposes_of_tour(
+    plan: Plan, robot: int, tour: Sequence[PlannedItem]
+) -> dict[int, tuple[Fact, ...]]:
     """Return the activities of a robot with a tour in its visits, except drives through."""
     work, jobs = plan.scenario.problem.work, plan.scenario.jobs
     assert work is not None, "tours are of jobs"
     assert jobs is not None, "tours are of jobs"
     vertices, bound = plan.tracks[robot].vertices.tolist(), work.robots[robot]
     last, home = len(vertices) - 1, plan.scenario.robots[robot].home
-    parts: dict[int, list[str]] = {0: ["home" if vertices[0] == home else "start"]}
+    parts: dict[int, list[Fact]] = {0: [HOME if vertices[0] == home else START]}
     for item in tour:
-        words = "charge"
+        doing = CHARGE
         if item.job is not None and item.stop is not None:
-            words = f"stop {item.stop + 1} of {jobs[item.job].name}"
-            words = f"work at {words}" if item.end > item.begin else words
-        parts.setdefault(item.visit, []).append(words)
+            doing = Fact("purpose stop of job", number=item.stop + 1, job=jobs[item.job].name)
+            if item.end > item.begin:
+                doing = Fact("purpose work", place=doing)
+        parts.setdefault(item.visit, []).append(doing)
     if bound.home is not None and last not in parts:
-        parts[last] = ["home"]
-    turning = {item.visit for item in tour if bound.turn and item.visit < last}
+        parts[last] = [HOME]
+    return _add_turns(parts, {item.visit for item in tour if bound.turn and item.visit < last})
+
+
+def _add_turns(
+    parts: Mapping[int, Sequence[Fact]], turning: Container[int]
+) -> dict[int, tuple[Fact, ...]]:
     return {
-        visit: ", ".join([*words, *(["turn"] if visit in turning else [])])
-        for visit, words in parts.items()
+        visit: (*doing, TURN) if visit in turning else tuple(doing)
+        for visit, doing in parts.items()
     }
 
 
