@@ -69,7 +69,7 @@ Steps = tuple[str | int, ...]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Location:
-    """Where something stands in an input, part by part: text is made of it, and never read back.
+    """A position in an input, part by part; it can be formatted as text but not parsed.
 
     Attributes
     ----------
@@ -136,11 +136,11 @@ class Location:
 
 
 Where = str | int | Steps | Location
-"""A place as code writes it: a key, an index, several of them, or a location."""
+"""A position as an argument: a key, an index, several of them, or a location."""
 
 
 def as_location(where: Where) -> Location:
-    """Return a place as a location; the empty text is the whole input."""
+    """Return a position as a location; the empty text is the whole input."""
     if isinstance(where, Location):
         return where
     if isinstance(where, tuple):
@@ -176,7 +176,7 @@ def format_path(path: Steps, names: Sequence[str] = ()) -> str:
 
 @dataclass(frozen=True, slots=True, init=False)
 class InputFault:
-    """One thing wrong with an input.
+    """One fault of an input.
 
     Parameters
     ----------
@@ -269,11 +269,11 @@ class InputFault:
 
 
 class RightOfWayError(Exception):
-    """The root of everything this package raises on purpose."""
+    """The base class of all exceptions that this package raises on purpose."""
 
 
 class InputError(RightOfWayError, ValueError):
-    """Something given by the user is wrong.
+    """An input of the user is wrong.
 
     Parameters
     ----------
@@ -320,7 +320,7 @@ def locate_faults(where: Where) -> Iterator[None]:
 
 @contextmanager
 def name_file(source: str) -> Iterator[None]:
-    """Name the file or argument in which the faults raised inside stand.
+    """Add the name of a file or argument to the faults raised inside.
 
     Parameters
     ----------
@@ -334,7 +334,7 @@ def name_file(source: str) -> Iterator[None]:
 
 
 class KernelLimit(InputError, OverflowError):
-    """The native core's integers cannot hold a number of the input, or one derived from it."""
+    """A number of the input, or one derived from it, exceeds the integers of the native core."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -368,7 +368,7 @@ class Blockage:
 
 
 class NoPlanExists(RightOfWayError):
-    """It is proven that the scenario has no plan; the message says why.
+    """It is proven that the scenario has no plan; the message has the reason.
 
     Parameters
     ----------
@@ -427,7 +427,7 @@ class NoPlanExists(RightOfWayError):
 
 
 class GaveUp(RightOfWayError):
-    """No plan was found within the planner's means or the time limit; one may exist.
+    """No plan was found within the limits of the planner or the time limit; one may exist.
 
     Parameters
     ----------
@@ -454,7 +454,7 @@ class InvalidPlan(RightOfWayError):
 
 
 def quote(value: object) -> str:
-    """Return a value as a message shows it: printable, on one line, and not longer than needed."""
+    """Return a value formatted for a message: printable, short, and on one line."""
     if value is None:
         return "nothing"
     if isinstance(value, bool):
@@ -477,7 +477,7 @@ def _list_shown(items: list[object] | tuple[object, ...]) -> str:
 
 
 def join_names(names: Sequence[str]) -> str:
-    """Return names as an English sentence has them: ``R1, R2 and R3``, long lists cut."""
+    """Return names joined as in an English sentence: ``R1, R2 and R3``; long lists are cut."""
     most = 2 * FEW
     if len(names) > most:
         names = [*names[: most - 1], f"{len(names) - most + 1} more"]
@@ -501,7 +501,7 @@ def escape_text(text: str) -> str:
 
 
 def is_printable(text: str) -> bool:
-    """Return whether a name may stand in tables and messages: not empty, no control codes."""
+    """Return whether a name is fit for tables and messages: not empty, no control codes."""
     return bool(text) and text.isprintable()
 
 
@@ -522,7 +522,7 @@ def describe_defect(error: BaseException) -> str:
 
 
 def find_nearest(word: object, known: Collection[str]) -> str | None:
-    """Return the known word that was probably meant; None where the search would take long."""
+    """Return the most similar known word; None if the search would take long."""
     text = str(word)
     if len(text) > LONGEST or len(known) > MANY:
         return None

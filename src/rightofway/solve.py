@@ -73,7 +73,7 @@ def solve(
     seconds_per_visit: float = JUDGING,
     **named: Any,
 ) -> Plan:
-    """Plan a fleet and have the plan judged.
+    """Plan a fleet and judge the plan.
 
     Parameters
     ----------
@@ -153,7 +153,7 @@ def improve(
     seconds_per_visit: float = JUDGING,
     **named: Any,
 ) -> Plan:
-    """Make a plan better, also one of another program, and have the result judged.
+    """Improve a plan, also one of another program, and judge the result.
 
     Parameters
     ----------

@@ -33,7 +33,7 @@ Value = Fraction | int | float
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Units:
-    """The units of a scenario's numbers; None where the scenario gives none.
+    """The units of a scenario's numbers; None if the scenario has none.
 
     Attributes
     ----------
@@ -79,7 +79,7 @@ class Units:
 
 
 def write_decimal(value: Value, digits: int = DIGITS) -> str:
-    """Return a number as a person writes it in English.
+    """Return a number as English decimal text.
 
     Parameters
     ----------

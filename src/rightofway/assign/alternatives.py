@@ -34,7 +34,7 @@ class JobCost:
 
 
 def list_job_costs(plan: Plan) -> tuple[tuple[JobCost, ...], ...]:
-    """Return what each job costs on each robot that may do it, in the order of robots.
+    """Return the cost of each job on each robot that may do it, in the order of robots.
 
     Parameters
     ----------

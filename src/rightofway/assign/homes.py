@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["HOMELESS", "deal_homes"]
 
 HOMELESS = VertexId(-1)
-"""The home of a robot to which none is dealt out yet."""
+"""The home of a robot without an assigned home."""
 
 NAMED = 6
 """The most robots whose dealt homes a note names."""
@@ -34,7 +34,7 @@ FAR = 2**31 - 1
 def deal_homes(
     robots: Sequence[Robot], roadmap: Roadmap, rules: Rules
 ) -> tuple[list[Robot], tuple[Fact, ...]]:
-    """Return the robots, each with a home, and a note on the homes given to `HOMELESS` ones.
+    """Return the robots, each with a home, and a note on the homes assigned to `HOMELESS` ones.
 
     In the order of the robots, each gets the free place that has the shortest way to its first
     stop, and a way back from its last one unless it stays there; one without a trip, which is for

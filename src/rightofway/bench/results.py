@@ -67,7 +67,7 @@ NOT_RESULTS = "this is no file of results as they are now (give another file)"
 
 
 class Results:
-    """A file of rows, open for more.
+    """A file of rows, open for writing.
 
     Parameters
     ----------

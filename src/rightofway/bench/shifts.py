@@ -18,7 +18,7 @@ from rightofway.kinds.table import COUNT, NOT_NEGATIVE, POSITIVE, TEXT, Kind
 from rightofway.model import Scenario
 
 SHIFT = "shift"
-"""In place of a planner: jobs become known while the fleet drives."""
+"""A simulated shift instead of a planner: jobs become known while the fleet drives."""
 
 OPTIONS: Mapping[str, Kind[Any]] = {
     "until": POSITIVE,

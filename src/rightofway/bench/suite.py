@@ -67,7 +67,7 @@ class _Map:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Case:
-    """One fleet, one planner, one time limit. It needs no files, so it can go anywhere.
+    """One fleet, one planner, one time limit. It needs no files, so any machine can run it.
 
     Attributes
     ----------

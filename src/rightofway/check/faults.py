@@ -56,7 +56,7 @@ FaultKind = Literal[
     "low battery",
     "stranded",
 ]
-"""The ways a plan can be wrong.
+"""Kinds of faults of plans.
 
 ===================  ===============================================================================
 ``unknown vertex``   a visit is at a vertex that the roadmap does not have

@@ -32,7 +32,7 @@ UNFOLDED = ("notice", "pace")
 
 
 class JournalRow(NamedTuple):
-    """An entry as it stands in a journal, with its number and moment.
+    """An entry of a journal, with its number and moment.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ class JournalRow(NamedTuple):
 
 
 class JournalFailed(Exception):
-    """An entry could not be written; nothing that depends on it may be sent."""
+    """An entry could not be written, so no message that depends on it may be sent."""
 
 
 class Journal(Protocol):

@@ -74,7 +74,7 @@ class Order:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InstantAction:
-    """Something to be done at once: tell the state, or stop and forget the order."""
+    """An immediate command: send the state, or stop and cancel the order."""
 
     robot: int
     action_id: str
@@ -112,7 +112,7 @@ HARMLESS = frozenset({"WARNING", "URGENT"})
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Condition:
-    """How a robot is, by its own words. It holds releases back and never lets one go.
+    """The reported condition of a robot. It can delay releases but never causes one.
 
     Attributes
     ----------
@@ -155,7 +155,7 @@ class Load:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StateReport:
-    """A robot's message about itself; messages may be lost, doubled, late, and partly wrong.
+    """The state message of a robot; messages may be lost, doubled, late, and partly wrong.
 
     Attributes
     ----------

@@ -28,7 +28,7 @@ AS_USUAL = Condition()
 
 
 class SimulatedRobot:
-    """A robot that stands at a place.
+    """A simulated robot at a place.
 
     Parameters
     ----------

@@ -56,7 +56,7 @@ class CurvePiece:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ParameterCurve:
-    """The period as a function of one parameter, all others and the order being as they are.
+    """The period as a function of one parameter, with all others and the order unchanged.
 
     Attributes
     ----------

@@ -73,7 +73,7 @@ class VisitTimes(Sequence[int]):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pattern:
-    """A pattern that repeats for ever.
+    """A pattern that repeats permanently.
 
     Attributes
     ----------

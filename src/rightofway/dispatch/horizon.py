@@ -17,7 +17,7 @@ from rightofway.model import Assignment, Itinerary, Scenario, Tick, Tour, Work, 
 __all__ = ["STOPS_AHEAD", "CutTours", "cut_tours"]
 
 STOPS_AHEAD = 2
-"""Stops of each tour that a round makes routes for; a robot that has fewer of them left, and more
+"""Stops of each tour that get routes in a round; a robot that has fewer of them left, and more
 behind them, needs a round."""
 
 

@@ -38,7 +38,7 @@ KEYS: dict[EventKind, tuple[str, ...]] = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PoolEvent:
-    """Something that has happened to a job.
+    """An event of a job.
 
     Attributes
     ----------

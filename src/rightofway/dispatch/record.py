@@ -132,7 +132,7 @@ class RoundRecord:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ShiftRecord:
-    """A shift that has been simulated.
+    """A simulated shift.
 
     Attributes
     ----------

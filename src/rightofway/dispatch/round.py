@@ -112,7 +112,7 @@ class _Given:
 
 
 class RoundPlanner:
-    """Plans rounds of one fleet; what roads and places cost is kept from round to round.
+    """Planner of rounds of one fleet; it keeps travel times and distances between rounds.
 
     Parameters
     ----------

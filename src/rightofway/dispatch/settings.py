@@ -19,7 +19,7 @@ __all__ = ["ShiftSettings"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ShiftSettings:
-    """How to simulate a shift, as users write it.
+    """The settings of a simulated shift, as users write them.
 
     Attributes
     ----------

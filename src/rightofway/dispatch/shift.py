@@ -39,7 +39,7 @@ FOR_GOOD: frozenset[UnservedReason] = frozenset({"latest", "after"})
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ShiftRules:
-    """How a shift is simulated.
+    """The rules of a simulated shift.
 
     Attributes
     ----------

@@ -52,7 +52,7 @@ class PlannedStep:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RobotView:
-    """One robot as a round sees it.
+    """The state of one robot at the begin of a round.
 
     Attributes
     ----------
@@ -101,7 +101,7 @@ class RobotView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FleetView:
-    """The fleet as a round sees it.
+    """The state of the fleet at the begin of a round.
 
     Attributes
     ----------

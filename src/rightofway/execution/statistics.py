@@ -190,7 +190,7 @@ def _sum_sources(adg: ActionDependencyGraph, batch: RunBatch) -> tuple[LatenessS
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PolicyGain:
-    """The gain of switching and replanning against the unchanged plan, in the same runs.
+    """The gain of switching and replanning compared with the unchanged plan, in the same runs.
 
     Attributes
     ----------

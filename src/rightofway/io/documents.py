@@ -12,7 +12,7 @@ from rightofway.io.json_text import parse_json
 from rightofway.io.yaml_text import parse_yaml
 
 DELAY_FILES = (".yaml", ".yml", ".json")
-"""How the names of such files end."""
+"""Suffixes of files of delays."""
 
 _BEGIN = re.compile(r"(\s*#[^\n]*\n)*\s*format\s*:")
 

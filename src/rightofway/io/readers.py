@@ -139,7 +139,7 @@ def load_either(
     map_file: Path | str | None = None,
     scen: Path | str | None = None,
 ) -> Plan | Loaded:
-    """Return the plan of a file, or the scenario if its ``format`` says that it is one.
+    """Return the plan or the scenario of a file, by its ``format``.
 
     Parameters
     ----------

@@ -105,7 +105,7 @@ def find_changes(before: Scenario, after: Scenario) -> tuple[Change, ...]:
 
 
 def find_job_changes(before: Plan, after: Plan) -> tuple[Change, ...]:
-    """Return the differences of what two plans do with the jobs that both scenarios have.
+    """Return the differences of two plans in the jobs that both scenarios have.
 
     Parameters
     ----------

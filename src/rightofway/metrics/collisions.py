@@ -94,7 +94,7 @@ class Collision:
 
 
 def find_collisions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Collision, ...]:
-    """Return where bookings of any tracks overlap, by start, then by robots.
+    """Return the overlaps of bookings of any tracks, by start, then by robots.
 
     Parameters
     ----------
@@ -140,7 +140,7 @@ class Swap:
 
 
 def find_swaps(tracks: Sequence[Track]) -> tuple[Swap, ...]:
-    """Return where two robots of any tracks exchange vertices, by tick, then by robots.
+    """Return the swaps of any tracks, by tick, then by robots.
 
     Parameters
     ----------
@@ -275,7 +275,7 @@ class NearMiss:
 
 
 def find_near_misses(scenario: Scenario, tracks: Sequence[Track]) -> tuple[NearMiss, ...]:
-    """Return where robots of any tracks are too near for their sizes, by start, then by robots.
+    """Return the near misses of any tracks, by start, then by robots.
 
     Parameters
     ----------

@@ -18,7 +18,7 @@ from rightofway.metrics.measure import measure
 from rightofway.model import Plan
 
 MAX_COMPARED = 8
-"""Plans that are compared at once."""
+"""The largest number of plans in one comparison."""
 
 SMALLER_IS_BETTER = ("flowtime", "makespan", "gap", "seconds")
 """The figures of which the best ones are marked."""
@@ -26,7 +26,7 @@ SMALLER_IS_BETTER = ("flowtime", "makespan", "gap", "seconds")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Comparison:
-    """Plans beside each other.
+    """A comparison of plans.
 
     Attributes
     ----------
@@ -108,7 +108,7 @@ class Comparison:
 
 
 def compare(plans: Sequence[Plan], titles: Sequence[str] = ()) -> Comparison:
-    """Put plans beside each other; their scenarios may differ.
+    """Compare plans; their scenarios may differ.
 
     Parameters
     ----------

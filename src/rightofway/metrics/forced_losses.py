@@ -53,7 +53,7 @@ def find_forced_losses(
     pairs: int = MOST_PAIRS,
     states: int = STATES,
 ) -> tuple[ForcedLoss, ...]:
-    """Return which robots lose time to each other in every plan, the most first.
+    """Return robots that lose time to each other in every plan, the largest loss first.
 
     Parameters
     ----------
@@ -115,7 +115,7 @@ def find_forced_makespan(
     pairs: int = MOST_PAIRS,
     states: int = STATES,
 ) -> tuple[ForcedLoss, ...]:
-    """Return which robots cannot all have completed before a tick, in any plan.
+    """Return robots that cannot all have completed before a tick, in any plan.
 
     Parameters
     ----------

@@ -64,7 +64,7 @@ LISTED_CORRIDORS = 10
 
 
 def inspect(site: Site) -> Inspection:
-    """Return the size of a site, and its weaknesses.
+    """Return the size and the findings of a site.
 
     Parameters
     ----------

@@ -9,7 +9,7 @@ from rightofway.model import Plan, Tick
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JobTimes:
-    """When a job is done.
+    """The begin and the end of a job.
 
     Attributes
     ----------
@@ -33,7 +33,7 @@ class JobTimes:
 
 
 def list_job_times(plan: Plan) -> tuple[JobTimes, ...]:
-    """Return when each served job of a plan is done, in the order of the scenario's jobs.
+    """Return the times of each served job of a plan, in the order of the scenario's jobs.
 
     Parameters
     ----------

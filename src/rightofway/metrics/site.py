@@ -61,7 +61,7 @@ class Finding:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Inspection:
-    """The size of a site, and its weaknesses.
+    """The size and the findings of a site.
 
     Attributes
     ----------

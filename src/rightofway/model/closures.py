@@ -37,7 +37,7 @@ LEEWAY = 1e-9
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Closure:
-    """A vertex, or an edge in both directions, that nobody may book for a while.
+    """A vertex, or an edge in both directions, that no robot may book for a time.
 
     Attributes
     ----------

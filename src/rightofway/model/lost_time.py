@@ -132,7 +132,7 @@ class LostTime:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Wait:
-    """A robot stands still with nothing to do.
+    """A robot waits at a vertex, without work or turning.
 
     Attributes
     ----------

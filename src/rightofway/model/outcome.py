@@ -166,7 +166,7 @@ class Outcome:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ForcedLoss:
-    """Robots that cannot all be as early as alone, or as early as no plan is.
+    """Robots that cannot all be as early as alone, or earlier than a tick in any plan.
 
     Attributes
     ----------

@@ -46,7 +46,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Decision:
-    """Which of two robots got the right of way where they would have met, and why.
+    """The right of way between two robots that would have met, with its reason.
 
     Attributes
     ----------
@@ -129,7 +129,7 @@ class Improvement:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StartPlan:
-    """How much a plan has kept of the plan of another scenario that it was made from.
+    """The routes and tracks that a plan has kept from the plan of an earlier scenario.
 
     Attributes
     ----------
@@ -145,7 +145,7 @@ class StartPlan:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlannerRun:
-    """How a plan came about.
+    """The origin of a plan.
 
     Attributes
     ----------

@@ -36,7 +36,7 @@ HEAVIEST = 10**6
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stage:
-    """One thing to do on a trip: be at a vertex, work there, turn.
+    """One step of a trip: be at a vertex, work there, turn.
 
     Attributes
     ----------
@@ -168,14 +168,14 @@ class Itinerary:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Problem:
-    """A scenario in ticks, bound once; two problems are equal only if they are the same object.
+    """A scenario in ticks, computed once; two problems are equal only if they are the same object.
 
     Attributes
     ----------
     roadmap
         The graph that robots drive on.
     clock
-        How long a tick is.
+        The length of a tick.
     booking_rules
         When visits book.
     itineraries
@@ -251,7 +251,7 @@ class Problem:
 
 
 def compute_least_dwell(stages: Sequence[Stage], *, leaves: bool) -> Tick:
-    """Return how long a visit lasts at least that serves these stages, without the edge after it.
+    """Return the least duration of a visit that serves these stages, without the edge after it.
 
     The last visit of a robot (``leaves`` is false) needs no turning.
 

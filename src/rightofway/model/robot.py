@@ -35,7 +35,7 @@ TripEnd = Literal["home", "none"]
 """Where a trip ends: at ``home``, or (``none``) at the last stop."""
 
 Occupancy = Literal["one", "both"]
-"""What a moving robot books: the vertex it leaves (``one``), or the one it drives to as well."""
+"""The bookings of a moving robot: the vertex it leaves (``one``), or the next one as well."""
 
 
 Walls = Literal["free", "strict"]

@@ -175,7 +175,7 @@ def _join_legs(
 def make_route_through(
     roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[VertexId]
 ) -> Route:
-    """Make a route of the vertices it visits; each stage is served as early as it can be.
+    """Make a route from its vertices; each stage is served by the earliest possible visit.
 
     Parameters
     ----------
@@ -192,7 +192,7 @@ def make_route_through(
 
 
 def make_route(roadmap: Roadmap, itinerary: Itinerary, track: Track) -> Route:
-    """Keep where a robot drives and works, and forget when.
+    """Return the route of a track, without its times.
 
     Parameters
     ----------
@@ -229,7 +229,7 @@ def _route(
 def compute_drives_along(
     roadmap: Roadmap, itinerary: Itinerary, vertices: Sequence[int]
 ) -> list[int]:
-    """Return how long a robot drives along each edge of a path [ticks].
+    """Return the duration of each drive of a robot along a path [ticks].
 
     Parameters
     ----------
@@ -258,7 +258,7 @@ def compute_drives_along(
 def compute_turns_along(
     roadmap: Roadmap, itinerary: Itinerary, vertices: NDArray[np.int32]
 ) -> NDArray[np.int64]:
-    """Return how long a robot turns at each vertex of a path [ticks]; int64, shape (n,).
+    """Return the turning time of a robot at each vertex of a path [ticks]; int64, shape (n,).
 
     It does not turn at the last vertex, and at the first one only from its initial heading.
 

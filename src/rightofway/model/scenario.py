@@ -29,7 +29,7 @@ MAX_STAGES = 1_000_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scenario:
-    """A fleet, where it drives and by which rules; valid by construction.
+    """A fleet with its map and rules; valid by construction.
 
     Attributes
     ----------

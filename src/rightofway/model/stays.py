@@ -260,7 +260,7 @@ def compute_drives(scenario: Scenario, tracks: Sequence[Track]) -> NDArray[np.in
 
 
 def compute_completions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Tick, ...]:
-    """Return when each robot has done its work and entered its last vertex [ticks].
+    """Return the completion time of each robot [ticks].
 
     Parameters
     ----------

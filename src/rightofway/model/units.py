@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 Tick = NewType("Tick", int)
 
 NEVER = Tick(2**62)
-"""The tick of what never happens, such as the end of a booking that never ends."""
+"""The tick of events that never happen, such as the end of a permanent booking."""
 
 MAX_TICKS_OF_SHORTEST = 1000
 """The shortest duration of a fleet is at most this many ticks long."""
@@ -28,7 +28,7 @@ MAX_TICKS_OF_SHORTEST = 1000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Clock:
-    """How long a tick is.
+    """The length of a tick.
 
     Attributes
     ----------

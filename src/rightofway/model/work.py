@@ -190,7 +190,7 @@ class Battery:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RobotState:
-    """Where a robot begins, and the work it has done.
+    """The place where a robot begins, and the work it has done.
 
     Attributes
     ----------
@@ -231,7 +231,7 @@ class RobotState:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TourItem:
-    """One thing that a robot does on its tour: the work of a stop, a charge, or its rest.
+    """One item of a tour: the work of a stop, a charge, or the rest at its end.
 
     Attributes
     ----------
@@ -261,7 +261,7 @@ it would end too late; it follows an unserved job; the search found no place for
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Assignment:
-    """Which robot does which jobs, in which order.
+    """The jobs of each robot, in order.
 
     Attributes
     ----------
@@ -302,7 +302,7 @@ class BoundStop:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BoundJob:
-    """A job in ticks; of a begun job only the rest.
+    """A job in ticks; of a begun job only the remaining stops.
 
     Attributes
     ----------
@@ -407,7 +407,7 @@ class BoundRobot:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Work:
-    """The work of a fleet in ticks, bound once.
+    """The work of a fleet in ticks, computed once.
 
     Attributes
     ----------

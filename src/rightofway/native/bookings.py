@@ -91,7 +91,7 @@ class BookedRows:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ClosedPlaces:
-    """When the places that visits book are closed.
+    """Closures of the places that visits book.
 
     Attributes
     ----------
@@ -148,7 +148,7 @@ class ClosedPlaces:
 def book_times(
     problem: Problem, tracks: Sequence[Track], drive: NDArray[np.int64]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return from when to when each visit books its vertex, robot after robot; int64, shape (N,).
+    """Return begin and end of the booking of each visit, by robot; int64, shape (N,).
 
     Parameters
     ----------
@@ -190,7 +190,7 @@ def find_overlaps(
 
 
 def bind_rows(rows: BookedRows | None) -> _core.VisitRows | None:
-    """Return the bookings of visits as kernels take them.
+    """Return the bookings of visits for kernels.
 
     Parameters
     ----------
@@ -203,7 +203,7 @@ def bind_rows(rows: BookedRows | None) -> _core.VisitRows | None:
 
 
 def bind_closures(closed: ClosedPlaces | None) -> _core.VisitClosures | None:
-    """Return when the places of visits are closed as kernels take it.
+    """Return the closures of the places of visits for kernels.
 
     Parameters
     ----------

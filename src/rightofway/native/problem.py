@@ -33,7 +33,7 @@ atexit.register(_BOUND.clear)  # a problem that lives to the end takes no native
 
 
 def bind_native(problem: Problem) -> _core.Problem:
-    """Return the native twin of a problem, which is made once and kept with it.
+    """Return the native twin of a problem, which is made once and stored with it.
 
     Robots of one pace need the same ticks for every edge.
 
@@ -162,7 +162,7 @@ def scale_costs(
 
 
 def bind_rules(rules: BookingRules) -> _core.BookingRules:
-    """Return when visits book as kernels take it.
+    """Return the rules of bookings for kernels.
 
     Parameters
     ----------
@@ -186,7 +186,7 @@ def bind_roads(roadmap: Roadmap) -> _core.Roads:
 
 
 def bind_turning(turnings: Sequence[Turning | None]) -> _core.Turning | None:
-    """Return how long robots turn; robots of one turn rate are a class.
+    """Return the turning times of robots; robots of one turn rate are a class.
 
     Parameters
     ----------

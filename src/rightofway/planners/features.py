@@ -10,7 +10,7 @@ from rightofway.model import Problem
 
 
 class Feature(StrEnum):
-    """Something that a planner can do; a planner without it refuses scenarios that need it.
+    """A feature of planners; a planner without it refuses scenarios that need it.
 
     Attributes
     ----------
@@ -40,7 +40,7 @@ class Feature(StrEnum):
 
 
 ANY_FLEET = frozenset({Feature.SIZES, Feature.CLOSURES, Feature.BARRED_EDGES, Feature.TURN_RATES})
-"""What a planner can do that plans every scenario."""
+"""The features of a planner that plans every scenario."""
 
 
 def refuse_unknown(

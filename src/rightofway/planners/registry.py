@@ -169,10 +169,10 @@ PLANNERS = (
 )
 
 DEFAULT_PLANNER = "auto"
-"""The planner where none is named."""
+"""The default planner."""
 
 IMPROVER = "lns"
-"""The planner that makes a plan better where none is named."""
+"""The default planner of `improve`."""
 
 
 def find_all() -> dict[str, PlannerSpec]:

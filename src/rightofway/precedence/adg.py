@@ -37,7 +37,7 @@ KINDS = ("exponential", "uniform", "normal", "chance", "breaks")
 
 
 class Stoppage(NamedTuple):
-    """A robot stands still from a tick on, for some ticks; `NEVER` ticks are a breakdown."""
+    """A robot stops from a tick on, for some ticks; `NEVER` ticks are a breakdown."""
 
     tick: Tick
     ticks: Tick
@@ -137,7 +137,7 @@ class Execution(NamedTuple):
 
 
 class RunBatch(NamedTuple):
-    """Times and counts of K runs, by right of way unless the name says by clock.
+    """Times and counts of K runs; by right of way, except in fields with `clock` in the name.
 
     Attributes
     ----------
@@ -164,7 +164,7 @@ class RunBatch(NamedTuple):
 
 
 class ActionDependencyGraph:
-    """Routes, planned times and order of a plan, with the delays it may meet.
+    """Routes, planned times and order of a plan, with possible delays.
 
     Parameters
     ----------

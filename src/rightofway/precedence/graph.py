@@ -49,7 +49,7 @@ Pairs = NDArray[np.int32]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Meeting:
-    """A conflict that the timetable still holds.
+    """A remaining conflict of a timetable.
 
     Attributes
     ----------

@@ -27,7 +27,7 @@ from rightofway.precedence.timed_event_graph import TimedEventGraph, trace_circu
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Growth:
-    """How long arcs are for a parameter ``x``: ``(fixed + slope * x) / parts`` [ticks].
+    """The lengths of arcs for a parameter ``x``: ``(fixed + slope * x) / parts`` [ticks].
 
     Attributes
     ----------

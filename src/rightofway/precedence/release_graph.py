@@ -50,7 +50,7 @@ class Arrival(NamedTuple):
 
 
 class ReleaseGraph:
-    """Which arrivals each part of each route waits for.
+    """The arrivals that each part of each route waits for.
 
     Parameters
     ----------

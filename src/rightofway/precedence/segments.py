@@ -180,7 +180,7 @@ def _make_segment(first: Route, other: Route, columns: tuple[Sequence[int], ...]
 
 
 def make_crossing(first: Route, i: int, other: Route, j: int) -> Segment:
-    """Return the segment of two visits to one vertex, and of nothing around it.
+    """Return the segment of two visits to one vertex, without neighbouring visits.
 
     Parameters
     ----------

@@ -24,7 +24,7 @@ from rightofway.precedence.timed_event_graph import Circuit, TimedEventGraph, tr
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sensitivity:
-    """How the cycle time follows something that takes time; fractions are exact.
+    """The change of the cycle time with a parameter that takes time; fractions are exact.
 
     Attributes
     ----------
@@ -55,7 +55,7 @@ def compute_sensitivity(
     tight: NDArray[np.bool_] | None = None,
     time_limit: float | None = None,
 ) -> Sensitivity:
-    """Return how the cycle time follows the duration that has a share of the arcs.
+    """Return the sensitivity of the cycle time to a duration that has a share of the arcs.
 
     Parameters
     ----------

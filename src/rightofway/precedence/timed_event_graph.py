@@ -34,7 +34,7 @@ MOST_ANSWERS = 1 << 21
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class CyclicSchedule:
-    """When the robots of a group are where, period after period.
+    """The visits of the robots of a group in each period.
 
     Attributes
     ----------

@@ -10,7 +10,7 @@ UNLIMITED = 2**62
 
 
 class PriceAscent:
-    """A lower bound of the objective, kept in the native core while it is raised.
+    """A lower bound of the objective, in the native core while it is raised.
 
     A vertex has a price at a tick where several robots want it. Each robot takes its cheapest
     track, prices included. The sum of their payments, less the sum of all prices, is a bound of

@@ -27,7 +27,7 @@ MILLION, MOST_FACTOR = 10**6, 10**6
 
 
 class JointPlan(NamedTuple):
-    """A plan of least cost of some robots, alone on the roads, or its proven bound.
+    """A plan of least cost of some robots without the others, or its proven bound.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ class JointPlan(NamedTuple):
 
 
 class ConflictBasedSearch:
-    """A search for a plan of least flowtime and surcharges, kept in the native core.
+    """A search for a plan of least flowtime and surcharges, in the native core.
 
     Parameters
     ----------

@@ -48,7 +48,7 @@ _NATIVE = {
 
 
 class FleetSearch:
-    """A fleet and its tracks, kept in the native core while they are being worked on.
+    """A fleet and its tracks in the native core, while they are improved.
 
     Parameters
     ----------

@@ -28,7 +28,7 @@ NOBODY = -1
 
 
 class Booking(NamedTuple):
-    """A robot holds a vertex for ``[start, end)`` [ticks]."""
+    """A booking of a vertex by a robot for ``[start, end)`` [ticks]."""
 
     start: Tick
     end: Tick

@@ -109,7 +109,7 @@ def compute_node_length(speeds: Iterable[Fraction]) -> Fraction:
 
 
 def compute_steps_per_unit(speed: Fraction, length: Fraction) -> Fraction:
-    """Return how many cells of that length a robot drives in a unit of time: ``speed / length``.
+    """Return the number of cells that a robot drives in a time unit: ``speed / length``.
 
     Parameters
     ----------

@@ -26,7 +26,7 @@ from rightofway.site.zones import NamedZone, number_zones
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Edge:
-    """A way from one named vertex to another.
+    """A directed edge between named vertices.
 
     Attributes
     ----------

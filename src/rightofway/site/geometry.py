@@ -24,7 +24,7 @@ COARSE, FINE = Fraction(1, 1_000), Fraction(1, 1_000_000)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Frame:
-    """Where the plane that is drawn lies in the site's frame.
+    """The position of the drawn plane in the frame of the site.
 
     Attributes
     ----------

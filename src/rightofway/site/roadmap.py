@@ -36,7 +36,7 @@ class UnknownVertex(InputError, KeyError):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Grid:
-    """Where the vertices of a roadmap lie on a grid of cells.
+    """The positions of the vertices of a roadmap on a grid of cells.
 
     Attributes
     ----------
@@ -69,7 +69,7 @@ class Grid:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EdgeClass:
-    """Common properties of edges: how long they are, and who may drive along them how fast.
+    """Common properties of edges: length, speed limits, and barred types of robots.
 
     Attributes
     ----------

@@ -103,7 +103,7 @@ def list_layout_formats() -> dict[str, LayoutFormat]:
 
 
 def read_layout(path: Path | str) -> Layout | Occupancy | CellMap:
-    """Return the layout of a file, in whatever format it is.
+    """Return the layout of a file in any known format.
 
     Parameters
     ----------

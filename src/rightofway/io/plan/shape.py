@@ -124,7 +124,7 @@ class StatusDocument(Document):
 
 
 class PlannerDocument(Document):
-    """How a plan came about."""
+    """The origin of a plan."""
 
     name: Name = Field(description="the name of the planner")
     options: dict[str, Any] = Field(default={}, description="a mapping of options to values")

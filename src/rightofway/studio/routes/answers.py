@@ -528,7 +528,7 @@ class RobotCompletions(TypedDict):
 
 
 class Compared(TypedDict):
-    """Plans beside each other."""
+    """A comparison of plans."""
 
     runs: list[int]
     plans: list[ComparedFigures]

@@ -130,7 +130,7 @@ def write_page(
     background: Background | None = None,
     others: Sequence[tuple[Plan, str]] = (),
 ) -> None:
-    """Write a page that plays a plan; the file is there whole or not at all.
+    """Write a page that plays a plan; the file is complete, or not written.
 
     Parameters
     ----------

@@ -82,7 +82,7 @@ def write_inspection(
     notes: Sequence[str | Fact] = (),
     background: Background | None = None,
 ) -> None:
-    """Write the page of an inspection; the file is there whole or not at all.
+    """Write the page of an inspection; the file is complete, or not written.
 
     Parameters
     ----------

@@ -403,7 +403,7 @@ class ComparedRobot(TypedDict):
 
 
 class ComparisonData(TypedDict):
-    """Plans beside each other."""
+    """A comparison of plans."""
 
     tick: tuple[int, int]
     units: UnitsData

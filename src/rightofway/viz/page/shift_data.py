@@ -87,7 +87,7 @@ def write_shift_page(
     title: str = "",
     background: Background | None = None,
 ) -> None:
-    """Write a page that plays a shift; the file is there whole or not at all.
+    """Write a page that plays a shift; the file is complete, or not written.
 
     Parameters
     ----------

@@ -20,7 +20,7 @@ WIDGET_STYLE = f".page{{contain:layout;height:{FRAME_HEIGHT}px;min-height:0;over
 
 
 def bundle_of(plan: Plan) -> dict[str, Any]:
-    """Return a plan as a live part of a notebook, by media type; for ``_repr_mimebundle_``.
+    """Return a plan as a widget of a notebook, by media type; for ``_repr_mimebundle_``.
 
     Parameters
     ----------

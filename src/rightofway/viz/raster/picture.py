@@ -107,16 +107,16 @@ def write_png(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Film:
-    """How a film was cut.
+    """The number of pictures and the speed of a film.
 
     Attributes
     ----------
     frames
-        How many pictures it has.
+        Number of pictures.
     ticks_per_frame
-        How far apart in the plan they are [ticks].
+        Time in the plan between two pictures [ticks].
     seconds
-        How long it plays [s].
+        Duration [s].
     """
 
     frames: int

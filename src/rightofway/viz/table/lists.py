@@ -22,7 +22,7 @@ from rightofway.viz.table.listing import ListColumn, Listing, Value
 from rightofway.viz.table.timespace import choose_robots
 
 MAX_ROWS = 1_000_000
-"""Rows of a list that is written to a file or has one for each tick, at most."""
+"""The largest number of rows of a list that is written to a file or has one for each tick."""
 
 
 def choose_events(

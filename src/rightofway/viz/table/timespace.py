@@ -56,7 +56,7 @@ Fleets = tuple[tuple[RowKind, Sequence[Track]], ...]
 
 
 class Cell(NamedTuple):
-    """A place that a robot holds at one tick."""
+    """The place of a robot at one tick."""
 
     place: Place
     mark: Mark | None
@@ -72,7 +72,7 @@ class CellRun(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Row:
-    """Where one robot is from the table's first tick on, until it is done.
+    """The places of one robot from the first tick of the table until its completion.
 
     Attributes
     ----------
@@ -145,7 +145,7 @@ class StepsTo(Sequence[int]):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TimeSpaceTable:
-    """Planned and final rows side by side.
+    """The time/space table: planned and final rows of robots.
 
     Attributes
     ----------
