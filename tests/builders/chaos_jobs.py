@@ -265,14 +265,14 @@ class JobWorld(World):
             for name, own in pool.jobs.items()
         ]
         rounds = self.rounds
-        more = f"{rounds.reasons} {rounds.is_wanted} {rounds.is_under_way} {rounds.unable}"
+        more = f"{rounds.reasons} {rounds.is_wanted} {rounds.is_under_way} {rounds.watch.unable}"
         flags = f"{self.control.stranded} {self.control.list_stuck()} {self.socs}"
         return [*super()._stand(), *jobs, str(sorted(self.said)), more, flags]
 
     def _is_done(self) -> bool:
         """Whether all has been done, or said why not."""
         ledger = self.control.ledger
-        waiting = self.rounds.list_waiting()
+        waiting = self.rounds.watch.list_waiting()
         are_told = all(name in self.said for name in waiting)
         begun = [own for own in ledger.pool.jobs.values() if own.is_begun]
         return (

@@ -284,7 +284,7 @@ def test_rounds_plan_routes_for_the_next_two_stops_of_long_tours() -> None:
     assert [(job["name"], job["state"], job["robot"]) for job in jobs] == [
         (name, "planned", "R1") for name in names
     ]
-    assert not shift.rounds.list_waiting()
+    assert not shift.rounds.watch.list_waiting()
     shift.drive(60)
     assert {name: shift.pool.left.get(name) for name in names} == dict.fromkeys(names, "done")
     assert shift.dispatcher.control.is_done
@@ -303,7 +303,7 @@ def test_a_job_behind_the_horizon_that_changes_during_a_round_is_planned_anew(
     for name, place in zip(("A1", "A2", "A3"), ("N2", "N12", "N5"), strict=True):
         shift.ask("add", name=name, at=place, robot="R1")
     shift.ask("add", name="A4", pickup="N14", dropoff="N10", robot="R1")
-    assert ("A4", 1) in shift.rounds.later[0]
+    assert ("A4", 1) in shift.rounds.watch.later[0]
     rounds.is_ready = False
     shift.ask("add", name="A5", at="N4")
     shift.ask("change", name="A4", at="N14")
@@ -351,10 +351,43 @@ def test_a_battery_that_will_not_last_begins_a_round_once_for_each_plan() -> Non
     wanted = []
     for charge in (1.0, 0.2, 0.19):
         shift.dispatcher.control.charges[0] = charge
-        shift.rounds.look()
-        wanted.append(shift.rounds.is_wanted)
-        shift.rounds.is_wanted = False
+        for _ in range(10):  # of which one forecasts
+            shift.rounds.look()
+        kinds = {reason.kind for reason in shift.rounds.watch.reasons}
+        wanted.append("below reserve ahead" in kinds)
+        shift.floor.send(shift.rounds.go_on())
     assert wanted == [False, True, False]
+
+
+def test_rounds_begin_by_the_triggers_of_simulated_shifts() -> None:
+    """Robots stand still; then a place closes; then a job arrives."""
+    rounds = SlowRounds()
+    rounds.is_ready = True
+    shift = Shift(rounds=rounds)
+    kinds = list[str]()
+
+    def look(seconds: int) -> None:
+        for _ in range(seconds):
+            shift.now += 1
+            shift.rounds.look()
+            kinds.extend(fact.kind for fact in shift.rounds.watch.reasons)
+            shift.floor.send(shift.rounds.go_on())
+
+    look(9)
+    assert not kinds
+    assert not rounds.requests
+    look(40)
+    assert "fallen behind" in kinds
+    assert len(rounds.requests) <= 4
+    kinds.clear()
+    shift.dispatcher.ledger.closed["N7",] = (("N2", "N7"), ("N7", "N2"))
+    look(1)
+    assert "closures change" in kinds
+    kinds.clear()
+    event = {"kind": "job known", "at": shift.now, "name": "A1", "job": {"name": "A1", "at": "N2"}}
+    shift.dispatcher.control.commit(event)
+    look(1)
+    assert "jobs became known" in kinds
 
 
 def test_a_plan_with_jobs_is_not_repeated_in_laps() -> None:

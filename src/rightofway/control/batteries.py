@@ -55,11 +55,6 @@ class FleetBatteries:
             need += self._find_share(robot, tail, head) or 0
         return need
 
-    def measure_drive(self, robot: int, tail: str, head: str) -> Fraction:
-        """Return the share that the drive of a robot along an edge takes, with its time."""
-        get_vertex = self._scenario.roadmap.get_vertex
-        return self._find_share(robot, get_vertex(tail), get_vertex(head)) or Fraction(0)
-
     def may_charge(self, robot: int, place: str) -> bool:
         """Return whether a robot has a battery and may charge it at a place."""
         if self.of_robot[robot] is None:

@@ -107,7 +107,7 @@ class Dispatcher:
             own_rounds = rounds or RoundsAtOnce(time_limit, planner)
             self.rounds = RoundDriver(plan.scenario, control, own_rounds)
             self.rounds.report = self._report_round
-            self.rounds.list_closed = self._list_closed_edges
+            self.rounds.watch.list_closed = self._list_closed_edges
         control.dispatch, control.may_drive = self._add_laps, cache(self._may_drive)
         control.may_stop = self._rest.may_stop
         control.list_actions = StopActions(plan.scenario, lambda: self.ledger.pool).find
@@ -371,7 +371,7 @@ class Dispatcher:
             self._waiting_work = HeldWork(self.plan.scenario, self.control, read_ticks)
             self.control.may_begin = self._waiting_work.may_begin
         if self.rounds is not None:
-            self.rounds.read_ticks = read_ticks
+            self.rounds.watch.read_ticks = read_ticks
         if self.plan.scenario.closures:
             self.closures = ClockedClosures(self.plan.scenario, read_ticks)
             self.control.may_enter = lambda robot, part: self.find_closed(robot, part) is None
@@ -394,10 +394,11 @@ class Dispatcher:
         The plan has its times and ways from closures. The rest is replanned where one without an
         end begins, and where one ends that it was planned round.
         """
-        if self.rounds is not None:
+        if self.rounds is not None:  # closures that begin or end are triggers of rounds
             self.rounds.look()
+            return [*self.control.note(), *self._add_laps()]
         if self.closures is None:
-            return [*self.control.note(), *self._add_laps()] if self.rounds else []
+            return []
         closed, planned_round = self.closures.list_closed_edges(), self._planned_round
         for_good = self.closures.list_closed_edges(forever=True) - planned_round
         if self._is_led_over(for_good) or not planned_round <= closed:
@@ -435,7 +436,7 @@ class Dispatcher:
         before, self._passed = self._passed, long
         self._held = [own.held for own in robots]
         if self.rounds is not None:
-            self.rounds.unable = long
+            self.rounds.watch.unable = long
         messages = self.replan_if_possible()
         if messages is None:
             self._passed = before & long

@@ -168,10 +168,10 @@ class Operator:
         rounds, kind = self._dispatcher.rounds, command["kind"]
         assert rounds is not None, "a plan with jobs has rounds"
         if kind == "list":
-            rows = list_pooled_jobs(self._ledger, rounds.map_robots(), rounds.reasons)
+            rows = list_pooled_jobs(self._ledger, rounds.watch.map_robots(), rounds.reasons)
             return [], {"done": True, "fact": None, "jobs": rows}
         given = {key: value for key, value in command.items() if key != "kind"}
-        name, now = str(given.get("name", "")), rounds.read_ticks()
+        name, now = str(given.get("name", "")), rounds.watch.read_ticks()
         changes: dict[str, Callable[[], tuple[list[Entry], Fact]]] = {
             "add": lambda: jobs.add(given, now),
             "change": lambda: jobs.change(given, now),

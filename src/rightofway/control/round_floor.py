@@ -194,7 +194,7 @@ class ForecastRobot:
 
 
 def forecast_kept_parts(
-    floor: SimulatedFloor, kept: Mapping[int, tuple[int, int]], now: int, takeover: int
+    floor: SimulatedFloor, caps: Mapping[int, tuple[int, int]], now: int, takeover: int
 ) -> tuple[dict[int, ForecastRobot], dict[str, int]]:
     """Return what is expected of robots that keep parts, and when jobs end in these [ticks].
 
@@ -202,18 +202,18 @@ def forecast_kept_parts(
     ----------
     floor
         The floor as it is expected to be now, by `mirror_floor`.
-    kept
+    caps
         For each robot on the floor the number of its last visit that is kept, and how many of the
         works and charges there are.
     now, takeover
         When the round begins, and when robots may begin more [ticks].
     """
-    for robot, cap in kept.items():
+    for robot, cap in caps.items():
         floor.robots[robot].cap = cap
     ahead = floor.fork(now, None)
     ahead.advance(NEVER - 1)
     ends, at_ends = dict(ahead.ends), dict[int, tuple[Tick | None, Fraction, Fraction | None]]()
-    for robot, (last, _) in kept.items():
+    for robot, (last, _) in caps.items():
         own, (free, soc) = ahead.robots[robot], forecast_free(ahead, robot, takeover)
         is_there = own.first == last and own.lost is None
         heading = find_heading_on_site(own.heading, ahead.roadmap)
@@ -222,7 +222,7 @@ def forecast_kept_parts(
     ahead.advance(NEVER - 1)
     expected = {}
     for robot, (is_free, soc, heading) in at_ends.items():
-        own, last = ahead.robots[robot], kept[robot][0]
+        own, last = ahead.robots[robot], caps[robot][0]
         comes = is_free is not None and len(own.visits) == 1
         times = tuple(own.enters[number] for number in range(last + 1, own.first + 1))
         expected[robot] = ForecastRobot(
@@ -257,13 +257,12 @@ class _Mirror:
         """Return the robot: it works, drives to its next visit, or stands."""
         own, visits, since = self._own, self._list_visits(), self._since
         begun = [item for item in self._items if item.step.visit == 0 and item.is_sent]
-        here = visits[0].vertex
         robot = FloorRobot(
             visits=deque(visits),
             first=own.arrived,
             free=since,
             expected=since,
-            recent=deque([(here, since)]),
+            recent=deque([(visits[0].vertex, since)]),
             enters={own.arrived: since},
             heading=self._floor.convert_heading(self._find_heading()),
             charging=self._now if self._is_charging() else None,

@@ -130,8 +130,8 @@ def view_fleet(
     views, commitments, ends = list[RobotView](), list[RobotCommitment](), list[tuple[str, Tick]]()
     latest = max(ledger.robots[k].route.get_enter(kept_parts[k]) for k in present)
     items = {k: list(list_items_to_do(scenario, ledger.robots[k], kept_parts[k])) for k in present}
-    kept = {k: (kept_parts[k], sum(map(_is_kept_item, items[k]))) for k in present}
-    expected, expected_ends = forecast_kept_parts(floor, kept, now, takeover)
+    caps = {k: (kept_parts[k], sum(map(_is_kept_item, items[k]))) for k in present}
+    expected, expected_ends = forecast_kept_parts(floor, caps, now, takeover)
     for robot in present:
         own = _leave_out_unsent(ledger.robots[robot], kept_parts[robot])
         commitment = make_robot_commitment(scenario, robot, own, kept_parts[robot])

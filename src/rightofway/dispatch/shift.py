@@ -15,16 +15,13 @@ from rightofway.dispatch.record import JobRecord, RoundRecord, ShiftRecord
 from rightofway.dispatch.reveal import Reveal
 from rightofway.dispatch.round import RoundPlanner
 from rightofway.dispatch.takeover import cap_floor, lift_caps, look_at_floor, splice_round
-from rightofway.dispatch.triggers import Situation, list_triggers
+from rightofway.dispatch.triggers import RETRY, Situation, list_triggers
 from rightofway.dispatch.view import Round, StopsLater
 from rightofway.facts import Fact
 from rightofway.model import NEVER, Closure, Scenario, Tick, UnservedReason
 from rightofway.precedence import DelayModel
 
 __all__ = ["ShiftRules", "run_shift"]
-
-RETRY = 16
-"""Looks after which jobs without a tour are tried again, where nothing else has happened."""
 
 MOST_STILL = 3
 """Rounds in a row that find no tour for the jobs that are left, while nothing moves: then a shift

@@ -137,8 +137,10 @@ def forecast_free(ahead: SimulatedFloor, robot: int, takeover: int) -> tuple[Tic
     own, state = ahead.robots[robot], ahead.states[robot]
     turn, battery = state.turn if own.has_worked else 0, state.battery
     free = own.free + turn
-    if own.charging is not None or own.lost is not None:  # a charge can be ended at any time
-        free = takeover + turn
+    if own.lost is not None:
+        free = takeover
+    elif own.charging is not None:  # a charge can be ended at any time
+        free = own.recent[-1][1] + turn
     free = max(free, takeover)
     if battery is None:
         return Tick(free), Fraction(1)

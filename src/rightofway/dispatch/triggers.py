@@ -14,7 +14,10 @@ from dataclasses import dataclass, field
 from rightofway.execution.monitor import has_fallen_behind
 from rightofway.facts import Fact
 
-__all__ = ["Outlook", "Situation", "list_triggers"]
+__all__ = ["RETRY", "Outlook", "Situation", "list_triggers"]
+
+RETRY = 16
+"""Looks after which jobs without a tour are tried again, where nothing else has happened."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
