@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections import deque
 from collections.abc import Iterator
+from datetime import UTC, datetime, timedelta
 from fractions import Fraction
 from pathlib import Path
 
@@ -20,10 +21,11 @@ from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.execution.drive_result import DriveResult
 from rightofway.io import parse_scenario
 from rightofway.model import Plan
+from rightofway.report.quantities import Quantities
 from tests.builders.closures import closed_fleet
 
 
-def lane(*closures: dict[str, object]) -> Plan:
+def lane(*closures: dict[str, object], start: str | None = None) -> Plan:
     """Return the plan of a robot that drives along A, B, C, D and back; a lane takes 8 s."""
     document = {
         "format": "rightofway-scenario/1",
@@ -37,6 +39,7 @@ def lane(*closures: dict[str, object]) -> Plan:
         "rules": {"rotations": False},
         "robots": [{"name": "R1", "home": "A", "target": "D", "work": 60}],
         "closures": list(closures),
+        **({"start": start} if start else {}),
     }
     return rightofway.solve(parse_scenario(document), "prioritized")
 
@@ -63,14 +66,17 @@ def find_entries(result: DriveResult, place: str) -> list[Fraction]:
 
 
 def driver_of(
-    plan: Plan, journal: SqliteJournal, seconds: float, robot: RobotEnd
+    plan: Plan, journal: SqliteJournal, seconds: float | None, robot: RobotEnd
 ) -> tuple[Driver, list[str]]:
     """Return a control some seconds after the begin of its run, and what it has said.
+
+    None stands for the begin that the journal or the scenario has.
 
     The robot has got what it was sent, and drives as far as it may.
     """
     said = list[str]()
-    identities, began = make_simulated_identities(["R1"]), time.time() - seconds
+    identities = make_simulated_identities(["R1"])
+    began = journal.read_begin() if seconds is None else time.time() - seconds
     driver = Driver(
         plan, identities, journal, report=lambda fact: said.append(str(fact)), began=began
     )
@@ -99,6 +105,38 @@ def test_a_control_keeps_closures_from_the_begin_of_its_run_on_also_after_a_star
     assert journal.read_begin() == pytest.approx(time.time(), abs=30)
     driver, said = driver_of(plan, journal, 90, robot)
     assert (driver.control.is_done, said) == (True, [])
+    journal.close()
+
+
+def test_a_run_of_a_scenario_with_a_start_keeps_closures_by_the_wall_clock(tmp_path: Path) -> None:
+    """The journal begins 30 s after the start: the lane is closed from 10 s ago for 50 s more."""
+    start = (datetime.now(UTC) - timedelta(seconds=30)).replace(microsecond=0)
+    begin, end = (f"{start + timedelta(seconds=late):%Y-%m-%dT%H:%M:%S}Z" for late in (20, 80))
+    closure: dict[str, object] = {"edge": ["B", "C"], "from": begin, "until": end}
+    plan, journal = lane(closure, start=start.isoformat()), SqliteJournal(tmp_path / "run.journal")
+    [identity] = make_simulated_identities(["R1"])
+    robot = RobotEnd(SimulatedRobot("A"), 0, identity, lambda: "2026-01-31T12:00:00.000Z")
+    driver, said = driver_of(plan, journal, None, robot)
+    driver._flush()
+    closed, opened = map(Quantities.of(plan.scenario).format_moment, (5, 20))  # ticks of 4 s
+    line = f"R1 waits at B: the way to C is closed from {closed} to {opened}"
+    assert (robot.robot.place, said) == ("B", [line])
+    assert journal.read_begin() == start.timestamp()
+    # The next start has the begin from the journal.
+    driver, said = driver_of(plan, journal, None, robot)
+    assert (robot.robot.place, driver.control.is_done) == ("B", False)
+    journal.close()
+
+
+def test_a_control_that_begins_before_the_start_of_the_scenario_waits_with_its_clock(
+    tmp_path: Path,
+) -> None:
+    start = (datetime.now(UTC) + timedelta(hours=1)).isoformat(timespec="minutes")
+    journal = SqliteJournal(tmp_path / "run.journal")
+    said = list[str]()
+    driver = Driver(lane(start=start), make_simulated_identities(["R1"]), journal,
+                    report=lambda fact: said.append(str(fact)))  # fmt: skip
+    assert driver._read_ticks() == 0
     journal.close()
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+import rightofway
 from rightofway.control import FleetControl
 from rightofway.control.commands import read_duration
 from rightofway.control.dispatcher import Dispatcher
@@ -18,9 +19,10 @@ from rightofway.control.work_items import find_stop
 from rightofway.dispatch import Round
 from rightofway.errors import InputError
 from rightofway.facts import Fact
+from rightofway.io import parse_scenario
 from rightofway.model import Plan
 from tests.builders.chaos import MemoryJournal
-from tests.builders.floor_jobs import floor_plan
+from tests.builders.floor_jobs import floor_document, floor_plan
 from tests.builders.floors import Floor
 
 
@@ -422,3 +424,26 @@ def test_a_robot_is_placed_while_a_round_is_under_way_whose_plan_is_dropped() ->
     rounds.is_ready = True
     shift.drive(150)
     assert shift.pool.left == dict.fromkeys(("A1", "J1", "J2", "J3"), "done")
+
+
+def test_times_of_day_of_jobs_are_the_next_ones() -> None:
+    document = {**floor_document(), "start": "2026-11-28T06:00"}
+    shift = Shift(rightofway.solve(parse_scenario(document), "prioritized"))
+    shift.ask("add", name="J8", at="N12", due="10:30")
+    assert shift.pool.jobs["J8"].job.due == 16200
+    shift.now = 20_000  # 11:33:20
+    shift.ask("add", name="J9", at="N12", due="10:30", latest="2026-11-29T06:00")
+    job = shift.pool.jobs["J9"].job
+    assert [job.due, job.stops[0].latest] == [86400 + 16200, 86400]
+    with pytest.raises(InputError, match=r"due: '2026-11-28T05:00' is before the start"):
+        shift.ask("add", name="J10", at="N12", due="2026-11-28T05:00")
+
+
+def test_a_time_of_day_of_a_job_needs_a_start() -> None:
+    with pytest.raises(InputError, match=r"due: '10:30' needs the start of the scenario"):
+        Shift().ask("add", name="J9", at="N12", due="10:30")
+
+
+def test_a_job_in_a_wall_is_refused() -> None:
+    with pytest.raises(InputError, match=r"at: N8, .* is blocked by a wall"):
+        Shift().ask("add", name="J9", at="N8")

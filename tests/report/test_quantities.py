@@ -29,6 +29,16 @@ def test_a_duration_is_written_in_the_parts_that_a_person_would_say(
     assert quantities.format_duration(Fraction(time)) == text
 
 
+@pytest.mark.parametrize(("unit", "start", "time", "text"), CASES["clock"])
+def test_a_moment_is_a_time_of_day_where_the_scenario_has_a_start(
+    unit: TimeUnit, start: str, time: str, text: str
+) -> None:
+    units = Units(time=unit, start=start)  # type: ignore[arg-type]
+    quantities = Quantities(units=units, tick=Fraction(1))
+    assert quantities.format_moment(Fraction(time)) == text
+    assert quantities.format_point(Fraction(time)) == text
+
+
 def test_lengths_and_speeds_have_the_units_of_the_scenario_or_none() -> None:
     metres = Quantities(units=Units(length="m", time="s"), tick=Fraction(1, 4))
     assert metres.format_length(Fraction(9, 20)) == "0.45 m"

@@ -148,7 +148,7 @@ def _make_data(
         "levels": [
             {
                 "level": name or None,
-                "units": asdict(site.units),
+                "units": site.units.to_document(),
                 **asdict(replace(result, findings=())),
                 "findings": [export_finding(site, finding) for finding in result.findings],
             }

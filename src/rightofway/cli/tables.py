@@ -242,7 +242,7 @@ def describe_clock(quantities: Quantities) -> dict[str, Any]:
     units = quantities.units
     return {
         "tick": format_number(quantities.tick),
-        "units": {"length": units.length, "time": units.time},
+        "units": units.to_document(),
     }
 
 

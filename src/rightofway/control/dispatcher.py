@@ -122,13 +122,15 @@ class Dispatcher:
         """Whether robots repeat laps for ever."""
         return self._laps is not None
 
-    def begin(self, run: str) -> None:
+    def begin(self, run: str, began: float | None = None) -> None:
         """Give an empty journal the plan.
 
         Parameters
         ----------
         run
             A name that no other journal has.
+        began
+            When the run began, if not now [s since 1970].
 
         Raises
         ------
@@ -139,7 +141,8 @@ class Dispatcher:
         graph = ReleaseGraph.of(scenario, self.plan.tracks)
         names = [robot.name for robot in scenario.robots]
         jobs = list(list_known_jobs(scenario))
-        self.control.begin(run, make_routes_to_drive(self.plan), graph, names, jobs)
+        routes = make_routes_to_drive(self.plan)
+        self.control.begin(run, routes, graph, names, jobs, began=began)
 
     def _may_drive(self, robot: int, tail: str, head: str) -> bool:
         """Return whether a lane leads from one vertex to another, and the robot is not barred."""

@@ -111,13 +111,15 @@ class Driver:
         repeated = None if laps is None else LapsToDrive(plan, laps)
         rounds = None if plan.scenario.jobs is None else ProcessRounds()
         self._dispatcher = dispatcher = Dispatcher(self.control, plan, repeated, rounds=rounds)
-        self._began = time.time() if began is None else began
+        start = plan.scenario.units.start  # without an offset in the zone of this machine
+        begin = None if start is None else start.timestamp()
+        self._began = next(given for given in (began, begin, time.time()) if given is not None)
         self._tick = float(plan.scenario.problem.clock.tick * (plan.scenario.units.seconds or 1))
         self._supervisor = Supervisor(dispatcher, notices, self._read_ticks, commands)
         self.operator, self._switches = self._supervisor.operator, switch
         ledger, digest = self.control.ledger, _compute_digest(plan, maps)
         if not ledger.run:
-            dispatcher.begin(f"{digest}-{secrets.token_hex(4)}")
+            dispatcher.begin(f"{digest}-{secrets.token_hex(4)}", begin)
             self._journal.flush()
         elif not ledger.run.startswith(f"{digest}-"):
             message = "is of another plan, or of other identities (give those, or another journal)"
@@ -186,8 +188,8 @@ class Driver:
         return self.control.is_done and (rounds is None or rounds.is_over)
 
     def _read_ticks(self) -> Tick:
-        """Return the time since the run began."""
-        return Tick(int((time.time() - self._began) / self._tick))
+        """Return the time since the run began; 0 before the start of the scenario."""
+        return Tick(max(int((time.time() - self._began) / self._tick), 0))
 
     @property
     def result(self) -> DriveResult:

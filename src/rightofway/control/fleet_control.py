@@ -157,6 +157,8 @@ class FleetControl:
         graph: ReleaseGraph,
         names: Sequence[str] = (),
         notes: Sequence[Entry] = (),
+        *,
+        began: float | None = None,
     ) -> None:
         """Give an empty journal its plan.
 
@@ -170,6 +172,8 @@ class FleetControl:
             Of the robots; left out, reports give their numbers.
         notes
             Entries that are committed together with the plan.
+        began
+            When the run began, if not now [s since 1970].
 
         Raises
         ------
@@ -182,7 +186,8 @@ class FleetControl:
         refuse_rotation(graph, names)
         refuse_ways(routes, committed, names, self.may_drive)
         entry = make_plan_entry("plan", run, routes, graph, committed=committed, names=names)
-        self.commit(entry, *notes)
+        since = {} if began is None else {"began": began}
+        self.commit({**entry, **since}, *notes)
 
     def start(self) -> list[Message]:
         """Return the messages to send after a start: all unanswered ones, requests for states."""

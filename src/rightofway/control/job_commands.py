@@ -22,6 +22,7 @@ from rightofway.io.scenario.loaded_map import LoadedMap
 from rightofway.io.scenario.work import read_job
 from rightofway.io.scenario.work_writer import dump_job
 from rightofway.model import Job, Scenario, Tick, UnservedReason
+from rightofway.units import is_clock_time
 
 __all__ = ["JobCommands", "list_pooled_jobs"]
 
@@ -42,7 +43,7 @@ class JobCommands:
 
     def __init__(self, scenario: Scenario, ledger: Ledger) -> None:
         self._scenario, self._ledger = scenario, ledger
-        self._map = LoadedMap(roadmap=scenario.roadmap)
+        self._map = LoadedMap(roadmap=scenario.roadmap, units=scenario.units)
 
     def add(self, given: Mapping[str, Any], now: int) -> tuple[list[Entry], Fact]:
         """Take a job into the pool.
@@ -50,8 +51,8 @@ class JobCommands:
         Parameters
         ----------
         given
-            The job as a document; its times count from now on. `urgent` means due at once. Without
-            a name it gets one.
+            The job as a document; its times count from now on, and times of day are the next ones.
+            `urgent` means due at once. Without a name it gets one.
         now
             The time since the run began [ticks].
 
@@ -184,15 +185,26 @@ class JobCommands:
         seconds = self._scenario.units.seconds
         document = {key: value for key, value in given.items() if value is not None}
         for key in (*MOMENTS, *DURATIONS):
-            if key in document:
-                time = read_duration(document[key], seconds)
-                document[key] = time + (passed if key in MOMENTS else 0)
+            if key not in document:
+                continue
+            if key in MOMENTS and is_clock_time(document[key]):
+                document[key] = self._read_clock_time(key, document[key], passed)
+                continue
+            time = read_duration(document[key], seconds)
+            document[key] = time + (passed if key in MOMENTS else 0)
         if isinstance(document.get("stops"), list):
             document["stops"] = [
                 self._shift_times(stop, passed) if isinstance(stop, dict) else stop
                 for stop in document["stops"]
             ]
         return document
+
+    def _read_clock_time(self, key: str, text: str, passed: Fraction) -> Fraction:
+        """Return the time of a time of day: the next one from now on."""
+        try:
+            return self._scenario.units.read_clock_time(text, not_before=passed)
+        except ValueError as error:
+            raise InputError.at(key, str(error)) from None
 
 
 def _is_replaced(key: str, given: Mapping[str, Any]) -> bool:

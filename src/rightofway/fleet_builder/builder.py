@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
+from datetime import datetime
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
@@ -48,7 +49,7 @@ from rightofway.site import Roadmap, VertexId, make_grid_roadmap
 from rightofway.site.layout import Layout, LevelRoadmap, build_roadmap_of_level
 from rightofway.site.places import as_place, find_vertex_at
 from rightofway.site.zones import NamedZone
-from rightofway.units import Units
+from rightofway.units import Units, is_clock_time
 
 Actions = str | StopAction | Mapping[str, Any] | Iterable[str | StopAction | Mapping[str, Any]]
 """One or several actions, as users write them."""
@@ -82,6 +83,9 @@ class FleetBuilder:
         the corner that has the least x and y by default.
     units
         The units of lengths and times, for reports: ``{"length": "m", "time": "s"}``.
+    start
+        The instant of time 0, like ``"2026-11-28T06:00"``: points in time may then be times of day,
+        like ``"10:00"``. Times are seconds by default.
     spacing
         Edges that are longer are split into pieces of at most that length [length unit]. By
         default, ``"auto"``, edges are split that are longer than three times the least distance
@@ -128,6 +132,7 @@ class FleetBuilder:
         y: Literal["down", "up"] = "down",
         origin: tuple[Number, Number] | None = None,
         units: Units | Mapping[str, Any] | None = None,
+        start: datetime | str | None = None,
         spacing: Number | Literal["auto", "whole"] | None = None,
         **rules: Any,
     ) -> None:
@@ -162,6 +167,8 @@ class FleetBuilder:
         self._stations: dict[str, VertexId] = {}
         self._rules = read_rules(rules)
         self._units = read_units(units)
+        if start is not None:
+            self._units = replace(self._units, start=start)  # type: ignore[arg-type]
         self._y_up = y == "up"
         corner = allow_none(POSITION).read_at("origin", origin)
         frame: dict[str, Any] = {"cell_size": cell_size, "y_up": self._y_up, "origin": corner}
@@ -393,7 +400,7 @@ class FleetBuilder:
                 type=type,
                 turn_rate=turn_rate,  # type: ignore[arg-type]
                 weight=weight,  # type: ignore[arg-type]
-                start=read_state(self._find_vertex, start, at_home),
+                start=read_state(self._find_vertex, self._read_moment, start, at_home),
                 capacity=capacity,
                 battery=battery,
                 charging=None if charging is None else self._find_vertices("charging", charging),
@@ -444,7 +451,7 @@ class FleetBuilder:
             "latest": 9, "actions": "beep"}``, in order.
         earliest, latest
             When the work of the first stop begins at the earliest, and that of the last one ends at
-            the latest [time unit].
+            the latest [time unit]; like ``due`` and those of stops, they may be times of day.
         due, weight, types, robot, after, load_id, load_type
             As for `Job`.
         actions, pickup_actions, dropoff_actions
@@ -458,13 +465,17 @@ class FleetBuilder:
         """
         given = {"at": at, "work": work, "pickup": pickup, "dropoff": dropoff, "stops": stops}
         given |= {"pickup_work": pickup_work, "dropoff_work": dropoff_work, "load": load}
-        given |= {"earliest": earliest, "latest": latest, "actions": actions}
+        given |= {"actions": actions}
         given |= {"pickup_actions": pickup_actions, "dropoff_actions": dropoff_actions}
         with name_file(f"job {quote(name)}"):
+            given |= {
+                key: self._read_moment(key, value)
+                for key, value in (("earliest", earliest), ("latest", latest))
+            }
             job = Job(
                 name=name,
-                stops=read_job_stops(self._find_vertex, given),
-                due=due,  # type: ignore[arg-type]
+                stops=read_job_stops(self._find_vertex, self._read_moment, given),
+                due=self._read_moment("due", due),
                 weight=weight,  # type: ignore[arg-type]
                 types=types,  # type: ignore[arg-type]
                 robot=robot,
@@ -577,9 +588,9 @@ class FleetBuilder:
         edge
             The places at both ends of the edge that is closed, instead of ``at``.
         from_
-            When the closure begins [time unit].
+            When the closure begins [time unit], or a time of day.
         until
-            When it ends [time unit]; never by default.
+            When it ends [time unit], or a time of day; never by default.
         radius
             Everything nearer than this, a robot's radius and the clearance is closed for that
             robot, too [length unit]; nothing more by default.
@@ -597,8 +608,8 @@ class FleetBuilder:
                 at=None if at is None else self._find_vertex("at", at),
                 edge=ends
                 and (self._find_vertex("edge", ends[0]), self._find_vertex("edge", ends[1])),
-                from_=from_,  # type: ignore[arg-type]
-                until=until,  # type: ignore[arg-type]
+                from_=self._read_moment("from_", from_),
+                until=self._read_moment("until", until),
                 radius=radius,  # type: ignore[arg-type]
             )
         except InputError as error:
@@ -682,6 +693,15 @@ class FleetBuilder:
         with locate_faults(key):
             return find_vertex_at(roadmap, as_place(place, roadmap), units=self._units)
 
+    def _read_moment(self, key: Where, time: Any) -> Any:
+        """Return a point in time; that of a time of day [time unit]."""
+        if not is_clock_time(time):
+            return time
+        try:
+            return self._units.read_clock_time(time)
+        except ValueError as error:
+            raise InputError.at(key, str(error)) from None
+
     def _refuse_fixed_map(self, place: str) -> None:
         if self._roadmap is not None:
             remedy = "add vertices and edges first, and to no grid"
@@ -699,7 +719,8 @@ class FleetBuilder:
                 remedy = "write a scenario with map: {layout: …} and load it"
                 raise InputError.at("layout", f"is a map in pixels or cells ({remedy})")
             layout = source
-        self._units = Units(length=self._units.length or "m", time=self._units.time or "s")
+        own = self._units
+        self._units = replace(own, length=own.length or "m", time=own.time or "s")
         metres, seconds = self._units.metres, self._units.seconds
         assert metres, "a unit of length has a length"
         assert seconds, "a unit of time has a length"

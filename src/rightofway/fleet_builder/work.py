@@ -21,7 +21,13 @@ Find = Callable[[Where, Any], VertexId]
 """Returns the vertex of a place as users write it, or raises faults at the place of the value."""
 
 
-def read_job_stops(find: Find, given: Mapping[str, Any]) -> tuple[JobStop, ...]:
+ReadMoment = Callable[[Where, Any], Any]
+"""Returns a point in time as a number where it is a time of day, or raises faults at its place."""
+
+
+def read_job_stops(
+    find: Find, read_moment: ReadMoment, given: Mapping[str, Any]
+) -> tuple[JobStop, ...]:
     """Return the stops of a job by the arguments of `FleetBuilder.add_job`.
 
     Raises
@@ -34,7 +40,7 @@ def read_job_stops(find: Find, given: Mapping[str, Any]) -> tuple[JobStop, ...]:
     if len(forms) != 1 or (given["pickup"] is None) != (given["dropoff"] is None):
         message = "has not exactly one form (give at, or pickup and dropoff, or stops)"
         raise InputError.at("", message)
-    stops = [_read_stop(find, where, stop) for where, stop in _list_stops(given)]
+    stops = [_read_stop(find, read_moment, where, stop) for where, stop in _list_stops(given)]
     if given["earliest"] is not None:
         stops[0] = replace(stops[0], earliest=given["earliest"])
     if given["latest"] is not None:
@@ -58,16 +64,21 @@ def _list_stops(given: Mapping[str, Any]) -> Iterator[tuple[Where, Mapping[str, 
         yield from ((("stops", number), stop) for number, stop in enumerate(stops))
 
 
-def _read_stop(find: Find, where: Where, stop: Mapping[str, Any]) -> JobStop:
+def _read_stop(
+    find: Find, read_moment: ReadMoment, where: Where, stop: Mapping[str, Any]
+) -> JobStop:
     _refuse_unknown(where, stop, JobStop)
     if "at" not in stop:
         raise InputError.at(where, "has no place (give at)")
     at = find(where, stop["at"])
     with locate_faults(where):
-        return JobStop(**{**stop, "at": at})
+        times = {key: read_moment(key, stop[key]) for key in ("earliest", "latest") if key in stop}
+        return JobStop(**{**stop, **times, "at": at})
 
 
-def read_state(find: Find, state: Any, home: VertexId) -> RobotState | None:
+def read_state(
+    find: Find, read_moment: ReadMoment, state: Any, home: VertexId
+) -> RobotState | None:
     """Return the state of a robot: a value, or a mapping whose ``at`` is the home by default.
 
     Raises
@@ -83,7 +94,8 @@ def read_state(find: Find, state: Any, home: VertexId) -> RobotState | None:
     _refuse_unknown("start", state, RobotState)
     at = find("start", state["at"]) if "at" in state else home
     with locate_faults("start"):
-        return RobotState(**{**state, "at": at})
+        times = {key: read_moment(key, state[key]) for key in ("ready",) if key in state}
+        return RobotState(**{**state, **times, "at": at})
 
 
 def _refuse_unknown(where: Where, mapping: Mapping[str, Any], owner: type) -> None:

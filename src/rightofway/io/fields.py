@@ -32,6 +32,7 @@ from rightofway.kinds.table import (
     TICK_LENGTH,
     TICKS,
     WHOLE,
+    Kind,
     Schema,
     allow_words,
     tuple_of,
@@ -39,6 +40,7 @@ from rightofway.kinds.table import (
 from rightofway.model.actions import ACTIONS, StopAction
 from rightofway.model.attributes import list_attributes
 from rightofway.site import VertexId
+from rightofway.units import CLOCK_TIME, is_clock_time
 
 
 def finish_schema(**extra: Any) -> Callable[[Schema], None]:
@@ -92,6 +94,22 @@ def _read_place(value: object, info: ValidationInfo) -> Any:
     return info.context.find(value) if info.context else value
 
 
+def _make_moment_reader(kind: Kind[Fraction]) -> Callable[[Any, ValidationInfo], Fraction]:
+    """Return the reader of points in time: numbers of a kind, or times of day.
+
+    The map in the context has the start. Without one, a time of day is any time: its faults would
+    follow from those of the map.
+    """
+
+    def read(value: object, info: ValidationInfo) -> Fraction:
+        if not is_clock_time(value):
+            return kind.read(value)
+        time: Fraction = info.context.units.read_clock_time(value) if info.context else Fraction(1)
+        return kind.read(time)
+
+    return read
+
+
 def _split_lines(value: object) -> object:
     return value.strip("\n").split("\n") if isinstance(value, str) else value
 
@@ -102,6 +120,12 @@ _SPOT: Schema = {
     "properties": {"x": NUMBER.schema, "y": NUMBER.schema},
     "required": ["x", "y"],
     "additionalProperties": False,
+}
+_MOMENT: Schema = {
+    "anyOf": [
+        *NOT_NEGATIVE.schema["anyOf"],
+        {"type": "string", "pattern": f"^{CLOCK_TIME.pattern}$"},
+    ]
 }
 _TEXTS: Schema = {"type": "array", "items": TEXT.schema}
 
@@ -127,6 +151,10 @@ RobotSize = Annotated[tuple[Fraction, Fraction], tuple_of(NUMBER, "length", "wid
 Rectangle = Annotated[
     tuple[Fraction, Fraction, Fraction, Fraction], tuple_of(NUMBER, "x", "y", "width", "height")
 ]
+Moment = Annotated[
+    Fraction, PlainValidator(_make_moment_reader(NOT_NEGATIVE)), WithJsonSchema(_MOMENT)
+]
+End = Annotated[Fraction, PlainValidator(_make_moment_reader(POSITIVE)), WithJsonSchema(_MOMENT)]
 Place = Annotated[
     VertexId,
     PlainValidator(_read_place),

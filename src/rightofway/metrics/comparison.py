@@ -60,7 +60,7 @@ class Comparison:
         is_one_fleet = all(fleet == fleets[0] for fleet in fleets)
         return {
             "tick": [self.tick.numerator, self.tick.denominator],
-            "units": {"length": units.length, "time": units.time},
+            "units": units.to_document(),
             "scales": list(self.scales),
             "plans": plans,
             "best": {

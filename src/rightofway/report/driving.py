@@ -75,8 +75,8 @@ def _make_robots(result: DriveResult, quantities: Quantities) -> Iterator[Part]:
         pairs = zip(result.plan.completions, result.completion, strict=True)
         times = [
             (
-                quantities.format_cell(planned),
-                "-" if actual is None else quantities.format_cell(actual),
+                quantities.format_point(planned),
+                "-" if actual is None else quantities.format_point(actual),
             )
             for planned, actual in pairs
         ]

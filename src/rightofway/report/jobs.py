@@ -39,7 +39,8 @@ def list_jobs(words: Words) -> Iterator[Part]:
             [
                 jobs[times.job].name,
                 words.name_robot(times.robot),
-                *map(cell, (times.begin, times.end, times.late)),
+                *map(words.quantities.format_point, (times.begin, times.end)),
+                cell(times.late),
             ]
             for times in done[:MAX_JOBS]
         ]

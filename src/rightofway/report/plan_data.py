@@ -18,7 +18,7 @@ from rightofway.report.sentences import list_forced_losses
 def describe_measures(scenario: Scenario) -> dict[str, Any]:
     """Return the units of the numbers in a report for programs."""
     tick = format_number(scenario.problem.clock.tick)
-    return {"tick": tick, "units": asdict(scenario.units)}
+    return {"tick": tick, "units": scenario.units.to_document()}
 
 
 def make_summary_data(plan: Plan) -> dict[str, Any]:

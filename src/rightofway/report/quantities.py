@@ -7,6 +7,7 @@ only place where these become text for people; files and JSON keep the exact val
 from __future__ import annotations
 
 from dataclasses import dataclass
+from datetime import datetime, timedelta
 from fractions import Fraction
 
 from rightofway.errors import InputError, quote
@@ -95,9 +96,14 @@ class Quantities:
 
     @checks_arguments
     def format_moment(self, ticks: Value) -> str:
-        """Return a point in time: ``6 min 23 s`` after the start, ``time 2``, ``tick 4``."""
+        """Return a point in time: ``6 min 23 s`` after time 0, ``10:32``, ``time 2``, ``tick 4``.
+
+        It is a time of day where the scenario has a start, on later days with the date.
+        """
         if self.in_ticks:
             return Phrase("moment in ticks", tick=format_decimal(ticks))
+        if self.units.start is not None:
+            return mark_figure(self._write_clock_time(self.units.start, self._time(ticks)))
         if self.units.time:
             return self.format_duration(ticks)
         return Phrase("moment", time=self.format_cell(ticks))
@@ -106,6 +112,12 @@ class Quantities:
     def format_cell(self, ticks: Value) -> str:
         """Return a time as the bare number of a table's cell; `time_unit` is for its heading."""
         return format_decimal(ticks if self.in_ticks else self._time(ticks))
+
+    @checks_arguments
+    def format_point(self, ticks: Value) -> str:
+        """Return a point in time in a table's cell: a time of day, or a bare number."""
+        has_start = self.units.start is not None and not self.in_ticks
+        return self.format_moment(ticks) if has_start else self.format_cell(ticks)
 
     @property
     def time_unit(self) -> str:
@@ -145,6 +157,18 @@ class Quantities:
     def _time(self, ticks: Value) -> Fraction:
         exact = Fraction(repr(ticks)) if isinstance(ticks, float) else Fraction(ticks)
         return exact * self.tick
+
+    def _write_clock_time(self, start: datetime, time: Fraction) -> str:
+        """Return a time of day, rounded to hundredths of a second."""
+        hundredths = round_half_up(time * (self.units.seconds or 1) * 100)
+        try:
+            moment = start + timedelta(milliseconds=10 * hundredths)
+        except OverflowError:  # after the year 9999
+            return self._clock(Fraction(hundredths, 100))
+        day = "" if moment.date() == start.date() else f"{moment.date()} "
+        seconds = f":{moment:%S}" if moment.second or moment.microsecond else ""
+        part = f".{moment.microsecond // 10_000:02}".rstrip("0") if moment.microsecond else ""
+        return f"{day}{moment:%H:%M}{seconds}{part}"
 
     def _clock(self, seconds: Fraction) -> str:
         """Return a duration [s] in the parts that a person would say."""

@@ -95,7 +95,7 @@ def _list_slices(figures: ShiftFigures, quantities: Quantities) -> Iterator[Part
     yield quantities.format_heading("over time")
     rows = [
         [
-            f"{cell(part.begin)} to {cell(part.end)}",
+            f"{quantities.format_point(part.begin)} to {quantities.format_point(part.end)}",
             str(part.done),
             str(part.late),
             *(

@@ -27,6 +27,11 @@ test("durations are those of the package", () => {
     assert.equal(new Quantities({ time, length: null }, [1, 1]).duration(value), text);
 });
 
+test("moments after a start are times of day, as in the package", () => {
+  for (const [time, start, value, text] of CASES.clock)
+    assert.equal(new Quantities({ time, length: null, start }, [1, 1]).moment(value), text);
+});
+
 test("a number is an exact fraction, also with an exponent", () => {
   assert.deepEqual(fraction("30313/700"), [30313n, 700n]);
   assert.deepEqual(fraction(0.5), [5n, 10n]);

@@ -260,7 +260,7 @@ def _drive_demo(
     writer = FactWriter(shown.plan.scenario)
 
     def narrate(tick: int, fact: Fact) -> None:
-        time = f"{quantities.format_cell(tick):>8}"
+        time = f"{quantities.format_point(tick):>8}"
         say(f"{time}  {writer.write(fact)}")
 
     with _keep_demo(shown if output.is_live else None, journal) as file:

@@ -12,6 +12,7 @@ import click
 from rightofway.cli.options import Whole, as_json_option
 from rightofway.cli.terminal import put_json, put_report, say
 from rightofway.errors import InputError
+from rightofway.units import is_clock_time
 
 if TYPE_CHECKING:
     from rightofway.control.commands import Answer
@@ -63,6 +64,15 @@ def _read_duration(
     return given
 
 
+def _read_moment(
+    context: click.Context, parameter: click.Parameter, given: str | None
+) -> str | None:
+    """Return a time from now on, or a time of day, which the control reads."""
+    if is_clock_time(given):
+        return given
+    return _read_duration(context, parameter, given)
+
+
 def _add_job_options(command: Any) -> Any:
     """Add the options that describe a job."""
     for option in reversed(
@@ -79,12 +89,12 @@ def _add_job_options(command: Any) -> Any:
             click.option("--work", metavar="TIME", callback=_read_duration,
                          help="How long it lasts, at both places of a load [time unit, or with s,"
                          " min or h]."),
-            click.option("--earliest", metavar="TIME", callback=_read_duration,
-                         help="When it may begin, from now on."),
-            click.option("--due", metavar="TIME", callback=_read_duration,
-                         help="When it should be done, from now on: later costs more."),
-            click.option("--latest", metavar="TIME", callback=_read_duration,
-                         help="When it has to be done, from now on: else nobody does it."),
+            click.option("--earliest", metavar="TIME", callback=_read_moment,
+                         help="When it may begin: from now on, or a time of day like 10:30."),
+            click.option("--due", metavar="TIME", callback=_read_moment,
+                         help="When it should be done, likewise: later costs more."),
+            click.option("--latest", metavar="TIME", callback=_read_moment,
+                         help="When it has to be done, likewise: else nobody does it."),
             click.option("--urgent", is_flag=True, help="Due at once: it comes before others."),
             click.option("--weight", metavar="FACTOR",
                          help="How much it counts compared with other jobs; 1 by default."),

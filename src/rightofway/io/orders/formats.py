@@ -31,7 +31,9 @@ class OrderTimes:
     Attributes
     ----------
     begin
-        The instant of time 0, as written; None for the first one of the file.
+        The instant of time 0, as written; None for `start`.
+    start
+        The start of the scenario; None for the first instant of the file.
     work
         The work time at stops without one [time unit]; None for none.
     second
@@ -39,6 +41,7 @@ class OrderTimes:
     """
 
     begin: str | None = None
+    start: str | None = None
     work: Fraction | None = None
     second: Fraction = Fraction(1)
 
@@ -106,7 +109,8 @@ def _place(
 ) -> CellDocument:
     """Return orders as jobs, with the places of their values in the file."""
     orders.faults.stop()
-    begin = None if times.begin is None else read_instant(Source(times.begin, ("begin",)))
+    given = times.begin or times.start
+    begin = None if given is None else read_instant(Source(given, ("begin",)))
     work = (times.work or Fraction(0)) / times.second
     jobs, places = make_documents(orders, begin, work, times.second)
     return CellDocument(

@@ -57,7 +57,7 @@ def make_map_of_layout(
     """
     if isinstance(layout, CellMap):
         return _map_of_cells(document, layout, file)
-    units = Units(length=units.length or "m", time=units.time or "s")
+    units = replace(units, length=units.length or "m", time=units.time or "s")
     metres, seconds = units.metres, units.seconds
     assert metres, "a unit of length has a length"
     assert seconds, "a unit of time has a length"

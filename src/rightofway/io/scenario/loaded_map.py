@@ -65,6 +65,8 @@ class LoadedMap:
         def what_blocks(row: int, column: int) -> str:
             grid, floor = self.roadmap.grid, self.floor
             if floor is None or grid is None:
+                if not self.lines:
+                    return self.blocked or "a wall"
                 sign = self.lines[row][column]
                 return self.blocked or (
                     "a space, as only '.' is free" if sign == " " else repr(sign)

@@ -38,10 +38,13 @@ from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 from rightofway.site import Roadmap
 from rightofway.site.scale import find_odd_sizes
-from rightofway.units import SECONDS, Units
+from rightofway.units import Units, read_start
 
 if TYPE_CHECKING:
     from rightofway.io.tables import CellDocument
+
+FIRST_START = Units(start=read_start("0001-01-01T00:00"))
+"""Units with a start that no time of day is before."""
 
 CLASSIC = Rules(turn=Fraction(0), ends="none")
 """The rules of the classic benchmark: robots need not turn, and stay at their targets."""
@@ -125,7 +128,7 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
     faults = Faults()
     faults.attempt("", validate, ScenarioFrame, document)
     rules = faults.read_part(document, "rules", _read_rules) or Rules()
-    units = faults.read_part(document, "units", _read_units) or Units()
+    units = _read_units_and_start(document, faults)
     read_fleet = partial(read_robots, has_jobs="jobs" in document)
     robots = faults.read_part(document, "robots", read_fleet, base) or ListedFleet()
     deals = document.get("homes") == "parking"
@@ -158,14 +161,16 @@ def _read_table(document: dict[str, Any], base: Path | None) -> tuple[str, CellD
     if isinstance(robots, dict) and "table" in robots:
         return "robots", read_robots_in_table(robots, base)
     if isinstance(jobs, dict) and "table" in jobs:
-        return "jobs", read_jobs_in_table(jobs, base, _measure_second(document.get("units")))
+        return "jobs", read_jobs_in_table(jobs, base, _read_units_and_start(document, Faults()))
     return None
 
 
-def _measure_second(units: Any) -> Fraction:
-    """Return a second in the time unit of a document; times without a unit are in seconds."""
-    unit = units.get("time") if isinstance(units, dict) else None
-    return 1 / SECONDS.get(str(unit), Fraction(1))
+def _read_units_and_start(document: dict[str, Any], faults: Faults) -> Units:
+    """Return the units of a document; if the start has faults, times of day have none."""
+    units = faults.read_part(document, "units", _read_units) or Units()
+    if "start" not in document:
+        return units
+    return faults.read_part(document, "start", _read_start, units) or FIRST_START
 
 
 def read_classic(path: Path, count: int | None) -> Loaded:
@@ -226,6 +231,14 @@ def _read_units(data: Any) -> Units:
     from rightofway.io.scenario.shape import UnitsDocument
 
     return Units(**validate(UnitsDocument, data).get_given("length", "time"))
+
+
+def _read_start(data: Any, units: Units) -> Units:
+    """Return the units with the instant of time 0."""
+    try:
+        return replace(units, start=data)
+    except InputError as error:
+        raise InputError.at("", error.faults[0].words) from None
 
 
 def _read_closures(data: Any, on: LoadedMap | None) -> list[Closure]:

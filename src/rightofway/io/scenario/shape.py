@@ -17,7 +17,9 @@ from rightofway.io.fields import (
     CellSize,
     Count,
     Document,
+    End,
     Lines,
+    Moment,
     Name,
     NotNegative,
     Place,
@@ -478,8 +480,10 @@ class ClosureDocument(Document):
         min_length=2,
         max_length=2,
     )
-    from_: NotNegative = make_optional("when it begins [time unit]; 0 by default", alias="from")
-    until: Positive = make_optional("when it ends [time unit]; left out: never")
+    from_: Moment = make_optional(
+        "when it begins [time unit], or a time of day; 0 by default", alias="from"
+    )
+    until: End = make_optional("when it ends [time unit], or a time of day; left out: never")
     radius: NotNegative = make_optional(
         "what is nearer than this, a robot's radius and the clearance is closed for that robot,"
         " too [length unit]"
@@ -506,6 +510,7 @@ class ScenarioFrame(Document):
     format: Literal["rightofway-scenario/1"] = Field(description="rightofway-scenario/1")
     map: Any = Field(description=f"one of {', '.join(MAPS)}")
     units: Any = make_optional("{length, time}: how reports write quantities")
+    start: Any = make_optional("the instant of time 0, like 2026-11-28T06:00, for times of day")
     homes: Literal["parking"] = make_optional(
         "parking: robots without a home start from the parking and charging places of a layout"
     )
@@ -531,6 +536,10 @@ class ScenarioDocument(ScenarioFrame):
 
     map: MapDocument = Field(description="where the fleet drives")
     units: UnitsDocument = make_optional("how reports write quantities")
+    start: Name = make_optional(
+        "the instant of time 0, like 2026-11-28T06:00, perhaps with an offset like +01:00: other"
+        " times may be times of day"
+    )
     robots: list[RobotDocument] | FleetDocument | RobotTableDocument = Field(
         description="the fleet"
     )

@@ -14,6 +14,7 @@ from rightofway.io.scenario.loaded_map import LoadedMap
 from rightofway.io.scenario.maps import find_file_beside
 from rightofway.model import Battery, Job, JobStop, RobotState
 from rightofway.site import VertexId
+from rightofway.units import Units, write_start
 
 if TYPE_CHECKING:
     from rightofway.io.scenario.work_shape import JobDocument, StateDocument
@@ -56,14 +57,20 @@ class ReadWork:
                 yield fault
 
 
-def read_jobs_in_table(data: dict[str, Any], base: Path | None, second: Fraction) -> CellDocument:
-    """Return the jobs of a file that the document names; a second is given in time units."""
+def read_jobs_in_table(data: dict[str, Any], base: Path | None, units: Units) -> CellDocument:
+    """Return the jobs of a file that the document names."""
     from rightofway.io.orders.formats import OrderTimes, read_jobs_of_file
     from rightofway.io.scenario.work_shape import JobDocument, JobTableDocument
 
     with locate_faults("jobs"):
         document = validate(JobTableDocument, data)
-        times = OrderTimes(second=second, **document.get_given("begin", "work"))
+        # Instants of orders are in UTC: a start without an offset does not say which one it is.
+        start = units.start if units.start is not None and units.start.tzinfo else None
+        times = OrderTimes(
+            second=1 / (units.seconds or Fraction(1)),
+            start=None if start is None else write_start(start),
+            **document.get_given("begin", "work"),
+        )
         with locate_faults("table"):
             file = find_file_beside(base, document.table)
             return read_jobs_of_file(file, times, list_keys(JobDocument), ("jobs", "table"))

@@ -12,6 +12,7 @@ from rightofway.io.fields import (
     Angle,
     Count,
     Document,
+    Moment,
     Name,
     NotNegative,
     Place,
@@ -25,12 +26,12 @@ from rightofway.site.places import list_kinds_of_places
 
 PLACES = list_kinds_of_places(None)
 WORK = "work time there [time unit], 0 by default"
-EARLIEST = "when the work begins at the earliest [time unit]; 0 by default"
+EARLIEST = "when the work begins at the earliest [time unit], or a time of day; 0 by default"
 ACTIONS = (
     "what the robot does there: an action or a list of actions, each its type or {action,"
     " parameters, blocking, retriable, description}; those of the place by default"
 )
-LATEST = "when the work ends at the latest [time unit]; none by default"
+LATEST = "when the work ends at the latest [time unit], or a time of day; none by default"
 
 
 class JobStopDocument(Document):
@@ -39,8 +40,8 @@ class JobStopDocument(Document):
     at: Place = Field(description=f"a place: {PLACES}")
     work: NotNegative = make_optional(WORK)
     load: Whole = make_optional("by how much the load changes there, 0 by default")
-    earliest: NotNegative = make_optional(EARLIEST)
-    latest: NotNegative = make_optional(LATEST)
+    earliest: Moment = make_optional(EARLIEST)
+    latest: Moment = make_optional(LATEST)
     actions: Actions = make_optional(ACTIONS)
 
 
@@ -91,14 +92,16 @@ class JobDocument(Document):
     stops: list[JobStopDocument] = make_optional(
         "one or more {at, work, load, earliest, latest, actions}, in order", min_length=1
     )
-    earliest: NotNegative = make_optional(
-        "when the work of the first stop begins at the earliest [time unit]; 0 by default"
+    earliest: Moment = make_optional(
+        "when the work of the first stop begins at the earliest [time unit], or a time of day;"
+        " 0 by default"
     )
-    latest: NotNegative = make_optional(
-        "when the work of the last stop ends at the latest [time unit]; none by default"
+    latest: Moment = make_optional(
+        "when the work of the last stop ends at the latest [time unit], or a time of day;"
+        " none by default"
     )
-    due: NotNegative = make_optional(
-        "completion after this time costs more [time unit]; none by default"
+    due: Moment = make_optional(
+        "completion after this time costs more [time unit], or a time of day; none by default"
     )
     weight: Positive = make_optional("how much it counts compared with other jobs, above 0")
     types: list[Name] = make_optional("a list of types of the robots that may do it")
@@ -134,7 +137,7 @@ class JobTableDocument(Document):
     )
     begin: Name = make_optional(
         "of orders: the instant of time 0, like 2026-11-28T06:00:00Z; by default the first one"
-        " at which an order was made or may begin"
+        " at which an order was made or may begin,, or the start of the scenario with an offset"
     )
     work: NotNegative = make_optional(
         "of orders: work time at stops without one [time unit], 0 by default"

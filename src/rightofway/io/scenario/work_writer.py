@@ -10,6 +10,12 @@ from typing import Any
 from rightofway.kinds.numbers import format_number
 from rightofway.model import Job, JobStop, Robot, RobotState, Rules, Scenario, StopAction
 from rightofway.site import Roadmap
+from rightofway.units import Units
+
+NO_UNITS = Units()
+
+MOMENTS = frozenset({"earliest", "latest", "due"})
+"""Fields that are points in time."""
 
 PAIR = 2
 """Stops of a job that may be a pickup and a dropoff."""
@@ -27,7 +33,7 @@ def dump_work(scenario: Scenario) -> dict[str, Any]:
         "charging": list(dict.fromkeys(map(roadmap.name, charging))),
     }
     known = {key: value for key, value in document.items() if value}
-    return {**known, "jobs": [dump_job(job, roadmap) for job in scenario.jobs]}
+    return {**known, "jobs": [dump_job(job, roadmap, scenario.units) for job in scenario.jobs]}
 
 
 def dump_robot_of_jobs(robot: Robot, roadmap: Roadmap) -> dict[str, Any]:
@@ -47,33 +53,38 @@ def dump_rules_of_jobs(rules: Rules) -> dict[str, Any]:
 
 def _dump_state(state: RobotState, roadmap: Roadmap) -> dict[str, Any]:
     begun = {"begun": dict(state.begun)} if state.begun else {}
-    return {"at": roadmap.name(state.at), **_dump_given(state, but=("at", "begun")), **begun}
+    given = _dump_given(state, but=("at", "begun"))
+    return {"at": roadmap.name(state.at), **given, **begun}
 
 
-def dump_job(job: Job, roadmap: Roadmap) -> dict[str, Any]:
-    """Return the document of a job, in the shortest form that has all of its stops."""
+def dump_job(job: Job, roadmap: Roadmap, units: Units = NO_UNITS) -> dict[str, Any]:
+    """Return the document of a job, in the shortest form that has all of its stops.
+
+    With units that have a start, points in time are times of day.
+    """
     names = {key: list(value) for key in ("types", "after") if (value := getattr(job, key))}
-    others = _dump_given(job, but=("name", "stops", "types", "after"))
-    return {"name": job.name, **_dump_stops(job, roadmap), **others, **names}
+    others = _dump_given(job, units, but=("name", "stops", "types", "after"))
+    return {"name": job.name, **_dump_stops(job, roadmap, units), **others, **names}
 
 
-def _dump_stops(job: Job, roadmap: Roadmap) -> dict[str, Any]:
+def _dump_stops(job: Job, roadmap: Roadmap, units: Units) -> dict[str, Any]:
     first, last = job.stops[0], job.stops[-1]
     if len(job.stops) == 1:
-        return _dump_stop(first, roadmap)
+        return _dump_stop(first, roadmap, units)
     is_carried = first.load > 0 and len(job.stops) == PAIR
     if not is_carried or first.latest is not None or last.earliest:
-        return {"stops": [_dump_stop(stop, roadmap) for stop in job.stops]}
+        return {"stops": [_dump_stop(stop, roadmap, units) for stop in job.stops]}
     ends = {"pickup": first, "dropoff": last}
     works = {f"{key}_work": format_number(stop.work) for key, stop in ends.items() if stop.work}
-    times = _dump_given(first, only=("earliest",)) | _dump_given(last, only=("latest",))
+    times = _dump_given(first, units, only=("earliest",))
+    times |= _dump_given(last, units, only=("latest",))
     places = {key: roadmap.name(stop.at) for key, stop in ends.items()}
     actions = dump_actions(**{f"{key}_actions": stop.actions for key, stop in ends.items()})
     return {**places, **works, "load": first.load, **times, **actions}
 
 
-def _dump_stop(stop: JobStop, roadmap: Roadmap) -> dict[str, Any]:
-    given = _dump_given(stop, but=("at", "actions"))
+def _dump_stop(stop: JobStop, roadmap: Roadmap, units: Units) -> dict[str, Any]:
+    given = _dump_given(stop, units, but=("at", "actions"))
     return {"at": roadmap.name(stop.at), **given, **dump_actions(actions=stop.actions)}
 
 
@@ -89,8 +100,17 @@ def _dump_list(actions: Sequence[StopAction]) -> Any:
     return short[0] if len(short) == 1 else short
 
 
+def dump_moment(time: Fraction, units: Units) -> int | str:
+    """Return a point in time exactly: a time of day where the units have a start."""
+    return units.write_clock_time(time) or format_number(time)
+
+
 def _dump_given(
-    value: Any, *, only: tuple[str, ...] = (), but: tuple[str, ...] = ()
+    value: Any,
+    units: Units = NO_UNITS,
+    *,
+    only: tuple[str, ...] = (),
+    but: tuple[str, ...] = (),
 ) -> dict[str, Any]:
     """Return the fields of a value that differ from their defaults, numbers exactly."""
     own: Mapping[str, Any] = {
@@ -101,6 +121,8 @@ def _dump_given(
         and getattr(value, field.name) != field.default
     }
     return {
-        name: format_number(number) if isinstance(number, Fraction) else number
+        name: dump_moment(number, units if name in MOMENTS else NO_UNITS)
+        if isinstance(number, Fraction)
+        else number
         for name, number in own.items()
     }

@@ -14,6 +14,7 @@ from rightofway.io.formats import SCENARIO_FORMAT
 from rightofway.io.json_text import format_json
 from rightofway.io.scenario.work_writer import (
     dump_actions,
+    dump_moment,
     dump_robot_of_jobs,
     dump_rules_of_jobs,
     dump_work,
@@ -24,7 +25,7 @@ from rightofway.model import Robot, Scenario
 from rightofway.model.attributes import list_plain_attributes
 from rightofway.site import EdgeClass, Roadmap
 from rightofway.site.drawing import Picture
-from rightofway.units import Units
+from rightofway.units import Units, write_start
 
 
 def dump_scenario(scenario: Scenario) -> dict[str, Any]:
@@ -131,7 +132,8 @@ def format_yaml(document: dict[str, Any]) -> str:
 def _write_units(units: Units) -> dict[str, Any]:
     known = {"length": units.length, "time": units.time}
     written_units = {key: value for key, value in known.items() if value is not None}
-    return {"units": written_units} if written_units else {}
+    start = {} if units.start is None else {"start": write_start(units.start)}
+    return ({"units": written_units} if written_units else {}) | start
 
 
 def _map(roadmap: Roadmap) -> dict[str, Any]:
@@ -283,7 +285,11 @@ def _write_closures(scenario: Scenario) -> dict[str, Any]:
             if closure.edge is None and closure.at is not None
             else {"edge": [name(end) for end in closure.edge or ()]}
         )
-        known = {key: format_number(value) for key, value in times.items() if value is not None}
+        known = {
+            key: dump_moment(value, scenario.units) if key != "radius" else format_number(value)
+            for key, value in times.items()
+            if value is not None
+        }
         lanes.append({**place, **known})
     return {"closures": lanes} if lanes else {}
 

@@ -35,7 +35,7 @@ VERTEX_KEYS = ("name", "x", "y", *ATTRIBUTES, *SPOTS)
 MAX_CELLS = 1_000_000
 """Cells of a map, at most."""
 
-OF_SCENARIO = ("homes", "charging")
+OF_SCENARIO = ("homes", "charging", "start")
 """Rows of the rules sheet that belong to the whole scenario."""
 
 UNIT_KEYS = {"length_unit": "length", "time_unit": "time"}

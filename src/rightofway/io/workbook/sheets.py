@@ -274,7 +274,9 @@ def _keep(sheet: Sheet, position: Position, value: Any, kind: str, faults: Fault
     place = sheet.locate_cell(*position)
     if kind == "e":
         faults.note(place, f"holds the error {value} (mend it)")
-    elif isinstance(value, datetime | date | time | timedelta):
+    elif isinstance(value, time) or (isinstance(value, datetime) and value.time() != time()):
+        sheet.values[position] = value.isoformat("T") if isinstance(value, datetime) else str(value)
+    elif isinstance(value, datetime | date | timedelta):
         message = (
             f"{str(value).removesuffix(' 00:00:00')} is a date or a time; spreadsheets make dates"
             " of entries like 1/2"

@@ -48,6 +48,7 @@ RULE_HINTS: tuple[Hint, ...] = (
     ("origin", "[x, y] of the map's lower left corner on the site", ""),
     ("length unit", "what lengths are measured in: mm, cm or m", "mm,cm,m"),
     ("time unit", "what times are measured in: ms, s, min or h", "ms,s,min,h"),
+    ("start", "the instant of time 0, like 2026-11-28T06:00, for times of day", ""),
     ("homes", "parking: robots without a home start from parking and charging places", "parking"),
 )
 
@@ -130,7 +131,7 @@ def format_workbook(document: dict[str, Any]) -> bytes:
     of_map = {key: where[key] for key in where if key not in {"grid", "roadmap", "obstacles"}}
     given = {**document.get("rules", {}), **of_map}
     given |= {f"{key} unit": unit for key, unit in document.get("units", {}).items()}
-    given |= {key: document[key] for key in ("charging",) if key in document}
+    given |= {key: document[key] for key in ("charging", "start") if key in document}
     _write_rules(workbook.create_sheet("rules"), given)
     if "closures" in document:
         _write_closures(workbook.create_sheet("closures"), document["closures"])
@@ -148,7 +149,8 @@ def format_workbook(document: dict[str, Any]) -> bytes:
 
 def _refuse_more(document: dict[str, Any]) -> None:
     """Refuse a document with parts that would be lost."""
-    more = document.keys() - {"format", "map", "robots", "rules", "units", "closures", *OF_JOBS}
+    known = {"format", "map", "robots", "rules", "units", "start", "closures", *OF_JOBS}
+    more = document.keys() - known
     roadmap = document["map"].get("roadmap", {})
     more |= roadmap.keys() - {"vertices", "edges", *SPOTS}
     if more:

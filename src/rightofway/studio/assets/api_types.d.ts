@@ -727,10 +727,11 @@ export interface SurveyData {
   scenario?: string | null;
 }
 
-/** Units of a scenario, each a name or null. */
+/** Units of a scenario, each a name or null, and the instant of time 0. */
 export interface UnitNames {
   length: string | null;
   time: string | null;
+  start?: string;
 }
 
 /** The faults of a document. */

@@ -188,10 +188,11 @@ class Glance(TypedDict):
 
 
 class UnitNames(TypedDict):
-    """Units of a scenario, each a name or null."""
+    """Units of a scenario, each a name or null, and the instant of time 0."""
 
     length: str | None
     time: str | None
+    start: NotRequired[str]
 
 
 class FigureTexts(TypedDict):

@@ -188,7 +188,7 @@ def compute_figures(plan: Plan) -> dict[str, Any]:
         **costs,
         "text": text,
         "tick": tick.as_integer_ratio(),
-        "units": asdict(units),
+        "units": units.to_document(),
         "scenario": compute_digest(plan.scenario),
         "faults": give_verdict(plan).total,
     }

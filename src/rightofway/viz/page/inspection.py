@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from typing import cast
 
 from rightofway.facts import Fact
 from rightofway.files import write_whole
@@ -20,7 +21,7 @@ from rightofway.report.phrases import to_parts
 from rightofway.viz.page.background import Background
 from rightofway.viz.page.document import make_document
 from rightofway.viz.page.map_data import map_data
-from rightofway.viz.page.schema import InspectionPayload, LevelData, SiteData
+from rightofway.viz.page.schema import InspectionPayload, LevelData, SiteData, UnitsData
 from rightofway.viz.palette import choose_colours
 
 Inspected = tuple[str, Site, Inspection]
@@ -119,7 +120,7 @@ def make_site_data(site: Site, background: Background | None = None) -> SiteData
     """
     colours = choose_colours(len(site.robots))
     return {
-        "units": {"length": site.units.length, "time": site.units.time},
+        "units": cast("UnitsData", site.units.to_document()),
         "tick": (1, 1),
         "clearance": float(site.rules.clearance),
         "map": map_data(site.roadmap, room=site.room, background=background),

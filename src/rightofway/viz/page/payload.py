@@ -76,6 +76,7 @@ from rightofway.viz.page.schema import (
     StageRow,
     SteadyData,
     TurnRow,
+    UnitsData,
 )
 from rightofway.viz.page.work_data import make_work_data
 from rightofway.viz.palette import choose_colours
@@ -179,7 +180,7 @@ def make_bare_payload(
     payload: Payload = {
         "title": title,
         "phrases": book.entries,
-        "units": {"length": scenario.units.length, "time": scenario.units.time},
+        "units": cast("UnitsData", scenario.units.to_document()),
         "tick": (tick.numerator, tick.denominator),
         "end": max(end_of(trips), 1),
         "headway": scenario.problem.booking_rules.headway,

@@ -79,10 +79,11 @@ DrivenRow = TypeAliasType("DrivenRow", RouteRow | VisitRow | HoldRow | SaysRow |
 
 
 class UnitsData(TypedDict):
-    """The names of the units; null where the scenario names none."""
+    """The names of the units, null where the scenario names none; the instant of time 0."""
 
     length: str | None
     time: str | None
+    start: NotRequired[str]
 
 
 class FrameData(TypedDict):

@@ -433,10 +433,11 @@ export type TourRow = [number, number, number, number, number, number];
 
 export type TurnRow = [number, number];
 
-/** The names of the units; null where the scenario names none. */
+/** The names of the units, null where the scenario names none; the instant of time 0. */
 export interface UnitsData {
   length: string | null;
   time: string | null;
+  start?: string;
 }
 
 export type UseRow = [number, number, number, number, number, number];

@@ -11,6 +11,12 @@ import { figure, texts } from "./language.js";
  */
 const SECONDS = { ms: [1n, 1000n], s: [1n, 1n], min: [60n, 1n], h: [3600n, 1n] };
 
+/** The offset from UTC at the end of an instant. */
+const OFFSET = /(?:Z|[+-]\d\d:\d\d)$/;
+
+/** The last instant that the package writes [ms]. */
+const LAST = Date.parse("9999-12-31T23:59:59.99Z");
+
 /**
  * A number ("30313/700", 0.5, 1e-7) as an exact fraction: numerator and denominator.
  *
@@ -80,8 +86,12 @@ export class Quantities {
   /** @type {Fraction} */
   #perTick;
 
+  /** The instant of time 0 as if it were in UTC [ms]; null without a start. */
+  #start;
+
   /**
-   * `units` has `length` and `time`, each a name or null; `tick` is a numerator and a denominator.
+   * `units` has `length` and `time`, each a name or null, and perhaps `start`; `tick` is a numerator
+   * and a denominator.
    *
    * @param {UnitsData} units
    * @param {readonly [number | bigint, number | bigint]} tick
@@ -90,6 +100,7 @@ export class Quantities {
     this.units = units;
     this.#perTick = [BigInt(tick[0]), BigInt(tick[1])];
     this.seconds = SECONDS[units.time ?? ""] ?? null;
+    this.#start = units.start ? Date.parse(`${units.start.replace(OFFSET, "")}Z`) : null;
   }
 
   /**
@@ -105,11 +116,13 @@ export class Quantities {
   }
 
   /**
-   * A point in time: "6 min 23 s" after the start, "time 2".
+   * A point in time: "10:32", "6 min 23 s" after the start, "time 2".
    *
    * @param {number | string} ticks
    */
   moment(ticks) {
+    if (this.#start !== null && this.seconds)
+      return figure(this.#clockTime(this.#start, product(this.#time(ticks), this.seconds)));
     return this.seconds ? this.duration(ticks) : texts.moment({ number: this.cell(ticks) });
   }
 
@@ -169,6 +182,23 @@ export class Quantities {
   /** @param {number | string} ticks */
   #time(ticks) {
     return product(fraction(ticks), this.#perTick);
+  }
+
+  /**
+   * A time of day, some seconds after the start [ms], rounded to hundredths; with the date on later
+   * days.
+   *
+   * @param {number} start
+   * @param {Fraction} seconds
+   */
+  #clockTime(start, [top, bottom]) {
+    const moment = new Date(start + 10 * Number(halfUp([top * 100n, bottom])));
+    if (Number.isNaN(moment.getTime()) || moment.getTime() > LAST)
+      return this.#clock([top, bottom]);
+    const [date, clock] = moment.toISOString().slice(0, -2).split("T");
+    const day = date === new Date(start).toISOString().split("T")[0] ? "" : `${date} `;
+    const isWhole = clock.endsWith(":00.00");
+    return `${day}${isWhole ? clock.slice(0, -6) : clock.replace(/\.?0+$/, "")}`;
   }
 
   /**
