@@ -280,7 +280,7 @@ class InputError(RightOfWayError, ValueError):
     faults
         All independent faults that were found, in the order of the document.
     source
-        The file or argument in which those stand that name none.
+        The file or argument of the faults that name none.
     """
 
     def __init__(self, faults: Iterable[InputFault], source: str = "") -> None:
@@ -296,7 +296,7 @@ class InputError(RightOfWayError, ValueError):
 
     @property
     def source(self) -> str:
-        """The file or argument that the faults stand in; empty where none is known."""
+        """The file or argument of the faults; empty where none is known."""
         return next((fault.file for fault in self.faults if fault.file), "")
 
     def __str__(self) -> str:

@@ -87,10 +87,10 @@ def solve(
         For planners that draw at random, from 0 to 2**32 - 1. The same input and seed give the
         same plan.
     start
-        A plan of this scenario before it was changed: routes and rights of way are kept where they
-        can be, and only the other robots are planned again before the planner goes on from there.
-        ``run.start`` of the new plan says how many robots have kept their routes. If the scenario
-        has not changed, the new plan is at least as good.
+        A plan of this scenario before it was changed: routes and rights of way are kept if
+        possible, and only the other robots are planned again before the planner continues.
+        ``run.start`` of the new plan has the numbers of kept routes and tracks. If the scenario has
+        not changed, the new plan is at least as good.
     options
         Options of the planner: its own dataclass, like ``LnsOptions(iterations=100)``, or names
         with values.
@@ -98,13 +98,13 @@ def solve(
         Takes facts on the progress; ``str`` of one is an English sentence. By default they go to
         the logger ``rightofway``.
     on_plan
-        Takes each better plan while the planner goes on. The judge has not seen it.
+        Takes each better plan during the search. The judge has not seen it.
     keep_best
         Whether Ctrl-C returns the best plan so far, where there is one. By default
         `KeyboardInterrupt` is raised.
     seconds_per_visit
         The time to leave, for each visit of the plan, to judge it and to use it [s]: planning ends
-        so much before the time limit, but takes at least half of it.
+        earlier by this time, but takes at least half of the time limit.
     named
         Options one by one, like ``iterations=100``, instead of ``options``.
 

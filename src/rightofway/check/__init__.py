@@ -32,7 +32,7 @@ def check(plan: Plan, *, limit: int = 1000) -> Report:
     plan
         Any plan; however wrong it is, it is judged and not refused.
     limit
-        How many faults to list, the earliest first; all are counted.
+        The largest number of faults to list, the earliest first; all are counted.
 
     Returns
     -------
@@ -42,8 +42,8 @@ def check(plan: Plan, *, limit: int = 1000) -> Report:
     Notes
     -----
     A visit books its vertex for ``[enter - approach, leave + headway)``. The approach is the drive
-    into the vertex where robots book both ends of an edge, else nothing; a first visit has none,
-    and a last visit never ends. Bookings of one vertex by different robots must not overlap.
+    into the vertex if robots book both ends of an edge, otherwise 0; a first visit has none, and a
+    last visit never ends. Bookings of one vertex by different robots must not overlap.
 
     A robot with a turn rate turns on the spot between two edges before it drives on, and does no
     work meanwhile.
@@ -64,7 +64,7 @@ def check(plan: Plan, *, limit: int = 1000) -> Report:
     The state of charge of a battery is followed exactly. It falls at the end of each drive, during
     work, and until the robot rests; in a charge it only rises.
 
-    A closure is a booking of nobody without headway; a robot's booking has its own.
+    A closure is a booking without a robot and without headway; a robot's booking has its own.
     """
     visits = lay_out_visits(plan)
     limit = make_whole(0, 2**31 - 1).read_at("limit", limit)

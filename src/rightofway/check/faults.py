@@ -112,7 +112,7 @@ class Fault:
     kind
         Which rule.
     robots
-        Who breaks it, by index, increasing.
+        The robots that break it, by index, increasing.
     vertices
         Where. For a jump or a drive its tail and head; for a swap the vertex that each robot
         leaves; for a rotation the circle; for robots that are too near the vertex or the ends of
@@ -154,7 +154,7 @@ class Report:
     faults
         The earliest faults, by tick, then by robots.
     counts
-        How many faults there are of each kind that occurs, those not listed included.
+        The number of faults of each kind that occurs, including those not listed.
     """
 
     faults: tuple[Fault, ...]
@@ -167,7 +167,7 @@ class Report:
 
     @property
     def total(self) -> int:
-        """How many faults there are, those not listed included."""
+        """The number of faults, including those not listed."""
         return sum(self.counts.values())
 
     @property

@@ -274,7 +274,7 @@ class Operator:
         at
             The name of a vertex, or of a station.
         work
-            How long it lasts [ticks].
+            Its duration [ticks].
         robot
             Whose job it is; None for the robot that drives least more.
         after

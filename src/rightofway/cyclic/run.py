@@ -43,8 +43,8 @@ def run_laps(
     Parameters
     ----------
     scenario
-        The problem; its number of laps is not used. Places that are closed from 0 on for ever are
-        no part of the roadmap of the result.
+        The problem; its number of laps is not used. The roadmap of the result has no places that
+        are closed permanently from 0 on.
     rule
         The robot of two that goes first at a meeting: ``first-come``, ``fixed-order`` (the first in
         the scenario), ``least-loss`` (the robot that would lose the larger part of its lap) or
@@ -73,10 +73,10 @@ def run_laps(
 
     Notes
     -----
-    Exact: a pattern is reported after a state has recurred, hence the pattern repeats for ever. A
-    group without a recurrence within the limit is open. Deterministic below the limit. Where rules
-    forbid rotations and robots of a group rotate, the group is simulated again, in the other half
-    of the time, with a headway of one tick.
+    Exact: a pattern is reported after a state has recurred, hence the pattern repeats permanently.
+    A group without a recurrence within the limit is open. Deterministic below the limit. Where
+    rules forbid rotations and robots of a group rotate, the group is simulated again, in the other
+    half of the time, with a headway of one tick.
     """
     make_words(*RULES).read_at("rule", rule)
     make_words(*ROUTES).read_at("routes", routes)

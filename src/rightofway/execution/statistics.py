@@ -244,7 +244,7 @@ class SimulationResult:
     broken
         Robots that broke down before completion, over all runs.
     stranded
-        Robots that wait for a broken robot, or before a closure, for ever, over all runs.
+        Robots that wait permanently for a broken robot or before a closure, over all runs.
     caught
         Robots that are at a place while it is closed, over all runs.
     cut_off

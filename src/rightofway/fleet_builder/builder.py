@@ -340,7 +340,7 @@ class FleetBuilder:
             vertex, or ``{"x": 1.2, "y": 0.8}``, a point of the site [length unit]. Without one it
             gets a parking or charging place of the layout, near to its first stop.
         target, work, actions
-            The place to work at, how long [time unit], and what the robot does there, see
+            The place to work at, the work time [time unit], and the actions of the robot there, see
             `add_actions`; short for one stop.
         stops
             Places to work at, in order, instead of ``target``: a place, (place, work time), or
@@ -356,9 +356,10 @@ class FleetBuilder:
         type
             The name of its type, for edges and vertices that are barred for types.
         turn_rate
-            How fast it turns on the spot [degrees per time unit], if that differs from the rules.
+            Its speed of turning on the spot [degrees per time unit], if that differs from the
+            rules.
         weight
-            How much its completion time counts beside those of the other robots.
+            The weight of its completion time, compared with those of the other robots.
         start, capacity, battery, charging
             For a fleet with jobs, as for `Robot`; the robot then has neither ``target`` nor
             ``stops``. A start may be a mapping like ``{"at": "N7", "soc": 0.5}``; without ``at`` it
@@ -442,7 +443,7 @@ class FleetBuilder:
         name
             A name of its own.
         at, work
-            The place to work at, as for `add_robot`, and how long [time unit].
+            The place to work at, as for `add_robot`, and the work time [time unit].
         pickup, dropoff, pickup_work, dropoff_work, load
             Instead of ``at``: two places, the work at each [time unit], and the load that is
             carried between them.
@@ -455,7 +456,8 @@ class FleetBuilder:
         due, weight, types, robot, after, load_id, load_type
             As for `Job`.
         actions, pickup_actions, dropoff_actions
-            What the robot does at each place, see `add_actions`; by default as the place says.
+            The actions of the robot at each place, see `add_actions`; by default those of the
+            place.
 
         Raises
         ------
@@ -489,7 +491,7 @@ class FleetBuilder:
     def add_actions(
         self, place: Any, *, work: Actions = (), pick: Actions = (), drop: Actions = ()
     ) -> Self:
-        """Say what robots do at stops at a place; the map must be complete.
+        """Set the actions of robots at stops at a place; the map must be complete.
 
         Stops and jobs with actions of their own do not follow it. No plan depends on actions: the
         fleet control sends them to robots.

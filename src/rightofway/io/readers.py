@@ -26,10 +26,10 @@ def load(path: Path | str, count: int | None = None, jobs: Path | str | None = N
     path
         A scenario as YAML or JSON; a workbook (`.xlsx`); a problem of the League of Robot Runners;
         or a `.scen` file, which is classic MAPF: unit speeds, no work, no turning, no way back, the
-        map beside it or in ``../maps``.
+        map in the same folder or in ``../maps``.
     count
-        Number of robots: the first rows of a `.scen` file; None for all. Other files say
-        themselves how many robots they have.
+        Number of robots: the first rows of a `.scen` file; None for all. Other files have a fixed
+        number of robots.
     jobs
         A file of jobs for a scenario as YAML or JSON, instead of its own jobs: CSV, a list of jobs
         as YAML or JSON, transport orders of openTCS or task requests of Open-RMF.
@@ -107,8 +107,8 @@ def load_plan(
     path
         A plan as JSON or YAML, or in a format of `FOREIGN_FORMATS`; ``-`` is standard input.
     map_file
-        The ``.map`` of a plan of another program. By default the map that the plan or the ``.scen``
-        file names is looked for beside it.
+        The ``.map`` of a plan of another program. By default, the map named by the plan or the
+        ``.scen`` file, in the folder of that file.
     scen
         A ``.scen`` file with the starts and goals of a plan of another program.
 

@@ -37,7 +37,7 @@ class Event(NamedTuple):
     leave
         When the robot is in its next vertex [ticks]; None for its last visit.
     waits
-        How long it stands still with nothing to do [ticks].
+        The time of its waits [ticks].
     waits_for
         The robot that it waits for, by index; None if no robot is the cause.
     to_leave

@@ -29,9 +29,9 @@ class Metrics:
         No plan has a smaller flowtime [ticks]: the sum of ``alone``, or the bound of the planner
         if that is more.
     waiting
-        The sum of all times that robots stand still without work [ticks].
+        The sum of all waits [ticks].
     moves
-        How many edges are driven.
+        The number of driven edges.
     completions
         Completion time of each robot [ticks].
     alone
@@ -69,7 +69,7 @@ class Metrics:
 
     @property
     def detours(self) -> Tick:
-        """How much longer the routes are than the shortest, without waiting [ticks]."""
+        """The excess of the routes over the shortest ones, without waiting [ticks]."""
         return Tick(self.flowtime - self.flowtime_alone - self.waiting)
 
     @property

@@ -18,9 +18,9 @@ class Loss:
     Attributes
     ----------
     kind
-        ``waits``: the robot stands still with nothing to do. ``follows``: it waits several times
-        behind the same robot, along a run of vertices that both drive in the same direction.
-        ``waits for job``: it stands at a stop until a job of another robot has ended.
+        ``waits``: the robot waits at a vertex, without work or turning. ``follows``: it waits
+        several times behind the same robot, along a run of vertices that both drive in the same
+        direction. ``waits for job``: it waits at a stop until a job of another robot has ended.
         ``makes room``: it leaves a vertex and comes back to it without a stop in between.
     robot
         The robot that loses time, by index.
@@ -44,7 +44,7 @@ class Loss:
     ticks
         The time that is lost: all waits; or the drives of making room, without waits [ticks].
     count
-        How many waits are joined; 1 for a robot that makes room.
+        The number of joined waits; 1 for a robot that makes room.
     """
 
     kind: Literal["waits", "follows", "makes room", "waits for job"]
@@ -71,12 +71,12 @@ class LostTime:
     alone
         Its shortest completion time without the others [ticks].
     detours
-        How much longer its drives are than on its shortest trip, without the drives that make room
-        [ticks]. Below 0 only in a plan that breaks the rules.
+        The excess of its drives over its shortest trip, without the drives that make room [ticks].
+        Below 0 only in a plan that breaks the rules.
     making_room
-        How long it drives away from vertices and back to them [ticks].
+        The time of its drives away from vertices and back to them [ticks].
     waiting
-        How long it stands still with nothing to do [ticks].
+        The time of its waits [ticks].
     losses
         The causes, by tick, then the longest first: those that make room sum up to
         ``making_room``, the others to ``waiting``.
@@ -96,7 +96,7 @@ class LostTime:
 
     @property
     def lost(self) -> Tick:
-        """How much later that is than without the others [ticks]."""
+        """The excess over the time without the others [ticks]."""
         return Tick(self.detours + self.making_room + self.waiting)
 
     @checks_arguments
@@ -143,7 +143,7 @@ class Wait:
     tick
         When it begins: the robot has worked and turned, and might drive on [ticks].
     ticks
-        How long it lasts [ticks].
+        Its duration [ticks].
     towards
         The vertex where the robot goes next; where it waits, if it waits for the end of a job.
     for_robot

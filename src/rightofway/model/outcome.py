@@ -29,14 +29,13 @@ class Objective(StrEnum):
     COST
         The flowtime and the surcharges of all edges driven.
     WEIGHTED
-        The flowtime and surcharges, where a tick of a robot counts as often as its weight says:
-        whole numbers in the ratio of the weights of robots.
+        The flowtime and surcharges, with the ticks of each robot multiplied by its weight: whole
+        numbers in the ratio of the weights of robots.
     MAKESPAN
         The latest completion time.
     BOTH
-        The makespan and the completion time of each robot, by weights, summed over the robots: as
-        much as the makespan by the weight of the fleet, and all that robots lose to each other,
-        apart from what they need alone.
+        The makespan and the completion time of each robot, by weights, summed over the robots: the
+        makespan times the total weight, plus the weighted sum of completion times.
     SERVICE
         With jobs: service times and lateness by weights of jobs, in ticks times weights, of which
         the denominator of `Work.late` are one.
@@ -107,8 +106,8 @@ class OutcomeKind(StrEnum):
     BOUNDED
         The plan is at most a factor above the least objective.
     BEST_FOUND
-        The best plan that was found; how far it is from the optimum is not proven, but for the
-        lower bound.
+        The best plan that was found; its distance from the optimum is bounded only by the lower
+        bound.
     NO_PLAN_EXISTS
         It is proven that there is no plan.
     GAVE_UP

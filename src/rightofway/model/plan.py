@@ -65,8 +65,8 @@ class Decision:
     waits_at
         The vertex it waits in.
     ticks
-        How much later it leaves there by this decision [ticks]. A robot that follows another one
-        may have to wait again on the way.
+        The delay of its departure by this decision [ticks]. A robot that follows another one may
+        have to wait again on the way.
     level
         ``node``: fewer conflicts were left in the whole system. ``robot``: as many were left, but
         both achieve their work sooner. ``settled``: the other choice would have met robots that
@@ -154,10 +154,9 @@ class PlannerRun:
     status
         The method that found the plan, or None where it is unknown.
     seconds
-        How long it took [s], or None where that was not kept.
+        The time that it took [s], or None if it was not stored.
     first_plan_seconds
-        How long it took until there was a plan to improve on [s], or None where that was not kept.
-        Files do not keep it.
+        The time until the first plan [s], or None if it was not stored. Files do not keep it.
     decisions
         Rights of way in the order they were decided, from planners that record them.
     reroutes
@@ -165,8 +164,8 @@ class PlannerRun:
     improvement
         The gain of changes of the first plan, or None where there were none. Files do not keep it.
     start
-        How much was kept of the plan from which it was made, or None where it was made from
-        nothing.
+        The routes and tracks that were kept from the plan at the start, or None without such a
+        plan.
     forced_losses
         Of an optimal plan: groups of robots that lose time to each other in every plan, those that
         lose most first. A robot may be in several groups, so that losses do not add up.
@@ -209,7 +208,7 @@ class RobotPlan:
     completion
         When it has done its work and is at its last vertex [ticks].
     waits
-        Where it waits, how long and for which robot, in order.
+        Its waits with place, duration and the robot waited for, in order.
     """
 
     robot: Robot
@@ -235,11 +234,11 @@ class Plan:
     tracks
         One for each robot, in the scenario's order.
     run
-        How it came about.
+        The origin of the plan.
     steady
         From when on the plan repeats itself, where that is known; shown, not judged.
     tours
-        Of a scenario with jobs: what each robot does in which visits. Where the scenario has
+        Of a scenario with jobs: the items of each robot, with their visits. Where the scenario has
         tours, they follow from its tours and the tracks unless they are given.
     unserved
         Of a scenario with jobs: indices of the jobs that no robot does, each with the reason.
@@ -253,7 +252,7 @@ class Plan:
     Notes
     -----
     A plan is a claim; `rightofway.check` finds out whether it keeps the rules. Figures of a plan
-    that breaks them are what its tracks claim.
+    that breaks them are the claims of its tracks.
     """
 
     scenario: Scenario

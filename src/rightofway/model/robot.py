@@ -55,9 +55,9 @@ class Stop:
     at
         The vertex.
     work
-        How long the robot works there [time unit], not negative; any `Number`, kept exactly.
+        The work time of the robot there [time unit], not negative; any `Number`, kept exactly.
     actions
-        What the robot does there; empty for the actions of the place. No plan depends on it.
+        The actions of the robot there; empty for the actions of the place. No plan depends on it.
 
     Raises
     ------
@@ -97,14 +97,14 @@ class Robot:
     ends
         Whether it returns home, if that differs from the rules.
     laps
-        How often it makes its round trip, if that differs from the rules.
+        The number of its round trips, if that differs from the rules.
     turn_rate
-        How fast it turns on the spot [degrees per time unit], positive, if that differs from the
+        Its speed of turning on the spot [degrees per time unit], positive, if that differs from the
         rules.
     weight
-        How much its completion time counts beside those of the other robots, positive.
+        The weight of its completion time, compared with those of the other robots; positive.
     start
-        Where it begins and the work it has done; None: at home, with nothing done. Like the next
+        Where it begins and the work it has done; None: at home, with no job begun. Like the next
         three only in a scenario with jobs, in which a robot has no `stops`.
     capacity
         The largest load, not negative; None for 1.
@@ -225,7 +225,7 @@ class Rules:
     ends
         Whether robots return home.
     laps
-        How often each robot makes its round trip.
+        The number of round trips of each robot.
     rotations
         Whether three or more robots may move round a circle all at one instant.
     clearance
@@ -234,13 +234,13 @@ class Rules:
         ``strict``: on a grid, robots do not drive where they reach into a blocked cell or over the
         border. ``free``: robots with a radius above half a cell may.
     turn_rate
-        How fast robots turn on the spot [degrees per time unit], positive. None: a change of
+        The speed of turning on the spot [degrees per time unit], positive. None: a change of
         heading takes no time.
     objective
         The objective after the weight of unserved jobs; None for ``service``. Like `late`
         only in a scenario with jobs.
     late
-        How much a time unit of a job after its `due` costs, compared with one of service time, not
+        The cost of a time unit of a job after its `due`, compared with one of service time, not
         negative; None for 10.
     patience
         In a shift, jobs without `due` are overdue so long after their `earliest` [time unit], and

@@ -36,13 +36,13 @@ class Scenario:
     roadmap
         The graph that robots drive on.
     robots
-        At least one, each with a name and a home of its own.
+        At least one; each has a unique name and home.
     rules
         The rules of the whole fleet.
     clock
-        The clock to keep, where this is the rest of another scenario; else one is chosen.
+        The clock to keep, if this is the remaining part of another scenario; else one is chosen.
     closures
-        Vertices and edges that nobody may book for a while.
+        Vertices and edges that no robot may book for a time.
     units
         The units of lengths and times; only for people, no plan depends on it.
     jobs
@@ -55,7 +55,7 @@ class Scenario:
         Which robot does which jobs in which order, one tour for each robot, where that is decided:
         itineraries are made from it. Files do not keep it.
     actions
-        What robots do at stops that have no actions of their own, by places.
+        The actions of robots at stops without actions of their own, by places.
     problem
         The same in ticks; derived.
 

@@ -94,8 +94,8 @@ def find_stays(
     tracks
         One track for each robot; they may break the rules.
     tours
-        Of a plan with jobs: what each robot does in which visits. None: stages are served as early
-        as visits last long enough.
+        Of a plan with jobs: the items of each robot, with their visits. None: stages are served as
+        early as visits last long enough.
 
     Notes
     -----

@@ -20,7 +20,7 @@ class ExecutionTrace:
     ----------
     tracks
         Vertices and times of each robot: its planned vertices, or the first of them if it got no
-        further; other vertices where the rest was replanned.
+        further; other vertices if the remaining route was replanned.
     dwell
         For each robot, the real duration of work and turning in each visit [ticks]; int64, as long
         as its track.

@@ -66,7 +66,7 @@ class JobStop:
     latest
         The work ends then or before [time unit]; None for no limit.
     actions
-        What the robot does there; empty for the actions of the place. No plan depends on it.
+        The actions of the robot there; empty for the actions of the place. No plan depends on it.
 
     Raises
     ------

@@ -85,7 +85,7 @@ class Quantities:
 
     @checks_arguments
     def format_duration(self, ticks: Value) -> str:
-        """Return how long a number of ticks lasts: ``6 min 23 s``, ``2 time units``."""
+        """Return the duration of a number of ticks as text: ``6 min 23 s``, ``2 time units``."""
         if self.in_ticks:
             return Phrase("n_ticks", number=format_decimal(ticks))
         time = self._time(ticks)
@@ -150,7 +150,7 @@ class Quantities:
         )
 
     def compute_ticks_per_hour(self) -> Fraction | None:
-        """Return how many ticks an hour has, or None where the time unit is not known."""
+        """Return the number of ticks in an hour, or None if the time unit is not known."""
         seconds = self.units.seconds
         return None if seconds is None else 3600 / (self.tick * seconds)
 

@@ -190,7 +190,7 @@ class Roadmap:
         The same in floating point; float64, shape (V,), empty where vertices have none.
     passing
         The vertices that robots only drive through; None without such vertices. Several vertices
-        then stand for one passed vertex and have its name.
+        then represent one passed vertex and have its name.
     """
 
     indptr: NDArray[np.int32]
@@ -284,7 +284,7 @@ class Roadmap:
         """Return the vertices along an edge or a split lane, both ends included, in any direction.
 
         One way for each drawing of the lane: its directions may be driven along different curves.
-        Nothing if no edge or lane has these ends.
+        Empty if no edge or lane has these ends.
         """
         ways = [ends] if any(self.is_drawn(*pair) for pair in (ends, ends[::-1])) else []
         drawn: dict[frozenset[VertexId], tuple[VertexId, ...]] = {}
@@ -322,7 +322,7 @@ class Roadmap:
         return self.passing is not None and self.get_drawn(vertex) in self.passing.vertices
 
     def get_drawn(self, vertex: int) -> int:
-        """Return the vertex that a vertex stands for; only those of chains stand for others."""
+        """Return the drawn vertex of a vertex; only vertices of chains have another one."""
         if self.passing is None:
             return vertex
         self._refuse_unknown("vertex", vertex)
@@ -331,7 +331,7 @@ class Roadmap:
     def fold(self) -> Roadmap:
         """Return a roadmap as it is drawn, with edges to passed vertices and without chains.
 
-        No plan may be made on it: nothing keeps robots from a stop at a passed vertex.
+        No plan may be made on it: the result does not prevent stops at passed vertices.
         """
         passing = self.passing
         if passing is None or self.heads is passing.heads:
@@ -482,7 +482,7 @@ class Roadmap:
         return None
 
     def list_edges(self, tail: int, head: int) -> list[int]:
-        """Return the edges that stand for the edge drawn from ``tail`` to ``head``.
+        """Return the edges that represent the edge drawn from ``tail`` to ``head``.
 
         It is that edge, if there is one; of an edge at a passed vertex, one for each chain on it.
         """

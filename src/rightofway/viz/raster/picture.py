@@ -95,7 +95,7 @@ def write_png(
     plan, tick, scale, theme
         As for `make_png`.
     path
-        Where, usually ``….png``; the file is there whole or not at all.
+        Where, usually ``….png``; the file is complete, or not written.
 
     Raises
     ------
@@ -140,7 +140,7 @@ def write_gif(
     plan, theme
         As for `make_png`.
     path
-        Where, usually ``….gif``; the file is there whole or not at all.
+        Where, usually ``….gif``; the file is complete, or not written.
     max_frames
         The most pictures. A long plan plays faster instead of becoming a large file.
     scale
@@ -149,7 +149,7 @@ def write_gif(
     Returns
     -------
     Film
-        How many pictures were made, and how far apart.
+        The number of pictures, and the time between them.
 
     Raises
     ------
