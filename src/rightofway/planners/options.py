@@ -93,11 +93,13 @@ class PlannerOptions:
     --------
     A count, an exact number and a choice, for a planner of your own:
 
-    >>> @dataclass(frozen=True, slots=True, kw_only=True) ... class MyOptions(PlannerOptions): ...
-    rounds: Annotated[int, make_whole(1), "Number of rounds."] = 5 ...     share:
-    Annotated[Fraction, make_number(0, 1), "Part of the robots."] = Fraction(1, 2) ...     order:
-    Annotated[Literal["file", "random"], "Which robot is planned first."] = "file" >>>
-    MyOptions(rounds="7", share=0.1) MyOptions(rounds=7, share=Fraction(1, 10), order='file')
+    >>> @dataclass(frozen=True, slots=True, kw_only=True)
+    ... class MyOptions(PlannerOptions):
+    ...     rounds: Annotated[int, make_whole(1), "How many rounds."] = 5
+    ...     share: Annotated[Fraction, make_number(0, 1), "Part of the robots."] = Fraction(1, 2)
+    ...     order: Annotated[Literal["file", "random"], "Which robot is planned first."] = "file"
+    >>> MyOptions(rounds="7", share=0.1)
+    MyOptions(rounds=7, share=Fraction(1, 10), order='file')
     """
 
     def __new__(cls, **given: object) -> Self:
