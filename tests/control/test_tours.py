@@ -62,6 +62,21 @@ def test_work_does_not_begin_before_its_time_though_its_robot_is_there() -> None
     assert at_place[0] == "00:02"
 
 
+def test_a_robot_does_nothing_before_it_is_ready() -> None:
+    """R1 is ready at 20; then it gets the order to drive to J1, which might begin at 12."""
+    document = floor_document()
+    document["robots"][0]["start"] = {"at": "N0", "ready": 20}
+    plan = rightofway.solve(parse_scenario(document), "prioritized")
+    actions, states = driven_actions(plan)
+    assert [action.second for action in actions if action.item == "J1/0"] == [20]
+    at_home = [
+        state["timestamp"][14:19]
+        for state in states
+        if state["serialNumber"] == "robot0" and state["lastNodeId"] == "N0" and state["driving"]
+    ]
+    assert at_home[0] == "00:20"
+
+
 def test_a_job_after_another_one_begins_when_that_is_done_however_late_it_is() -> None:
     actions, _ = driven_actions(floor_plan(), delays=("stop:R1@2+40",))
     begins = {action.item: action.second for action in actions}

@@ -377,7 +377,12 @@ class Dispatcher:
             self.rounds.watch.read_ticks = read_ticks
         if self.plan.scenario.closures:
             self.closures = ClockedClosures(self.plan.scenario, read_ticks)
-            self.control.may_enter = lambda robot, part: self.find_closed(robot, part) is None
+        self.control.may_enter = self._may_enter
+
+    def _may_enter(self, robot: int, part: int) -> bool:
+        """Return whether a robot is ready, and no closure keeps it from a part."""
+        is_ready = self._waiting_work is None or self._waiting_work.may_set_out(robot)
+        return is_ready and self.find_closed(robot, part) is None
 
     def find_closed(self, robot: int, part: int) -> Closed | None:
         """Return when a closure of the scenario keeps a robot from a part; None if none does."""

@@ -13,7 +13,7 @@ from rightofway.control.fleet_control import FleetControl
 from rightofway.control.work_items import find_charge_step, find_stop
 from rightofway.model import Scenario
 
-__all__ = ["HeldWork"]
+__all__ = ["HeldWork", "list_ready"]
 
 NOISE = 0.005
 """By how much a measured state of charge may miss the planned one: robots report whole percents."""
@@ -37,8 +37,19 @@ class HeldWork:
     ) -> None:
         self._scenario, self._control = scenario, control
         self._clock, self._read_ticks = scenario.problem.clock, read_ticks
+        self._ready = list_ready(scenario)
         # For each robot: item and measured charge, and when both were seen first together.
         self._seen: dict[int, tuple[tuple[str, float | None], int]] = {}
+
+    def may_set_out(self, robot: int) -> bool:
+        """Return whether a robot does anything yet: it is ready.
+
+        Parameters
+        ----------
+        robot
+            Its number.
+        """
+        return self._ready[robot] <= self._read_ticks()
 
     def may_begin(self, robot: int, item: str) -> bool:
         """Return whether an item of work may begin now.
@@ -51,7 +62,7 @@ class HeldWork:
             See `rightofway.control.work_items`.
         """
         begin = self.find_begin(robot, item)
-        return begin is not None and begin <= self._read_ticks()
+        return begin is not None and begin <= self._read_ticks() and self.may_set_out(robot)
 
     def find_begin(self, robot: int, item: str) -> int | None:
         """Return when an item may begin, as far as that is known [ticks]; None if it is not.
@@ -98,8 +109,8 @@ class HeldWork:
         return since + self._clock.count_ticks(Fraction(target - measured) / rate)
 
     def find_next_change(self) -> int | None:
-        """Return when the next work that robots stand for may begin [ticks]; None if none may."""
-        now, changes = self._read_ticks(), list[int]()
+        """Return when robots are ready, or work for which they stand may begin [ticks], or None."""
+        now, changes = self._read_ticks(), list(self._ready)
         for robot, own in enumerate(self._control.ledger.robots):
             item = own.find_next_item()
             if item is None or own.is_off or own.is_asked_for(item):
@@ -108,3 +119,9 @@ class HeldWork:
             if begin is not None:
                 changes.append(begin)
         return min((change for change in changes if change > now), default=None)
+
+
+def list_ready(scenario: Scenario) -> list[int]:
+    """Return when each robot is ready [ticks]."""
+    count = scenario.problem.clock.count_ticks
+    return [count(robot.start.ready) if robot.start else 0 for robot in scenario.robots]

@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from rightofway.control.fleet_control import FleetControl
+from rightofway.control.held_work import list_ready
 from rightofway.control.journal import Entry
 from rightofway.control.laps import build_graph_behind_released
 from rightofway.control.messages import Message
@@ -87,7 +88,7 @@ class RoundDriver:
         self.reasons: dict[str, UnservedReason | None] = {}
         self.report: Report = lambda *_: None
         self.tell: Callable[[Fact], None] = lambda _: None
-        self.watch = RoundWatch(self._fleet, control)
+        self.watch = RoundWatch(self._fleet, control, list_ready(scenario))
         self.is_wanted = bool(control.ledger.run)  # a round may have been under way
         self._seen: ViewOfRound | None = None  # of the round that is under way
         self._graph: ReleaseGraph | None = None  # of the plan that it replaces

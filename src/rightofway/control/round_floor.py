@@ -7,7 +7,7 @@ robots are free, how full they are then, and when they would do the rest of the 
 from __future__ import annotations
 
 from collections import defaultdict, deque
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -25,7 +25,7 @@ from rightofway.dispatch.takeover import (
 from rightofway.model import NEVER, Scenario, Tick, Track
 from rightofway.model.bind_work import find_heading_on_site
 from rightofway.precedence import DelayModel, Part
-from rightofway.site import VertexId
+from rightofway.site import Roadmap, VertexId
 
 __all__ = [
     "FloorReports",
@@ -33,6 +33,7 @@ __all__ = [
     "ItemToDo",
     "forecast_kept_parts",
     "list_items_to_do",
+    "list_vertices",
     "mirror_floor",
 ]
 
@@ -52,10 +53,17 @@ class FloorReports:
         The state of charge of each robot, from 0 to 1; a robot that reports none counts as full.
     headings
         As `RobotState.heading` [degrees].
+    ready
+        When each robot is ready [ticks].
     """
 
-    def __init__(self, charges: Mapping[int, float], headings: Mapping[int, Fraction]) -> None:
-        self._charges, self.headings = charges, headings
+    def __init__(
+        self,
+        charges: Mapping[int, float],
+        headings: Mapping[int, Fraction],
+        ready: Sequence[int],
+    ) -> None:
+        self._charges, self.headings, self.ready = charges, headings, ready
         self._seen: dict[int, tuple[int, int, int]] = {}
 
     def look(self, ledger: Ledger, now: int) -> None:
@@ -125,6 +133,22 @@ def list_items_to_do(scenario: Scenario, own: RobotLedger, begin: int) -> Iterat
             )
 
 
+def list_vertices(roadmap: Roadmap, own: RobotLedger, begin: int) -> list[VertexId]:
+    """Return the vertices of a route from a visit on; chains may begin before it.
+
+    Parameters
+    ----------
+    roadmap
+        The map.
+    own
+        The robot.
+    begin
+        The number of a visit that is kept.
+    """
+    vertices = roadmap.unfold_route(list(map(roadmap.get_vertex, own.route.places)))
+    return vertices[begin - own.route.first :]
+
+
 def mirror_floor(
     scenario: Scenario,
     ledger: Ledger,
@@ -163,7 +187,7 @@ def mirror_floor(
         if battery is not None:
             soc = min(Fraction(1), reports.get_soc(robot) + spare)
             mirrored.soc += int(soc * battery.full)
-        mirrored.since = mirrored.counted = now
+        mirrored.since, mirrored.counted = max(now, reports.ready[robot]), now
     afters = (name for own in ledger.pool.jobs.values() for name in own.job.after)
     floor.ends = {name: 0 for name in afters if name in ledger.pool.left}
     return floor
@@ -295,9 +319,7 @@ class _Mirror:
 
     def _list_visits(self) -> list[VisitToCome]:
         """Return the visits from that on at which the robot has arrived."""
-        own, roadmap = self._own, self._floor.roadmap
-        places = own.route.stretch(own.arrived, own.route.end)
-        vertices = roadmap.unfold_route(list(map(roadmap.get_vertex, places)))
+        own, vertices = self._own, list_vertices(self._floor.roadmap, self._own, self._own.arrived)
         track = Track.of(vertices, own.route.enter[own.arrived - own.route.first :])
         rows = list_coming_visits(self._floor, self._robot, track, self._find_heading(), 0)
         steps = defaultdict[int, list[StepToDo]](list)
@@ -322,8 +344,7 @@ class _Mirror:
         """Return the heading of the edge that the robot has come along, else as it reports."""
         own, roadmap = self._own, self._floor.roadmap
         if own.arrived > own.route.first:
-            before = own.route.stretch(own.arrived - 1, own.arrived + 1)
-            tail, head = roadmap.unfold_route(list(map(roadmap.get_vertex, before)))
+            tail, head = list_vertices(roadmap, own, own.arrived - 1)[:2]
             edges = roadmap.list_edges(tail, head)
             heading = self._floor.find_heading(int(edges[0])) if edges else None
             if heading is not None:

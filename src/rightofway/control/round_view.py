@@ -14,7 +14,12 @@ from rightofway.control.batteries import FleetBatteries, follow_charge
 from rightofway.control.commitments import RobotCommitment, make_robot_commitment
 from rightofway.control.ledger import Edge, Ledger
 from rightofway.control.robot_ledger import RobotLedger
-from rightofway.control.round_floor import ItemToDo, forecast_kept_parts, list_items_to_do
+from rightofway.control.round_floor import (
+    ItemToDo,
+    forecast_kept_parts,
+    list_items_to_do,
+    list_vertices,
+)
 from rightofway.control.routes import RouteToDrive
 from rightofway.control.work_items import find_charge_step, find_stop, name_charge, name_stop
 from rightofway.dispatch import FleetView, PlannedStep, PooledJob, RobotView, Round, StopsLater
@@ -212,9 +217,7 @@ def _make_old_track(
     """Return the rest of the old plan at the times that are expected; None where there is none."""
     if times is None:
         return None
-    places = own.route.stretch(last, own.route.end)
-    vertices = roadmap.unfold_route(list(map(roadmap.get_vertex, places)))
-    return Track.of(vertices, [0, *(tick - takeover for tick in times)])
+    return Track.of(list_vertices(roadmap, own, last), [0, *(tick - takeover for tick in times)])
 
 
 def _count_begun(job: PooledJob, own: RobotLedger, kept_parts: RouteToDrive) -> int:

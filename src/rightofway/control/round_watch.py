@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
@@ -40,6 +40,8 @@ class RoundWatch:
         The fleet with its closures, without jobs.
     control
         The control, with the pool of jobs in its ledger.
+    ready
+        When each robot is ready [ticks].
 
     Attributes
     ----------
@@ -53,13 +55,13 @@ class RoundWatch:
         Why the last round was wanted.
     """
 
-    def __init__(self, fleet: Scenario, control: FleetControl) -> None:
+    def __init__(self, fleet: Scenario, control: FleetControl, ready: Sequence[int]) -> None:
         self._fleet, self._control = fleet, control
         self.unable = frozenset[int]()
         self.list_closed: Callable[[], Collection[Edge]] = tuple
         self.read_ticks: Callable[[], int] = lambda: 0
         self.reasons: tuple[Fact, ...] = ()
-        self._reports = FloorReports(control.charges, control.headings)
+        self._reports = FloorReports(control.charges, control.headings, ready)
         self._later: tuple[object, Mapping[int, StopsLater]] = None, {}  # a graph, and its own
         self._tried: Situation | None = None  # when the last round began
         self._looks, self._retries, self._catches_up = 0, _Pauses(), _Pauses()
