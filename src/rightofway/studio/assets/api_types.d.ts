@@ -60,7 +60,7 @@ export interface CommandLine {
   command: string;
 }
 
-/** Plans beside each other. */
+/** A comparison of plans. */
 export interface Compared {
   runs: Array<number>;
   plans: Array<ComparedFigures>;

@@ -69,7 +69,7 @@ export interface ComparedRobot {
   completion: (number | null)[];
 }
 
-/** Plans beside each other. */
+/** A comparison of plans. */
 export interface ComparisonData {
   tick: [number, number];
   units: UnitsData;
