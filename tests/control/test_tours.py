@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 from typing import Any
 
@@ -75,6 +76,14 @@ def test_a_robot_does_nothing_before_it_is_ready() -> None:
         if state["serialNumber"] == "robot0" and state["lastNodeId"] == "N0" and state["driving"]
     ]
     assert at_home[0] == "00:20"
+
+
+def test_a_simulated_robot_reports_where_it_heads() -> None:
+    """R1 drives from N0 down to N5; y points upwards in frames of robots."""
+    _, states = driven_actions(floor_plan())
+    own = [state for state in states if state["serialNumber"] == "robot0"]
+    at_n5 = next(state for state in own if state["lastNodeId"] == "N5")
+    assert at_n5["agvPosition"]["theta"] == pytest.approx(-math.pi / 2)
 
 
 def test_a_job_after_another_one_begins_when_that_is_done_however_late_it_is() -> None:

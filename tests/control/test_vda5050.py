@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any
+from typing import Any, Literal
 
 import pytest
 
+from rightofway import FleetBuilder
 from rightofway.control import (
     Condition,
     FleetControl,
@@ -36,6 +37,8 @@ from rightofway.control.vda5050 import (
 from rightofway.errors import InputError
 from rightofway.io import parse_scenario
 from rightofway.model import Robot, Scenario, Stop
+from rightofway.model.bind_work import find_heading_on_site
+from rightofway.model.turning import list_headings
 from rightofway.precedence import ReleaseGraph
 from rightofway.site.geometry import Frame
 from tests.builders.chaos import MemoryJournal
@@ -323,3 +326,32 @@ def test_connections_are_written_and_read(version: str, state: str) -> None:
     document = write_message(ConnectionMessage(connectionState=state), header(version))
     validator(version, "connection").validate(document)
     assert read(ConnectionMessage, document, "connection").is_online == (state == "ONLINE")
+
+
+@pytest.mark.parametrize("y", ["down", "up"])
+@pytest.mark.parametrize("yaw", [Fraction(0), Fraction(1, 2), Fraction(-2)])
+def test_theta_of_a_robot_along_a_lane_is_the_heading_of_the_lane(
+    yaw: Fraction, y: Literal["down", "up"]
+) -> None:
+    """Frames of robots are turned, sites have y upwards or downwards."""
+    fleet = FleetBuilder(y=y)
+    for name, (x, at_y) in {"a": (0, 0), "b": (3, 4), "c": (-2, 1)}.items():
+        fleet.add_vertex(name, x=x, y=at_y)
+    fleet.add_edge("a", "b")
+    fleet.add_edge("b", "c")
+    fleet.add_robot("R1", home="a", target="b")
+    scenario = fleet.build_scenario()
+    roadmap = scenario.roadmap
+    order_map = map_of(scenario, frame=Frame(x=Fraction(1), y=Fraction(2), yaw=yaw))
+    for edge, heading in enumerate(list_headings(roadmap)):
+        head = int(roadmap.heads[edge])
+        tail = next(k for k in range(3) if edge < roadmap.indptr[k + 1])
+        ends = [order_map.get_place(roadmap.name(vertex)) for vertex in (tail, head)]
+        assert ends[0] is not None
+        assert ends[1] is not None
+        begin, end = ends[0].point, ends[1].point
+        theta = math.atan2(end[1] - begin[1], end[0] - begin[0])
+        on_site = find_heading_on_site(heading, roadmap)
+        assert on_site is not None
+        apart = abs(float(order_map.find_heading(theta) - on_site)) % 360
+        assert min(apart, 360 - apart) < 1e-5

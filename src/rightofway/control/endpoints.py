@@ -9,9 +9,10 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from datetime import UTC, datetime
 from functools import cached_property, partial
-from math import hypot
+from math import atan2, hypot
 from typing import Any, TypeVar
 
 from rightofway.control import vda5050
@@ -263,6 +264,8 @@ class ControlEnd:
             self._heard.add(robot)
             self.notices.take(robot, state.condition)
             self.notices.end(robot, LOST)
+            if state.theta is not None:
+                self.control.headings[robot] = self._maps[robot].find_heading(state.theta)
             messages = self.control.receive(robot, state)
             self._compare_position(robot, state)
             return self.make_letters(messages)
@@ -436,6 +439,7 @@ class RobotEnd:
         self.condition = Condition()
         self.lanes: dict[tuple[str, str], OrderLane] = {}
         self._places: dict[str, Place] = {}
+        self._came, self._theta = robot.place, 0.0
         self._writer = LetterWriter(now)
         self._charges = {
             identity.start_charging.action: True,
@@ -500,14 +504,24 @@ class RobotEnd:
     def report_state(self) -> Letter:
         """Return its state as it is sent."""
         robot = self.robot
+        state = robot.report_state(self.condition, self.battery.soc if self.battery else None)
         body = vda5050.StateMessage.of(
-            robot.report_state(self.condition, self.battery.soc if self.battery else None),
+            replace(state, theta=self._find_theta()),
             [node.place for node in robot.ahead],
             frozenset(robot.instant_actions),
             self._places.get(robot.place),
             is_charging=robot.is_charging,
         )
         return self._writer.make_letter(self._identity, "state", body)
+
+    def _find_theta(self) -> float:
+        """Return where the robot heads: along the straight line of its last drive [rad]."""
+        before, at = self._places.get(self._came), self._places.get(self.robot.place)
+        self._came = self.robot.place
+        if before and at and before.point != at.point:
+            (x, y), (x_before, y_before) = at.point, before.point
+            self._theta = atan2(y - y_before, x - x_before)
+        return self._theta
 
     def report_connection(self, state: str) -> Letter:
         """Return whether it is connected, as it is sent.

@@ -173,6 +173,9 @@ class StateReport:
         Whether it is fit to drive on.
     position
         Where it is: x and y [m], and the map; None where it does not say. For people only.
+    theta
+        Where it heads, from x to y in its own frame [rad]; None where it does not say. For
+        forecasts only.
     charge
         The state of charge of its battery, from 0 to 1; None where it does not say.
     loads
@@ -189,6 +192,7 @@ class StateReport:
     is_driving: bool = False
     condition: Condition = Condition()
     position: tuple[float, float, str] | None = None
+    theta: float | None = None
     charge: float | None = None
     loads: tuple[Load, ...] | None = None
 

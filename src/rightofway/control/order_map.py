@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from math import degrees
 from typing import Any
 
 from rightofway.control.identities import Identity
@@ -182,6 +183,17 @@ class OrderMap:
         up = y if self.scenario.roadmap.frame.y_up else -y
         x, y = self.identity.frame.to_plane((x * self._metre, up * self._metre))
         return float(x), float(y)
+
+    def find_heading(self, theta: float) -> Fraction:
+        """Return a heading of the robot on the site, as `RobotState.heading` [degrees].
+
+        Parameters
+        ----------
+        theta
+            From x to y in the frame of the robot [rad].
+        """
+        heading = round(degrees(theta + self.identity.frame.yaw), 6)
+        return Fraction(str(heading if self.scenario.roadmap.frame.y_up else -heading)) % 360
 
     def to_document(self) -> dict[str, Any]:
         """Return all that messages to the robot depend on beside its orders."""

@@ -476,7 +476,12 @@ class StateMessage(_Model):
                 charging=is_charging,
             ),
             agvPosition=position
-            and _Position(x=position.point[0], y=position.point[1], mapId=position.map_id),
+            and _Position(
+                x=position.point[0],
+                y=position.point[1],
+                theta=state.theta or 0.0,
+                mapId=position.map_id,
+            ),
         )
 
     def to_robot_state(self) -> StateReport:
@@ -506,6 +511,7 @@ class StateMessage(_Model):
                 wants_more=self.newBaseRequest,
             ),
             position=_read_position(self.agvPosition),
+            theta=_read_theta(self.agvPosition),
             charge=_read_charge(self.batteryState),
             loads=_read_loads(self.loads),
         )
@@ -513,12 +519,27 @@ class StateMessage(_Model):
 
 def _read_position(given: Any) -> tuple[float, float, str] | None:
     """Return the position of a robot, None where it has none or it cannot be read."""
+    position = _validate_position(given)
+    if position is None or not (isfinite(position.x) and isfinite(position.y)):
+        return None
+    return position.x, position.y, position.mapId
+
+
+def _read_theta(given: Any) -> float | None:
+    """Return where a robot heads, None where it does not say or it cannot be read."""
+    position = _validate_position(given)
+    if position is None or "theta" not in position.model_fields_set or not isfinite(position.theta):
+        return None
+    return position.theta
+
+
+def _validate_position(given: Any) -> _Position | None:
+    """Return the position of a localized robot, None where it has none or it cannot be read."""
     try:
         position = given if isinstance(given, _Position) else _Position.model_validate(given)
     except ValidationError:
         return None
-    is_known = position.positionInitialized and isfinite(position.x) and isfinite(position.y)
-    return (position.x, position.y, position.mapId) if is_known else None
+    return position if position.positionInitialized else None
 
 
 def _read_charge(given: Any) -> float | None:
