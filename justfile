@@ -17,6 +17,7 @@ lint: node-modules
     npx --no knip -- --include files,exports,duplicates,unresolved --no-config-hints
     check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/*.yml
     check-jsonschema --builtin-schema vendor.dependabot .github/dependabot.yml
+    check-jsonschema --builtin-schema vendor.compose-spec deploy/compose.yaml
     zizmor --offline --quiet .github
 
 # Bring everything into the house style
@@ -42,6 +43,15 @@ wheel *pythons="python3":
     pip wheel -q --no-deps -w build/wheels .
     if [ "$(uname)" = Linux ]; then auditwheel repair -w build/wheels/repaired build/wheels/*.whl; fi
     .ci/try_wheel "$(ls build/wheels/repaired/*.whl build/wheels/*.whl 2>/dev/null | head -n 1)" {{ pythons }}
+
+# The image of all commands, then broker, robots, control and studio as containers (deploy/compose.yaml)
+containers engine="docker":
+    rm -rf build/containers
+    pip wheel -q -w build/containers '.[control,studio]'
+    {{ engine }} build -f deploy/Containerfile -t rightofway \
+        --build-arg PYTHON="$(python -c 'import sys; print("%d.%d" % sys.version_info[:2])')" .
+    rightofway plan examples/floor.yaml -o deploy/site/plan.json
+    {{ engine }} compose -f deploy/compose.yaml up
 
 # Write the versions that CI installs: the newest that fit together now
 constraints:

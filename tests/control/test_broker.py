@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 from typing import Any
+from urllib.error import HTTPError
 from urllib.request import urlopen
 
 import aiomqtt
@@ -26,10 +27,10 @@ from rightofway.control.identities import (
     load_identities,
     make_simulated_identities,
 )
-from rightofway.control.journal import SqliteJournal
+from rightofway.control.journal import JournalReader, SqliteJournal
 from rightofway.control.robots import run_robots
 from rightofway.errors import InputError
-from rightofway.facts import Fact
+from rightofway.facts import Fact, read_fact
 from rightofway.io import load_plan, write_plan
 from rightofway.model import Plan
 from tests.builders.brokers import MOSQUITTO, Command, Mosquitto, free_port, wait_for
@@ -110,7 +111,7 @@ def test_the_end_of_a_run_is_reported_for_people_and_programs_and_as_a_page(
 
 
 @pytest.mark.parametrize("laps", [(), ("--laps", "inf")], ids=["once", "laps"])
-@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 0)])
 def test_a_run_that_is_interrupted_is_reported_and_goes_on_at_the_next_start(
     number: int, code: int, laps: tuple[str, ...], tmp_path: Path, broker: Mosquitto
 ) -> None:
@@ -120,7 +121,8 @@ def test_a_run_that_is_interrupted_is_reported_and_goes_on_at_the_next_start(
         with Command(tmp_path, "drive", *options).running() as drive:
             wait_for(lambda: "R2 sets out" in drive.log, 60, "the first order")
             assert drive.interrupt(number) == code, drive.log
-            report = drive.log.partition("interrupted\n")[2]
+            words = "interrupted" if code else "drive to the end of what is released"
+            report = drive.log.partition(f"{words}\n")[2]
             assert re.match(r"jobs +[01] done\n", report), drive.log
             assert "Traceback" not in drive.log
             drive.start()
@@ -136,8 +138,88 @@ def test_a_run_without_a_connection_is_reported_when_it_is_terminated(tmp_path: 
     options = ("plan.json", "--broker", nowhere, "--identities", "robots.yaml")
     with Command(tmp_path, "drive", *options).running() as drive:
         wait_for(lambda: "no connection to" in drive.log, 60, "a try to connect")
-        assert drive.interrupt(signal.SIGTERM) == 143, drive.log
+        assert drive.interrupt(signal.SIGTERM) == 0, drive.log
+        assert "the control has ended" in drive.log
         assert "ended     0 of 2 robots at the end of their way" in drive.log
+
+
+def test_sigterm_ends_in_order_nothing_more_is_released_and_the_journal_is_whole(
+    tmp_path: Path, broker: Mosquitto
+) -> None:
+    """The last line of the log is in the journal, and no order comes after it."""
+    observer = Observer(broker.port)
+    with robots_of(warehouse(20), tmp_path, broker.url, "--time-scale", "10"):
+        wait_for((tmp_path / "robots.yaml").exists, 60, "the file of identities")
+        options = ("plan.json", "--broker", broker.url, "--identities", "robots.yaml")
+        with Command(tmp_path, "drive", *options).running() as drive:
+            wait_for(lambda: drive.log.count("sets out") > 10, 60, "drives")
+            assert drive.interrupt(signal.SIGTERM) == 0, drive.log
+            states = observer.counts["state"]
+            wait_for(lambda: observer.counts["state"] > states + 20, 60, "what was on its way")
+            orders, states = set(observer.orders), observer.counts["state"]
+            journal = JournalReader(tmp_path / "plan.journal")
+            last = dict(journal.read_rows()[-1].entry)
+            journal.close()
+            assert str(read_fact(last["fact"])).startswith("the control has ended")
+            wait_for(lambda: observer.counts["state"] > states + 60, 60, "states")
+            assert set(observer.orders) == orders
+            drive.start()
+            wait_for(lambda: set(observer.orders) != orders, 60, "orders of the next start")
+    observer.close()
+
+
+def test_a_broker_asks_for_the_certificate_of_its_client(tmp_path: Path) -> None:
+    """A certificate that signs itself is both: of the broker and of the client."""
+    key, certificate = make_certificate(tmp_path)
+    lines = ["require_certificate true", "use_identity_as_username true"]
+    lines += [f"{name} {certificate}" for name in ("cafile", "certfile")] + [f"keyfile {key}"]
+    server = Mosquitto(tmp_path, lines)
+    try:
+        url = f"mqtts://localhost:{server.port}"
+        trust = {"ca_file": str(certificate)}
+        own = {**trust, "cert_file": str(certificate), "key_file": str(key)}
+        asyncio.run(connect(Broker.of(url, **own)))
+        with pytest.raises(aiomqtt.MqttError):
+            asyncio.run(connect(Broker.of(url, **trust)))
+    finally:
+        server.kill()
+
+
+async def connect(broker: Broker) -> None:
+    """Connect to a broker, and take the subscription for the proof."""
+    async with broker.open_client("test") as client:
+        await client.subscribe("nothing")
+
+
+def test_the_log_has_levels_and_lines_for_programs(tmp_path: Path, broker: Mosquitto) -> None:
+    with robots_of(door(), tmp_path, broker.url):
+        wait_for((tmp_path / "robots.yaml").exists, 60, "the file of identities")
+        options = ("plan.json", "--broker", broker.url, "--identities", "robots.yaml")
+        form = ("--log", "json", "--log-level", "debug")
+        with Command(tmp_path, "drive", *options, *form).running() as drive:
+            assert drive.wait(60) == 0, drive.log
+    lines = [json.loads(line) for line in drive.log.splitlines() if line.startswith("{")]
+    assert {line["level"] for line in lines} == {"debug", "info"}
+    [ended] = [line for line in lines if line.get("kind") == "all at end"]
+    assert ended["text"] == "all robots are at the end of their way"
+    waits = next(line for line in lines if line.get("kind") == "waits")
+    assert (waits["level"], waits["values"]["robot"]) == ("info", "R1")
+    sent = {line["topic"] for line in lines if line.get("direction") == "sent"}
+    assert "uagv/v2/rightofway/robot0/order" in sent
+    received = next(line for line in lines if line.get("direction") == "received")
+    assert json.loads(received["message"])["manufacturer"] == "rightofway"
+
+
+def test_at_the_level_warning_the_log_has_trouble_only(tmp_path: Path, broker: Mosquitto) -> None:
+    with robots_of(door(), tmp_path, broker.url, "--trouble", "error:1"):
+        wait_for((tmp_path / "robots.yaml").exists, 60, "the file of identities")
+        options = ("plan.json", "--broker", broker.url, "--identities", "robots.yaml")
+        with Command(tmp_path, "drive", *options, "--log-level", "warning").running() as drive:
+            assert drive.wait(120) == 0, drive.log
+    log = drive.log.partition("jobs  ")[0]
+    assert "reports" in log
+    assert "sets out" not in log
+    assert "at the end of their way" not in log
 
 
 def test_twenty_robots_in_a_warehouse_with_trouble(tmp_path: Path, broker: Mosquitto) -> None:
@@ -293,17 +375,23 @@ def test_a_password_comes_from_the_environment(tmp_path: Path) -> None:
         own.kill()
 
 
-def test_a_connection_may_be_encrypted(tmp_path: Path) -> None:
-    """The broker has a certificate for localhost; who does not trust it does not connect."""
+def make_certificate(folder: Path) -> tuple[Path, Path]:
+    """Return the files of a key and of its certificate for localhost, signed by itself."""
     program = shutil.which("openssl")
     if program is None or MOSQUITTO is None:
         pytest.skip("openssl or mosquitto is not installed")
-    key, certificate = tmp_path / "key.pem", tmp_path / "certificate.pem"
+    key, certificate = folder / "key.pem", folder / "certificate.pem"
     made = [program, "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2"]
     made += ["-keyout", str(key), "-out", str(certificate), "-subj", "/CN=localhost"]
     made += ["-addext", "subjectAltName=DNS:localhost"]
     subprocess.run(made, check=True, capture_output=True)
     key.chmod(0o644)
+    return key, certificate
+
+
+def test_a_connection_may_be_encrypted(tmp_path: Path) -> None:
+    """The broker has a certificate for localhost; who does not trust it does not connect."""
+    key, certificate = make_certificate(tmp_path)
     lines = ["allow_anonymous true", f"certfile {certificate}", f"keyfile {key}"]
     own = Mosquitto(tmp_path, lines)
     url = own.url.replace("mqtt:", "mqtts:")
@@ -378,6 +466,26 @@ def test_the_commands_of_the_page_change_the_work_of_robots_that_drive(
             wait_for(lambda: driving.log.count("is at the end of its way") >= 2, 120, "the ends")
             assert f"{name} at N7 is added" in driving.log
             assert "R1: hold" in driving.log
+
+
+def test_the_commands_of_the_page_take_in_a_robot_that_comes_later(
+    tmp_path: Path, broker: Mosquitto
+) -> None:
+    """R1 drives home alone; then R2 is placed, works and is removed. A restart removes nobody."""
+    [block] = [one for one in blocks(ROOT / "docs/service.md") if one.info == ("sh", "reserve")]
+    drive, place, remove = block.text.replace("mqtt://localhost", broker.url).splitlines()
+    with robots_of(door(), tmp_path, broker.url):
+        wait_for((tmp_path / "robots.yaml").exists, 60, "the file of identities")
+        with Command(tmp_path, *drive.split()[1:]).running() as driving:
+            wait_for(lambda: "R1 is at the end of its way" in driving.log, 60, "R1")
+            assert "R2 sets out" not in driving.log
+            with Command(tmp_path, *place.split()[1:]).running() as asking:
+                assert asking.wait(30) == 0, asking.log
+            driving.kill()
+            driving.start()
+            wait_for(lambda: "R2 is at the end of its way" in driving.log, 60, "R2")
+            with Command(tmp_path, *remove.split()[1:]).running() as asking:
+                assert asking.wait(30) == 0, asking.log
 
 
 def test_the_drawing_of_the_page_becomes_robots_that_drive(
@@ -459,11 +567,26 @@ def test_metrics_are_served_for_prometheus(tmp_path: Path, broker: Mosquitto) ->
             address = f"http://127.0.0.1:{port}/metrics"
             wait_for(lambda: "rightofway_jobs_done 2.0" in text_at(address), 20, "metrics")
             text = text_at(address)
+            health = json.loads(text_at(f"http://127.0.0.1:{port}/healthz"))
+            assert {health[key] for key in ("alive", "ready", "broker", "journal")} == {True}
+            assert health["seconds"] < 5
+            broker.kill()
+            wait_for(lambda: status_at(port, "readyz") == 503, 20, "the loss of the broker")
+            assert status_at(port, "healthz") == 200
     assert 'rightofway_messages_received_total{topic="state"}' in text
     assert 'rightofway_messages_sent_total{topic="order"}' in text
     assert 'rightofway_waits_total{robot="R1"} 2.0' in text
     assert "rightofway_answer_seconds_bucket" in text
     assert "rightofway_robots_unfit 0.0" in text
+
+
+def status_at(port: int, name: str) -> int:
+    """Return the status of a page of health."""
+    try:
+        text_at(f"http://127.0.0.1:{port}/{name}")
+    except HTTPError as error:
+        return error.code
+    return 200
 
 
 def text_at(address: str) -> str:

@@ -198,7 +198,7 @@ def test_commands_that_ci_runs_are_one_block(page: str, name: str, lines: int) -
     assert [len(start.text.splitlines()) for start in starts] == [lines]
 
 
-MOST_WORDS = 51_000
+MOST_WORDS = 52_000
 """Words that the shelves *Use* and *Understand* may have, without code and generated parts."""
 
 

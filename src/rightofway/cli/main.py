@@ -8,7 +8,6 @@
 70     a defect of ours
 130    interrupted
 141    the program that read the output has ended
-143    terminated (SIGTERM) while robots at a broker were driven
 =====  ===================================================================
 """
 

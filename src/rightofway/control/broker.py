@@ -83,7 +83,13 @@ class Broker:
 
     @classmethod
     def of(
-        cls, url: str, *, password_file: str | None = None, ca_file: str | None = None
+        cls,
+        url: str,
+        *,
+        password_file: str | None = None,
+        ca_file: str | None = None,
+        cert_file: str | None = None,
+        key_file: str | None = None,
     ) -> Broker:
         """Return the broker of a URL.
 
@@ -96,6 +102,9 @@ class Broker:
             A file with the password; by default the environment has it.
         ca_file
             Certificates to trust, in PEM format; by default those of the system.
+        cert_file, key_file
+            The certificate of this client and its key, in PEM format; the key may be in the file of
+            the certificate.
 
         Raises
         ------
@@ -123,10 +132,16 @@ class Broker:
         if user is None and password is not None:
             message = "a password is given without a user (write mqtt://user@host)"
             raise InputError.at("broker", message)
-        if parts.scheme == "mqtt" and ca_file is not None:
-            message = "certificates are given without TLS (write mqtts://host)"
-            raise InputError.at("ca-file", message)
-        tls = _make_tls(ca_file) if parts.scheme == "mqtts" else None
+        files = {"ca-file": ca_file, "cert-file": cert_file, "key-file": key_file}
+        for option, path in files.items():
+            if path is not None and parts.scheme == "mqtt":
+                message = "certificates are given without TLS (write mqtts://host)"
+                raise InputError.at(option, message)
+        if key_file is not None and cert_file is None:
+            raise InputError.at(
+                "key-file", "a key is given without a certificate (give --cert-file)"
+            )
+        tls = _make_tls(ca_file, cert_file, key_file) if parts.scheme == "mqtts" else None
         return cls(host=parts.hostname, port=port, user=user, password=password, tls=tls)
 
     @property
@@ -195,7 +210,7 @@ def check_cancellation() -> None:
         raise asyncio.CancelledError
 
 
-def _make_tls(ca_file: str | None) -> ssl.SSLContext:
+def _make_tls(ca_file: str | None, cert_file: str | None, key_file: str | None) -> ssl.SSLContext:
     tls = ssl.create_default_context()
     if ca_file is not None:
         _read_content(ca_file, "ca-file")
@@ -204,7 +219,21 @@ def _make_tls(ca_file: str | None) -> ssl.SSLContext:
         except ssl.SSLError as error:
             message = f"has no certificates in PEM format: {error} (give another file)"
             raise InputError.at("ca-file", message, ca_file) from error
+    if cert_file is not None:
+        _read_content(cert_file, "cert-file")
+        if key_file is not None:
+            _read_content(key_file, "key-file")
+        try:
+            tls.load_cert_chain(cert_file, key_file, password=_refuse_password)
+        except (ssl.SSLError, ValueError) as error:
+            message = f"has no certificate with its key in PEM format: {error} (give --key-file)"
+            raise InputError.at("cert-file", message, cert_file) from error
     return tls
+
+
+def _refuse_password() -> str:
+    """Refuse to ask for the password of a key: nobody may be there."""
+    raise ValueError("the key has a password, remove it: openssl rsa -in key.pem")
 
 
 def _read_content(path: str, option: str) -> str:

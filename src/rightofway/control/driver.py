@@ -51,6 +51,9 @@ SILENCE = 35.0
 BROKER, JOURNAL = "broker", "journal"
 """Kinds of trouble that are not of a robot."""
 
+LONGEST_TURN = 30.0
+"""Seconds without a turn or a try to connect after which the control is not alive."""
+
 RETRY = (0.2, 5.0)
 """Seconds until the next try to connect: the first time, and at most."""
 
@@ -75,11 +78,20 @@ class Driver:
         better.
     report
         Receives each fact of the story, and of trouble.
+    alarm
+        Receives trouble that begins, in place of `report`.
+    watch
+        Receives each message, and whether it was sent.
     metrics
         Counts messages and robots, if that is wanted.
     began
         When the run began, as the clock of the machine has it [s]: closures of the scenario count
         from then on; None for now.
+
+    Attributes
+    ----------
+    is_stopped
+        Whether the run was ended by `stop`.
 
     Raises
     ------
@@ -98,14 +110,19 @@ class Driver:
         commands: Commands | None = None,
         switch: bool = False,
         report: Callable[[Fact], None],
+        alarm: Callable[[Fact], None] | None = None,
+        watch: Callable[[Letter, bool], None] | None = None,
         metrics: FleetMetrics | None = None,
         began: float | None = None,
     ) -> None:
         names = [robot.name for robot in plan.scenario.robots]
         maps = make_order_maps(plan.scenario, identities)
         self._journal, self._report = BatchedJournal(journal), report
-        self._notices = notices = Notices(names, report, keep=self._keep)
-        self._metrics = metrics
+        self._notices = notices = Notices(names, report, keep=self._keep, alarm=alarm)
+        self._metrics, self._watch = metrics, watch
+        self._task: asyncio.Task[None] | None = None  # of the run
+        self.is_stopped, self._is_connected = False, False
+        self._turned = time.monotonic()  # when the last turn began, or a connection failed
         roadmap = plan.scenario.roadmap
         self.control = FleetControl(self._journal, report=notices.report_on, roadmap=roadmap)
         repeated = None if laps is None else LapsToDrive(plan, laps)
@@ -151,24 +168,58 @@ class Driver:
         stays
             Whether to go on for ever.
         """
+        self._task = asyncio.current_task()
         try:
             await self._run(broker, stays=stays)
+        except asyncio.CancelledError:
+            if not self.is_stopped:
+                raise
         finally:
+            if self.is_stopped:
+                self._notices.report(Fact("control ended"))
+                self._flush()
             if self._dispatcher.rounds is not None:
                 self._dispatcher.rounds.rounds.close()
+
+    def stop(self) -> None:
+        """End the run in order: nothing more is released, and the journal is whole.
+
+        A turn that has begun is committed and sent to its end. Robots drive to the end of their
+        released parts; the next start with the same journal goes on.
+        """
+        self.is_stopped = True
+        self._news.set()
+        if not self._is_connected and self._task is not None:
+            self._task.cancel()  # it waits for a broker: there is no turn to end
+
+    def report_health(self) -> dict[str, bool | float]:
+        """Return whether the control is alive and ready, with the reasons.
+
+        It is alive if its last turn, or its last try to connect, is not long ago; it is ready if it
+        is connected to the broker and the journal can be written. Any thread may call it.
+        """
+        age = time.monotonic() - self._turned
+        return {
+            "alive": age < LONGEST_TURN,
+            "ready": age < LONGEST_TURN and self._is_connected and not self._fails,
+            "broker": self._is_connected,
+            "journal": not self._fails,
+            "seconds": round(age, 3),
+        }
 
     async def _run(self, broker: Broker, *, stays: bool) -> None:
         import aiomqtt
 
         wait, is_lost = RETRY[0], False
-        while stays or not self.is_done:
+        while (stays or not self.is_done) and not self.is_stopped:
             try:
                 async with broker.open_client("rightofway", takes_latest=True) as client:
                     connected = Fact("broker connected", broker=broker.address)
                     self._notices.report(connected, BROKER, is_over=True)
-                    wait, is_lost = RETRY[0], False
+                    wait, is_lost, self._is_connected = RETRY[0], False, True
                     await self._serve(client, stays=stays)
             except* aiomqtt.MqttError as errors:
+                self._is_connected, self._turned = False, time.monotonic()
                 if not is_lost:
                     reason = str(errors.exceptions[0])
                     lost = Fact("broker lost", broker=broker.address, reason=reason)
@@ -233,7 +284,7 @@ class Driver:
             fresh = [*self.end.make_letters(begun), *self.end.ask_for_factsheets()]
             await self._turn(client, fresh)
             reminded = time.monotonic()
-            while stays or not self.is_done:
+            while (stays or not self.is_done) and not self.is_stopped:
                 try:
                     async with asyncio.timeout(max(reminded + REMIND - time.monotonic(), 0)):
                         await self._news.wait()
@@ -243,6 +294,8 @@ class Driver:
                         time.monotonic(),
                         [*self._run_round(), *self._list_reminders()],
                     )
+                if self.is_stopped:
+                    break
                 self._news.clear()
                 await self._turn(client, fresh)
             reader.cancel()
@@ -276,6 +329,7 @@ class Driver:
     async def _turn(self, client: aiomqtt.Client, fresh: list[Letter]) -> None:
         """Take in all messages; commit the consequences, once; then send them."""
         inbox, self._inbox = [*self._inbox.values()], {}
+        self._turned = time.monotonic()
         self._outbox += fresh
         for _, letter in inbox:
             robot = self.end.find_robot(letter.topic)
@@ -294,14 +348,23 @@ class Driver:
         )
         check_cancellation()
         self._sent.update(letter.name for letter in (*(row[1] for row in inbox), *sent))
+        if self._watch is not None:
+            for _, letter in inbox:
+                self._watch(letter, False)
+            for letter in sent:
+                self._watch(letter, True)
+        self._report_story()
+        if self._metrics is not None:
+            self._metrics.turn(inbox, sent, self._story.waits)
+
+    def _report_story(self) -> None:
+        """Report what is new, and keep when robots came to the end of their routes."""
         for happening in self._story.go_on():
             self._report(happening.fact)
             if happening.kind == "end":
                 self._ends[happening.robot] = self._read_ticks()
             else:
                 self._ends.pop(happening.robot, None)  # it was given more to do
-        if self._metrics is not None:
-            self._metrics.turn(inbox, sent, self._story.waits)
 
     def _flush(self) -> bool:
         """Bring the journal to the disk; return whether that was possible."""

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from socketserver import ThreadingMixIn
+from threading import Thread
+from typing import Any, cast
+from wsgiref.simple_server import WSGIRequestHandler, WSGIServer, make_server
 
-from prometheus_client import CollectorRegistry, Counter, Gauge, Histogram, start_http_server
+from prometheus_client import CollectorRegistry, Counter, Gauge, Histogram, make_wsgi_app
 
 from rightofway.control.endpoints import Letter
 from rightofway.control.fleet_control import FleetControl
@@ -15,6 +20,19 @@ __all__ = ["FleetMetrics"]
 
 BUCKETS = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0)
 """Borders of the histogram of answers [s]."""
+
+
+HEALTH = {"/healthz": "alive", "/readyz": "ready"}
+"""The paths of health, each with the key that decides on its status."""
+
+
+class _Server(ThreadingMixIn, WSGIServer):
+    daemon_threads = True
+
+
+class _SilentHandler(WSGIRequestHandler):
+    def log_message(self, format: str, *args: Any) -> None:  # noqa: A002 (the name of the base)
+        """Write nothing: the log has the events of robots."""
 
 
 class FleetMetrics:
@@ -62,24 +80,38 @@ class FleetMetrics:
         )  # fmt: skip
         self._names, self._waits_seen = names, [0] * len(names)
 
-    def serve(self, port: int) -> None:
-        """Serve the metrics at a port of this machine.
+    def serve(self, port: int, host: str, report_health: Callable[[], Mapping[str, Any]]) -> None:
+        """Serve metrics and health over HTTP: ``/metrics``, ``/healthz`` and ``/readyz``.
 
         Parameters
         ----------
-        port
-            The port.
+        port, host
+            Where to listen.
+        report_health
+            Returns whether the control is ``alive`` and ``ready``, and more.
 
         Raises
         ------
         InputError
             If it is in use.
         """
+        metrics = make_wsgi_app(self.registry)
+
+        def answer(environ: dict[str, Any], start: Callable[..., Any]) -> Iterable[bytes]:
+            key = HEALTH.get(environ["PATH_INFO"])
+            if key is None:
+                return cast("Iterable[bytes]", metrics(environ, start))
+            health = report_health()
+            status = "200 OK" if health[key] else "503 Service Unavailable"
+            start(status, [("Content-Type", "application/json")])
+            return [json.dumps(health).encode() + b"\n"]
+
         try:
-            start_http_server(port, "127.0.0.1", registry=self.registry)
+            server = make_server(host, port, answer, _Server, handler_class=_SilentHandler)
         except OSError as error:
             message = f"{port} cannot be listened on: {error.strerror} (give another port)"
             raise InputError.at("metrics", message) from error
+        Thread(target=server.serve_forever, daemon=True).start()
 
     def turn(
         self,

@@ -75,6 +75,8 @@ class Notices:
         Returns seconds; no release depends on them.
     keep
         Receives an entry for the journal with each fact.
+    alarm
+        Receives the fact of each trouble that begins, in place of `report`.
     """
 
     def __init__(
@@ -83,8 +85,10 @@ class Notices:
         report: Callable[[Fact], None],
         clock: Callable[[], float] = time.monotonic,
         keep: Callable[[Entry], None] = lambda _: None,
+        alarm: Callable[[Fact], None] | None = None,
     ) -> None:
         self._names, self._report, self._clock, self._keep = names, report, clock, keep
+        self._alarm = report if alarm is None else alarm
         self._told = [_Told(since=clock()) for _ in names]
 
     def report(self, fact: Fact | None, kind: str = "", *, is_over: bool = False) -> None:
@@ -100,7 +104,7 @@ class Notices:
             Whether it ends.
         """
         if fact is not None:
-            self._report(fact)
+            self._tell(fact, kind, is_over=is_over)
         self._keep(make_notice(fact, kind=kind, is_over=is_over))
 
     def report_on(
@@ -123,8 +127,11 @@ class Notices:
         if predicate is not None:
             name = escape_text(self._names[robot])
             fact = Fact("about robot", predicate.about, robot=name, predicate=predicate)
-            self._report(fact)
+            self._tell(fact, kind, is_over=is_over)
         self._keep(make_notice(fact, robot, kind, is_over=is_over))
+
+    def _tell(self, fact: Fact, kind: str, *, is_over: bool) -> None:
+        (self._alarm if kind and not is_over else self._report)(fact)
 
     def begin(self, robot: int, kind: str, begin: Fact, end: Fact | None) -> None:
         """Report that trouble begins, unless trouble of its kind lasts already.

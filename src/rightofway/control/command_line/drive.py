@@ -2,14 +2,9 @@
 
 from __future__ import annotations
 
-import asyncio
-import gc
 import math
-import signal
-from collections.abc import Coroutine, Iterator
-from contextlib import ExitStack, closing, contextmanager
-from dataclasses import dataclass
-from datetime import datetime
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
@@ -33,25 +28,18 @@ from rightofway.cli.options import (
 from rightofway.cli.outputs import make_page_option, put_page
 from rightofway.cli.terminal import (
     make_title,
-    put_json,
-    put_report,
     say,
     say_written,
 )
-from rightofway.control.command_line.broker_options import add_broker_options
+from rightofway.control.command_line.broker_options import Login, add_broker_options
+from rightofway.control.command_line.event_log import EventLog, Level, add_log_options
+from rightofway.control.command_line.output import Output
 from rightofway.control.command_line.watch import WatchPage, add_page_options
-from rightofway.errors import name_file
 
 if TYPE_CHECKING:
-    from rightofway.control.broker import Broker
     from rightofway.control.endpoints import Letter
     from rightofway.control.identities import Identity
-    from rightofway.execution.drive_result import DriveResult
     from rightofway.facts import Fact
-    from rightofway.report.quantities import Quantities
-
-INTERRUPTED, TERMINATED = 130, 143
-"""Exit codes of robots at a broker after Ctrl-C, and after SIGTERM."""
 
 EXAMPLES = """\b
 Examples:
@@ -108,12 +96,17 @@ def _count(_context: click.Context, _parameter: click.Parameter, given: str | No
               " have ended, until Ctrl-C.")  # fmt: skip
 @add_page_options
 @click.option("--metrics", type=Whole(1, 65535), metavar="PORT",
-              help="Serve metrics for Prometheus at a port of this machine.")  # fmt: skip
+              help="Serve metrics for Prometheus, and health for a supervisor, at this port of"
+              " --host.")  # fmt: skip
 @click.option("--stay", is_flag=True,
               help="Go on when all robots have come to the end of their way.")  # fmt: skip
 @click.option("--hold", is_flag=True,
-              help="With --broker, begin with all robots on hold: `rightofway jobs` and the page"
-              " release them.")  # fmt: skip
+              help="At a broker, begin a new journal with all robots on hold; `rightofway jobs` and"
+              " the page release them.")  # fmt: skip
+@click.option("--off", multiple=True, metavar="ROBOT",
+              help="At a broker, begin a new journal without this robot of the plan, until it is"
+              " placed. May be repeated.")  # fmt: skip
+@add_log_options
 @click.option("--time-scale", default="10", show_default=True, callback=_read_factor,
               metavar="FACTOR",
               help="With --demo, seconds of the plan in each second, or its time units where it has"
@@ -135,10 +128,8 @@ def drive(
     *,
     plan: str,
     demo: bool,
-    broker: str | None,
+    login: Login,
     identities: str | None,
-    password_file: str | None,
-    ca_file: str | None,
     journal: str | None,
     dry_run: bool,
     replay: bool,
@@ -148,6 +139,9 @@ def drive(
     metrics: int | None,
     stay: bool,
     hold: bool,
+    off: tuple[str, ...],
+    log: str,
+    log_level: Level,
     time_scale: float,
     delays: tuple[str, ...],
     seed: int,
@@ -163,16 +157,19 @@ def drive(
     clock. A late robot makes others wait; nothing collides. Events go to standard error,
     the report to standard output. A PLAN of - is standard input.
     """
-    if [demo, broker is not None, dry_run, replay].count(True) != 1:
+    if [demo, login.broker is not None, dry_run, replay].count(True) != 1:
         raise click.UsageError("give one of --broker, --demo, --dry-run and --replay")
     if laps is not None and page:
         raise click.UsageError("laps without end fill no page (leave out --page or --laps)")
     _refuse_combinations(
-        drives_robots=demo or broker is not None,
-        has_broker=broker is not None,
+        drives_robots=demo or login.broker is not None,
+        has_broker=login.broker is not None,
         is_live=live,
         has_identities=identities is not None,
-        has_journal_name=journal is not None or plan != "-" or not (replay or broker is not None),
+        begins_otherwise=hold or bool(off),
+        has_journal_name=journal is not None
+        or plan != "-"
+        or not (replay or login.broker is not None),
     )
     from rightofway.control.identities import load_identities
 
@@ -182,7 +179,7 @@ def drive(
     journal_file = Path(journal) if journal else Path(plan).with_suffix(".journal")
 
     shown = WatchPage(plan=opened, title=make_title(plan), host=host, port=port)
-    output = _Output(
+    output = Output(
         page=page,
         shown=shown,
         is_live=live,
@@ -191,14 +188,20 @@ def drive(
     )
     if replay:
         return _write_replay(journal_file, output)
-    if broker is not None:
-        from rightofway.control.broker import Broker
+    if login.broker is not None:
+        from rightofway.control.command_line.service import Service
 
-        address = Broker.of(broker, password_file=password_file, ca_file=ca_file)
-        return _drive_at(
-            address, known, journal_file, output,
-            laps=laps, switch=switch, metrics=metrics, stays=stay, holds=hold,
-        )  # fmt: skip
+        return Service(
+            broker=login.make_broker(),
+            identities=known,
+            journal=journal_file,
+            output=output,
+            log=EventLog(scenario=opened.scenario, level=log_level, as_json=log == "json"),
+            metrics=metrics,
+            host=host,
+            off=off,
+            holds=hold,
+        ).drive(laps=laps, switch=switch, stays=stay)
     if dry_run:
         from rightofway.control.demo import drive_demo
 
@@ -211,29 +214,7 @@ def drive(
     return 0
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Output:
-    """Where the report of a run goes, and its page."""
-
-    page: str | None
-    shown: WatchPage
-    is_live: bool
-    quantities: Quantities
-    as_json: bool
-
-    def report(self, result: DriveResult, **details: int) -> None:
-        """Print the result of a run; details are for programs."""
-        if self.as_json:
-            from rightofway.report.plan_data import describe_measures
-
-            put_json({**describe_measures(result.plan.scenario), **details, **result.as_dict()})
-        else:
-            from rightofway.report.driving import report_drive
-
-            put_report(report_drive(result, self.quantities))
-
-
-def _write_replay(journal: Path, output: _Output) -> int:
+def _write_replay(journal: Path, output: Output) -> int:
     """Write the page of a journal, or serve it until Ctrl-C."""
     if output.page:
         output.shown.write(journal, output.page)
@@ -247,7 +228,7 @@ def _write_replay(journal: Path, output: _Output) -> int:
 def _drive_demo(
     identities: list[Identity],
     journal: str | None,
-    output: _Output,
+    output: Output,
     time_scale: float,
     **options: Any,
 ) -> None:
@@ -286,11 +267,14 @@ def _refuse_combinations(
     has_broker: bool,
     is_live: bool,
     has_identities: bool,
+    begins_otherwise: bool,
     has_journal_name: bool,
 ) -> None:
     """Refuse options that do not go together."""
     if is_live and not drives_robots:
         raise click.UsageError("--live goes with --broker and --demo (--replay is a page already)")
+    if begins_otherwise and not has_broker:
+        raise click.UsageError("--hold and --off go with --broker")
     if has_broker and not has_identities:
         raise click.UsageError("robots at a broker have identities (give --identities)")
     if not has_journal_name:
@@ -316,84 +300,3 @@ def _show(letter: Letter) -> None:
     """Print a message that robots would be sent."""
     if letter.name in {"order", "instantActions"}:
         click.echo(f"{letter.topic} {letter.payload.decode()}")
-
-
-def _print_sentence(sentence: str) -> None:
-    now = f"{datetime.now().astimezone():%H:%M:%S}"
-    say(f"{now}  {sentence}")
-
-
-def _drive_at(
-    broker: Broker,
-    identities: list[Identity],
-    journal: Path,
-    output: _Output,
-    *,
-    laps: int | None,
-    metrics: int | None,
-    switch: bool,
-    stays: bool,
-    holds: bool,
-) -> int:
-    """Drive a plan with robots at a broker, and report; return the exit code."""
-    from rightofway.control.commands import Commands
-    from rightofway.control.driver import Driver
-    from rightofway.control.journal import SqliteJournal
-    from rightofway.report.facts import FactWriter
-
-    shown, plan, counted = output.shown, output.shown.plan, None
-    writer = FactWriter(plan.scenario)
-    if output.page:
-        shown.require_packages("--page")
-    if metrics is not None:
-        from rightofway.control.metrics import FleetMetrics
-
-        counted = FleetMetrics([robot.name for robot in plan.scenario.robots])
-        counted.serve(metrics)
-    with ExitStack() as stack:
-        with closing(SqliteJournal(journal)) as opened:
-            commands = Commands(journal)
-            if holds:
-                commands.ask({"kind": "hold"})
-            with name_file(str(journal)):
-                driver = Driver(
-                    plan,
-                    identities,
-                    opened,
-                    laps=laps,
-                    commands=commands,
-                    switch=switch,
-                    report=lambda fact: _print_sentence(writer.write(fact)),
-                    metrics=counted,
-                    began=opened.read_begin(),
-                )
-            if output.is_live:
-                stack.enter_context(shown.serve(journal, takes_orders=True))
-            gc.freeze()  # what lives as long as the control: a look through it takes 100 ms
-            code = _run(driver.run(broker, stays=stays))
-        _print_sentence("interrupted" if code else "all robots are at the end of their way")
-        output.report(driver.result)
-        if output.page:
-            shown.write(journal, output.page)
-            say_written(output.page)
-        if output.is_live and not code:
-            shown.wait_for_interrupt()
-    return code
-
-
-def _run(work: Coroutine[Any, Any, None]) -> int:
-    """Do work until it ends, or until Ctrl-C or SIGTERM; return the exit code."""
-    received = list[int]()
-
-    def interrupt(number: int, _frame: object) -> None:
-        received.append(number)
-        signal.raise_signal(signal.SIGINT)
-
-    before = signal.signal(signal.SIGTERM, interrupt)
-    try:
-        asyncio.run(work)
-    except KeyboardInterrupt:
-        return TERMINATED if received else INTERRUPTED
-    finally:
-        signal.signal(signal.SIGTERM, before)
-    return 0

@@ -12,6 +12,7 @@ from rightofway.cli.inputs import read_plan
 from rightofway.cli.options import as_json_option
 from rightofway.cli.terminal import complain, put_json, put_report
 from rightofway.control.command_line.broker_options import (
+    Login,
     add_identities_option,
     add_login_options,
 )
@@ -24,7 +25,8 @@ EXAMPLES = """\b
 Examples:
   rightofway probe --broker mqtt://hub --identity ACME/A-001
   rightofway probe --broker mqtt://hub --identity ACME/A-001 --order N4 --json
-  rightofway probe --broker mqtt://hub --plan p.json --identities r.yaml --robot R1
+  rightofway probe --broker mqtt://hub --plan p.json --identities r.yaml \\
+      --robot R1
 """
 
 
@@ -43,9 +45,7 @@ Examples:
 @as_json_option("findings")
 def probe(
     *,
-    broker: str | None,
-    password_file: str | None,
-    ca_file: str | None,
+    login: Login,
     identity: str | None,
     plan: str | None,
     identities: str | None,
@@ -59,14 +59,13 @@ def probe(
     what the robot supports and where it departs from the norm. Exit code 1: it departs, or the
     control cannot drive it.
     """
-    from rightofway.control.broker import Broker
     from rightofway.control.probe import Probe
 
-    if broker is None:
+    if login.broker is None:
         raise click.UsageError("a robot is at a broker (give --broker)")
     fit = _choose_robot(plan, identities, robot)
     manufacturer, serial = _read_identity(identity, fit)
-    address = Broker.of(broker, password_file=password_file, ca_file=ca_file)
+    address = login.make_broker()
 
     def ask(place: str) -> bool:
         return node is not None or click.confirm(

@@ -11,7 +11,7 @@ from rightofway.cli.completion import PLANS, complete_files
 from rightofway.cli.inputs import add_foreign_options, read_plan
 from rightofway.cli.options import seed_option
 from rightofway.cli.terminal import say, say_written
-from rightofway.control.command_line.broker_options import add_broker_options
+from rightofway.control.command_line.broker_options import Login, add_broker_options
 
 EXAMPLES = """\b
 Examples:
@@ -44,10 +44,8 @@ Examples:
 def robots(
     *,
     plan: str,
-    broker: str | None,
+    login: Login,
     identities: str | None,
-    password_file: str | None,
-    ca_file: str | None,
     write_identities: str | None,
     vda_version: str,
     troubles: tuple[str, ...],
@@ -59,7 +57,6 @@ def robots(
     They stand at their homes and carry out orders of VDA 5050, each with a connection of its
     own. The PLAN gives their homes and how long they work; lengths and speeds are in the orders.
     """
-    from rightofway.control.broker import Broker
     from rightofway.control.identities import (
         format_identities,
         load_identities,
@@ -67,7 +64,7 @@ def robots(
     )
     from rightofway.control.robots import parse_troubles, run_robots
 
-    if broker is None:
+    if login.broker is None:
         raise click.UsageError("robots need a broker (give --broker)")
     if write_identities is not None and identities is not None:
         raise click.UsageError("--identities are there already (take --write-identities out)")
@@ -78,7 +75,7 @@ def robots(
         if identities is None
         else load_identities(identities, names)
     )
-    address = Broker.of(broker, password_file=password_file, ca_file=ca_file)
+    address = login.make_broker()
     trouble = parse_troubles(troubles)
     if write_identities is not None:
         Path(write_identities).write_text(format_identities(names, fleet), encoding="utf-8")

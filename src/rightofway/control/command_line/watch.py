@@ -27,8 +27,9 @@ def add_page_options(command: Any) -> Any:
     for option in reversed(
         (
             click.option("--host", default="127.0.0.1", show_default=True, metavar="ADDRESS",
-                         help="Where the page of --live or --replay listens. Other machines than"
-                         " this one need the token that is in the printed address."),
+                         help="Where the page of --live or --replay listens, and --metrics. Other"
+                         " machines than this one need the token of the page that is in the printed"
+                         " address."),
             click.option("--port", type=Whole(1, 65535), metavar="PORT",
                          help="The port of that page; a free one by default."),
         )
