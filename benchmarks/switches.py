@@ -1,8 +1,8 @@
-"""What each option of `cbs` gains, on drawn fleets of many kinds.
+"""Gain of each option of `cbs`, on drawn fleets of many kinds.
 
-``python -m benchmarks.switches [--write]`` prints two tables of `docs/planners/cbs.md`, or puts
-them there: the nodes until the proof with one option changed at a time, and the optima that are
-proven within some seconds of the processor on each kind of fleet. The tree alone is measured,
+``python -m benchmarks.switches [--write]`` prints two tables of `docs/results/choices.md`, or
+writes them there: the nodes until the proof with one option changed at a time, and the optima
+that are proven within some processor seconds on each kind of fleet. The tree alone is measured,
 without a first plan. Nodes are the same on every machine.
 """
 
@@ -22,7 +22,7 @@ from rightofway.search import ConflictBasedSearch
 from tests.builders.fleets import fleet_on, random_fleet
 from tests.builders.tiny import KINDS as TINY
 
-PAGE = DOCS / "planners" / "cbs.md"
+PAGE = DOCS / "results" / "choices.md"
 
 NODES_PER_RUN = 50
 """Nodes from one look at the processor's time to the next."""
