@@ -72,7 +72,7 @@ def test_rounds_lead_to_their_begin_and_tell_if_the_old_plan_stood(show: Opener)
     viewer = show(replace(record, rounds=(first, *record.rounds[1:])))
     viewer.page.click("#tab-rounds")
     lines = viewer.text("#round-list").split("\n")
-    assert lines[:2] == ["0 s: 2 jobs in 0.25 s", "The old plan stands"]
+    assert lines[:2] == ["0 s: 2 jobs in 0.25 s", "The old plan stands · the shift began"]
     second = record.rounds[1].begin
     viewer.page.locator("#round-list .row").nth(1).click()
     assert viewer.tick == second

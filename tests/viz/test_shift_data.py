@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from rightofway.facts import Fact
 from rightofway.viz.page.document import as_compact_json
 from rightofway.viz.page.shift_data import make_shift_page, make_shift_payload
 from tests.builders.payloads import template_in
@@ -64,6 +65,15 @@ def test_rounds_have_their_times_and_facts() -> None:
     payload = make_shift_payload(replace(record, rounds=(first, *record.rounds[1:])))
     assert payload["shift"]["rounds"][0] == (0, 0, 250, 2, 1)
     assert len(payload["shift"]["rounds"]) == len(record.rounds)
+
+
+def test_rounds_tell_why_they_began_before_their_facts() -> None:
+    record = make_shift()
+    reasons, facts = (Fact("jobs became known", jobs=2),), (Fact("old plan stands", reason="x"),)
+    first = replace(record.rounds[0], reasons=reasons, facts=facts)
+    payload = make_shift_payload(replace(record, rounds=(first,)))
+    told = [(index, template_in(payload, text)) for index, text in payload["shift"]["told"]]
+    assert told == [(0, "jobs became known"), (0, "old plan stands")]
 
 
 def test_batteries_are_those_that_were_measured() -> None:

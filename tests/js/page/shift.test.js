@@ -1,8 +1,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { fleetBattery } from "../../../src/rightofway/viz/page/assets/shift/fleet_battery.js";
 import { Shift } from "../../../src/rightofway/viz/page/assets/shift/shift.js";
 
-/** @import { JobData, ShiftData } from "../../../src/rightofway/viz/page/assets/payload.d.ts" */
+/** @import { JobData, ShiftData, TourData } from "../../../src/rightofway/viz/page/assets/payload.d.ts" */
 
 /** @type {ShiftData} */
 const EMPTY = {
@@ -60,4 +61,26 @@ test("a job is open, under way from its first work on, and done", () => {
   assert.deepEqual(states, ["open", "underWay", "underWay", "done"]);
   assert.equal(shift().stateOf(1, 100), "underWay");
   assert.equal(shift().stateOf(2, 100), "open");
+});
+
+/**
+ * @param {[number, number][]} charges
+ * @returns {TourData}
+ */
+const tour = (charges) => ({ items: [], load: 0, capacity: 1, charges });
+
+test("the battery of a fleet has the mean and the lowest charge", () => {
+  // the first robot drives until 50 and charges then; the second is full; the third has no battery
+  const tours = [
+    tour([
+      [0, 1],
+      [50, 0.5],
+      [100, 1],
+    ]),
+    tour([[0, 1]]),
+    tour([]),
+  ];
+  const { mean, lowest } = fleetBattery(tours, 100, 4);
+  assert.deepEqual([...lowest], [1, 0.75, 0.5, 0.75, 1]);
+  assert.deepEqual([...mean], [1, 0.875, 0.75, 0.875, 1]);
 });

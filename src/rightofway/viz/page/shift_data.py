@@ -147,7 +147,7 @@ def _make_shift(
         "told": [
             (index, book.add(writer.write(fact)))
             for index, own in enumerate(record.rounds)
-            for fact in own.facts
+            for fact in (*own.reasons, *own.facts)
         ],
         "happened": [(tick, book.add(writer.write(fact))) for tick, fact in _list_events(record)],
     }

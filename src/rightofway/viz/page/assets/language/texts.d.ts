@@ -271,6 +271,7 @@ export interface PageTexts {
     noWaits: string;
     happened: string;
     chart: string;
+    chartWithBattery: string;
     chartOf: Text<"name">;
     lanes: {
       jobs: string;

@@ -75,7 +75,15 @@ class KnownList {
   #select() {
     const jobs = this.plan.jobs.slice(0, this.known).reverse();
     const { value } = this.find;
-    this.list.setItems(value ? jobs.filter((job) => matches(this.#head(job), value)) : jobs);
+    this.list.setItems(value ? jobs.filter((job) => this.#fits(job, value)) : jobs);
+  }
+
+  /**
+   * @param {JobData} job
+   * @param {string} value a part of its name, of its robot or of what has become of it
+   */
+  #fits(job, value) {
+    return matches(`${this.#head(job)} ${this.#detail(job)}`, value);
   }
 
   /** @param {JobData} job */

@@ -1,6 +1,7 @@
 import { Area } from "../timetable/axis.js";
 import { texts } from "../language/language.js";
 import { CHARGE, DONE, DRIVE, TURN, WAIT, WORK } from "../plan/phases.js";
+import { fleetBattery } from "./fleet_battery.js";
 import { line } from "../drawing/shapes.js";
 
 /** @import { Census } from "../timetable/census.js" */
@@ -13,10 +14,12 @@ import { line } from "../drawing/shapes.js";
 
 const ROUNDS_HEIGHT = 9; // pixels, of the marks of rounds at the top
 const GAP = 10; // pixels between two lanes
+const LEAST_DROP = 18; // pixels from the top of a lane to its name, below the value at the top
+const SAMPLES = 400; // of the batteries of the fleet
 
 /**
- * A shift over time: marks of rounds, jobs done, service times, and what robots do. Of a chosen robot:
- * its battery, and what it does.
+ * A shift over time: marks of rounds, jobs done, service times, batteries, and what robots do. Of a
+ * chosen robot: its battery, and what it does.
  */
 export class ShiftChart {
   /**
@@ -34,11 +37,15 @@ export class ShiftChart {
     this.choice = choice;
     this.words = words;
     this.census = census;
+    this.battery = plan.tours.some(({ charges }) => charges?.length)
+      ? fleetBattery(plan.tours, plan.end, SAMPLES)
+      : null;
   }
 
   get title() {
     const { robot } = this.choice;
-    return robot ? texts.shift.chartOf({ name: robot.name }) : texts.shift.chart;
+    if (robot) return texts.shift.chartOf({ name: robot.name });
+    return this.battery ? texts.shift.chartWithBattery : texts.shift.chart;
   }
 
   /**
@@ -51,18 +58,38 @@ export class ShiftChart {
     const height = area.bottom - top;
     this.#rounds(context, area);
     const charges = robot && this.plan.tours[robot.index].charges;
-    const second = top + height * 0.28 + GAP;
-    const third = top + height * 0.54 + GAP;
-    this.#jobs(context, this.#lane(area, top, second - GAP));
-    const middle = this.#lane(area, second, third - GAP);
-    if (charges?.length) this.#battery(context, middle, charges);
-    else this.#service(context, middle);
-    const below = this.#lane(area, third, area.bottom);
+    const paints = [
+      /** @param {Area} lane */ (lane) => this.#jobs(context, lane),
+      ...(charges?.length
+        ? []
+        : [/** @param {Area} lane */ (lane) => this.#service(context, lane)]),
+      ...this.#batteries(context, robot, charges),
+    ];
+    const share = paints.length > 2 ? 0.2 : 0.27;
+    paints.forEach((paint, i) => {
+      const begin = top + i * share * height;
+      paint(this.#lane(area, begin, begin + share * height - GAP));
+    });
+    const below = this.#lane(area, top + paints.length * share * height, area.bottom);
     if (robot) this.#robot(context, below, robot);
     else {
       this.#label(context, below, texts.shift.lanes.robots, String(this.plan.robots.length));
       this.census.paint(context, below, false);
     }
+  }
+
+  /**
+   * The lane of the battery of a chosen robot, or of the fleet, if there is one.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Robot | null} robot
+   * @param {[number, number][] | null | undefined} charges
+   * @returns {((lane: Area) => void)[]}
+   */
+  #batteries(context, robot, charges) {
+    if (charges?.length) return [(lane) => this.#battery(context, lane, charges)];
+    const { battery } = this;
+    return battery && !robot ? [(lane) => this.#fleetBattery(context, lane, battery)] : [];
   }
 
   /**
@@ -90,7 +117,7 @@ export class ShiftChart {
     context.fillStyle = this.theme.muted;
     context.textBaseline = "middle";
     context.textAlign = "left";
-    context.fillText(name, 28, (top + bottom) / 2, left - 36);
+    context.fillText(name, 28, Math.max((top + bottom) / 2, top + LEAST_DROP), left - 36);
     context.font = this.theme.font(11);
     context.textAlign = "right";
     if (most) context.fillText(most, left - 6, top + 5, left - 34);
@@ -204,10 +231,42 @@ export class ShiftChart {
    */
   #battery(context, lane, charges) {
     this.#label(context, lane, texts.shift.lanes.battery, this.words.percent(1));
+    this.#curve(context, lane, charges);
+  }
+
+  /**
+   * The mean state of charge, and dashed the lowest one.
+   *
+   * @param {CanvasRenderingContext2D} context
+   * @param {Area} lane
+   * @param {ReturnType<typeof fleetBattery>} battery
+   */
+  #fleetBattery(context, lane, { mean, lowest }) {
+    this.#label(context, lane, texts.shift.lanes.battery, this.words.percent(1));
+    for (const { shares, dash } of [
+      { shares: mean, dash: [] },
+      { shares: lowest, dash: [4, 3] },
+    ]) {
+      context.setLineDash(dash);
+      this.#curve(
+        context,
+        lane,
+        Array.from(shares, (share, i) => [(i / SAMPLES) * lane.end, share]),
+      );
+    }
+    context.setLineDash([]);
+  }
+
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Area} lane
+   * @param {[number, number][]} points ticks with shares
+   */
+  #curve(context, lane, points) {
     context.strokeStyle = this.theme.ink;
     context.lineWidth = 1.5;
     context.beginPath();
-    for (const [tick, share] of charges)
+    for (const [tick, share] of points)
       context.lineTo(lane.x(tick), lane.bottom - share * lane.height);
     context.stroke();
   }
