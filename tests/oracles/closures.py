@@ -8,7 +8,7 @@ from itertools import accumulate
 from math import ceil, floor
 
 from rightofway.model import Closure, Plan, Route, Scenario, Track
-from tests.oracles.space import FAR_AWAY, Shape, drive, square_between
+from tests.oracles.space import FAR_AWAY, Shape, are_one_place, drive, square_between
 
 LATE = 100_000
 """No closure ends so late, but for those that never do [ticks]."""
@@ -17,14 +17,27 @@ LATE = 100_000
 def shuts(scenario: Scenario, closure: Closure, robot: int, shape: Shape) -> bool:
     """Tell whether a closure of a vertex or of an edge in one piece closes a shape for a robot."""
     own: Shape = (closure.at,) if closure.edge is None else closure.edge  # type: ignore[assignment]
-    if sorted(own) == sorted(shape):
+    back = tuple(_turn_round(scenario, vertex) for vertex in own)
+    if sorted(shape) in (sorted(own), sorted(back)):
         return True
     if closure.radius is None:
         return False
-    if len(own) > 1 and set(own) & set(shape):
+    if len(own) > 1 and {*own, *back} & set(shape):
         return False
     reach = scenario.robots[robot].radius + closure.radius + scenario.rules.clearance
     return square_between(scenario.roadmap, own, shape) < reach**2
+
+
+def _turn_round(scenario: Scenario, vertex: int) -> int:
+    """Return the vertex at one place in the other direction of a lane, or the vertex itself."""
+    return next(
+        (
+            other
+            for other in range(scenario.roadmap.n_vertices)
+            if other != vertex and are_one_place(scenario, vertex, other)
+        ),
+        vertex,
+    )
 
 
 def begins(scenario: Scenario, closure: Closure) -> int:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from cmath import phase
 from collections.abc import Callable, Collection, Iterator, Sequence
 from fractions import Fraction
-from itertools import combinations, pairwise, product
+from itertools import combinations, pairwise, permutations, product
 from math import ceil, degrees, floor, inf
 from typing import NamedTuple
 
@@ -66,6 +66,14 @@ class Site:
         self.is_both = self.has_sizes or self.rules.occupancy == "both"
         self.headway = ceil(self.rules.headway / self.tick)
         self.squares: dict[tuple[Shape, Shape], Fraction] = {}
+        # Vertices of both directions of a lane at one point.
+        self.both_ways = {
+            frozenset((one, other))
+            for there, back in permutations([lane.vertices for lane in self.roadmap.lanes], 2)
+            if (there[0], there[-1]) == (back[-1], back[0])
+            for one, other in product(there[1:-1], back[1:-1])
+            if self.at[one] == self.at[other]
+        }
         self.edges = {
             (tail, int(self.roadmap.heads[edge])): self.roadmap.get_edge_class(edge)
             for tail in range(self.roadmap.n_vertices)
@@ -113,6 +121,8 @@ class Site:
         """Tell whether two robots may not book these at once."""
         a, b = one.shape, other.shape
         if one.zones & other.zones or (a == b and len(a) == 1):
+            return True
+        if len(a) == len(b) == 1 and frozenset((*a, *b)) in self.both_ways:
             return True
         if not self.has_sizes:
             return False

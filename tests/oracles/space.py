@@ -98,7 +98,7 @@ def incompatible(scenario: Scenario, i: int, one: Shape, j: int, other: Shape) -
 
 
 def _exclude(scenario: Scenario, robots: tuple[int, int], one: Shape, other: Shape) -> bool:
-    if one == other:
+    if one == other or (len(one) == len(other) == 1 and are_one_place(scenario, *one, *other)):
         return len(one) == 1  # two robots on one edge have booked its ends
     if one[0] < 0 or other[0] < 0:
         return False
@@ -108,6 +108,20 @@ def _exclude(scenario: Scenario, robots: tuple[int, int], one: Shape, other: Sha
         return False
     least = needed(scenario, *robots)
     return least > 0 and square_between(scenario.roadmap, one, other) < least**2
+
+
+def are_one_place(scenario: Scenario, one: int, other: int) -> bool:
+    """Return whether vertices are at one point between pieces of both directions of a lane."""
+    roadmap = scenario.roadmap
+    lanes = [lane.vertices for lane in roadmap.lanes]
+    return min(one, other) >= 0 and any(
+        one in there[1:-1]
+        and other in back[1:-1]
+        and (there[0], there[-1]) == (back[-1], back[0])
+        and point(roadmap, one) == point(roadmap, other)
+        for there in lanes
+        for back in lanes
+    )
 
 
 def drive(scenario: Scenario, robot: int, tail: int, head: int) -> Fraction:

@@ -37,10 +37,14 @@ def cross(**changes: Any) -> dict[str, Any]:
 
 
 def joints(document: dict[str, Any]) -> set[str]:
-    """Return the lanes that are split, by the names of the vertices between their pieces."""
+    """Return the lanes that are split, by the names of the vertices between their pieces.
+
+    Of both directions of a lane, only the one with the lower name is returned.
+    """
     labels = parse_scenario(document).roadmap.labels
     assert labels is not None
-    return {name.rpartition("/")[0] for name in labels if "/" in name}
+    lanes = {name.rpartition("/")[0] for name in labels if "/" in name}
+    return {min(lane, "-".join(reversed(lane.split("-")))) for lane in lanes}
 
 
 def test_lanes_are_split_into_pieces_of_three_distances() -> None:
@@ -50,7 +54,7 @@ def test_lanes_are_split_into_pieces_of_three_distances() -> None:
     roadmap = parse_scenario(document).roadmap
     assert len(roadmap.lanes) == 4, "both directions of two lanes"
     assert {len(lane.pieces) for lane in roadmap.lanes} == {5}
-    assert roadmap.n_vertices == 6 + 2 * 4
+    assert roadmap.n_vertices == 6 + 4 * 4, "each direction has its own"
 
 
 def test_robots_in_pieces_pass_a_crossing_soon_after_each_other() -> None:

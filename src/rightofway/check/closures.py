@@ -113,7 +113,8 @@ class _Shut:
 
     def __init__(self, closure: Closure, roadmap: Roadmap) -> None:
         self.closure, self.roadmap = closure, roadmap
-        self.ends = frozenset(closure.edge or ())
+        ends = closure.edge or ()
+        self.ends = frozenset((*ends, *(roadmap.opposite.get(end, end) for end in ends)))
         self.ways = list(self._list_ways())
 
     def _list_ways(self) -> Iterator[list[int]]:
@@ -122,23 +123,24 @@ class _Shut:
             assert self.closure.at is not None, "the scenario has refused this"
             yield [self.closure.at]
             return
-        closed_tail, closed_head = self.closure.edge
         drawn = self.roadmap.passing or self.roadmap
         indptr, heads = drawn.indptr, drawn.heads
-        if any(
-            head in heads[indptr[tail] : indptr[tail + 1]]
-            for tail, head in ((closed_tail, closed_head), (closed_head, closed_tail))
-        ):
-            yield [closed_tail, closed_head]
+        opposite = [self.roadmap.opposite.get(end, end) for end in self.closure.edge]
+        for ends in dict.fromkeys((tuple(self.closure.edge), tuple(opposite))):
+            if any(
+                head in heads[indptr[tail] : indptr[tail + 1]] for tail, head in (ends, ends[::-1])
+            ):
+                yield [*ends]
         for lane in self.roadmap.lanes:
-            if {lane.vertices[0], lane.vertices[-1]} == self.ends:
+            if {lane.vertices[0], lane.vertices[-1]} == {*self.closure.edge}:
                 yield list(lane.vertices)
 
     @cached_property
     def _inside(self) -> set[Place]:
         """The closure's own places: the vertex; or the pieces of the lane, and what joins them."""
         if self.closure.at is not None:
-            return {(self.closure.at, self.closure.at)}
+            at = self.closure.at
+            return {(vertex, vertex) for vertex in (at, self.roadmap.opposite.get(at, at))}
         joints = {(vertex, vertex) for path in self.ways for vertex in path[1:-1]}
         lanes = (ends for path in self.ways for ends in pairwise(path))
         return joints | {(min(ends), max(ends)) for ends in lanes}

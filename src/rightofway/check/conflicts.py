@@ -43,7 +43,7 @@ def _list_pairs(first: Indices, after: Indices) -> Iterator[tuple[Indices, Indic
 def judge_bookings(visits: Visits) -> Iterator[FaultGroup]:
     """Find vertex conflicts, and those that only the headway makes."""
     headway = visits.scenario.problem.booking_rules.headway
-    crowded = _find_crowded(visits.vertex, visits.vertex_start, visits.vertex_end + headway)
+    crowded = _find_crowded(visits.place, visits.vertex_start, visits.vertex_end + headway)
     robot, vertex, last = visits.robot[crowded], visits.vertex[crowded], visits.last[crowded]
     start, leave = visits.vertex_start[crowded], visits.vertex_end[crowded]
 
@@ -83,7 +83,7 @@ def judge_bookings(visits: Visits) -> Iterator[FaultGroup]:
         robots = np.minimum(*ends), np.maximum(*ends)
         return FaultGroup(kind, start[second], robots, fault)
 
-    after = _count_begun(vertex, start, leave + headway)
+    after = _count_begun(visits.place[crowded], start, leave + headway)
     for first, second in _list_pairs(np.arange(len(start)) + 1, after):
         strangers = robot[first] != robot[second]
         at_once = start[second] < leave[first]

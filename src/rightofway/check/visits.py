@@ -30,6 +30,7 @@ class Visits:
     plan: Plan
     robot: NDArray[np.int64]
     vertex: NDArray[np.int64]  # as it is drawn
+    place: NDArray[np.int64]  # the vertex, or the lower one of both directions of a lane
     enter: NDArray[Any]  # [ticks]
     leave: NDArray[Any]  # [ticks]; a last visit leaves later than anything happens
     last: NDArray[np.bool_]  # whether it is its robot's last visit
@@ -68,6 +69,9 @@ def lay_out_visits(plan: Plan) -> Visits:
     if roadmap.passing is not None:
         vertex[known] = roadmap.passing.drawn[vertex[known]]
         passed = np.isin(vertex, list(roadmap.passing.vertices))
+    place = vertex.copy()
+    if roadmap.opposite:
+        place[known] = [min(at, roadmap.opposite.get(at, at)) for at in vertex[known].tolist()]
     leave = np.where(last, enter.max() + 1, np.roll(enter, -1))
     drive, barred = np.maximum(drive, 0), np.array(drive < 0, bool)
     bookings = _book(plan, enter=enter, leave=leave, drive=drive, last=last, passed=passed)
@@ -76,6 +80,7 @@ def lay_out_visits(plan: Plan) -> Visits:
         plan=plan,
         robot=robot,
         vertex=vertex,
+        place=place,
         enter=enter,
         leave=leave,
         last=last,

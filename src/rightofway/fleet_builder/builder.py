@@ -638,12 +638,15 @@ class FleetBuilder:
         radius = max((robot.radius for robot in self._robots), default=Fraction(0))
         distance = 2 * radius + rules.clearance if radius > 0 and self._chooses_spacing else 0
         if self._level and radius > 0:
-            cut = self._level(cuts_curves=True, distance=Fraction(distance))
+            cut = self._level(has_sizes=True, distance=Fraction(distance))
             roadmap = cut.roadmap
             rules = replace(rules, clearance=rules.clearance + 2 * cut.chord_error)
-        elif distance and self._drawn.positions and not self._spacing:
+        elif radius > 0 and self._drawn.positions and (distance or self._spacing):
             roadmap = self._drawn.build_roadmap(
-                spacing=None, y_up=self._y_up, distance=Fraction(distance)
+                spacing=self._spacing,
+                y_up=self._y_up,
+                distance=Fraction(distance),
+                has_sizes=True,
             )
         robots, _ = deal_homes(self._robots, roadmap, rules)
         if not self._jobs:

@@ -118,12 +118,18 @@ class DrawnLanes:
             self.edges.append((head, tail, given, more))
 
     def build_roadmap(
-        self, *, spacing: Fraction | None, y_up: bool, distance: Fraction = Fraction(0)
+        self,
+        *,
+        spacing: Fraction | None,
+        y_up: bool,
+        distance: Fraction = Fraction(0),
+        has_sizes: bool = False,
     ) -> Roadmap:
         """Return the roadmap; longer edges are split into pieces of at most ``spacing``.
 
         Without a spacing, one is chosen for robots that have to keep a distance above 0. The
-        vertices that were added come first, whatever is split.
+        vertices that were added come first, whatever is split; those that only robots with a size
+        need come last.
         """
         squares = [
             self._measure_square(tail, head) for tail, head, given, _ in self.edges if given is None
@@ -139,7 +145,12 @@ class DrawnLanes:
             for tail, head, given, more in self.edges
         ]
         split = split_lanes(
-            self.positions, edges, spacing, distance=distance, is_drawn=self.is_drawn
+            self.positions,
+            edges,
+            spacing,
+            distance=distance,
+            has_sizes=has_sizes,
+            is_drawn=self.is_drawn,
         )
         return make_roadmap_of_table(
             split.positions,

@@ -247,7 +247,7 @@ def _list_closed_resources(plane: _Plane, closure: Closure, reach: Fraction | No
     closed: set[int] = {roadmap.n_vertices + edge for edge in edges}
     closed.update(place for lane in ways for place in lane[1:-1])
     if closure.at is not None:
-        closed.add(closure.at)
+        closed.update({closure.at, roadmap.opposite.get(closure.at, closure.at)})
     copies = {} if roadmap.passing is None else roadmap.passing.copies
     closed.update(at for place in [*closed] for at in copies.get(place, ()))
     if reach:
@@ -255,7 +255,11 @@ def _list_closed_resources(plane: _Plane, closure: Closure, reach: Fraction | No
         segments = [(at[tail], at[head]) for lane in ways for tail, head in pairwise(lane)]
         if closure.at is not None:
             segments.append((at[closure.at], at[closure.at]))
-        ends = [at for end in closure.edge or () for at in (end, *copies.get(end, ()))]
+        ends = [
+            at
+            for end in closure.edge or ()
+            for at in (end, roadmap.opposite.get(end, end), *copies.get(end, ()))
+        ]
         closed.update(plane.find_near(segments, reach, ends))
     return closed if roadmap.passing is None else closed | _list_along_chains(roadmap, closed)
 

@@ -146,8 +146,8 @@ class Resources:
     n_vertices, n_edges
         Vertices and edges of the roadmap.
     are_points
-        Whether no robot has a size, and there is neither a zone nor a passed vertex: a vertex
-        excludes itself.
+        Whether no robot has a size, and there is neither a zone nor a passed vertex, nor a lane
+        whose directions have vertices of their own: a vertex excludes itself.
     """
 
     roadmap: Roadmap
@@ -161,7 +161,8 @@ class Resources:
     def __post_init__(self) -> None:
         object.__setattr__(self, "n_vertices", self.roadmap.n_vertices)
         object.__setattr__(self, "n_edges", self.roadmap.n_edges)
-        is_plain = not self.roadmap.zones and self.roadmap.passing is None
+        roadmap = self.roadmap
+        is_plain = not roadmap.zones and roadmap.passing is None and not roadmap.opposite
         object.__setattr__(self, "are_points", not any(self.sizes) and is_plain)
 
     @property
@@ -218,8 +219,8 @@ def make_points(roadmap: Roadmap, n_robots: int) -> Resources:
     """Return the resources of a fleet of points."""
     return Resources(
         roadmap=(
-            replace(roadmap, zones=(), passing=None)
-            if roadmap.zones or roadmap.passing is not None
+            replace(roadmap, zones=(), passing=None, lanes=())
+            if roadmap.zones or roadmap.passing is not None or roadmap.opposite
             else roadmap
         ),
         sizes=(Fraction(0),),

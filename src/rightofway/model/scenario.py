@@ -159,7 +159,8 @@ def _resolve_rules(scenario: Scenario) -> Rules:
     if scenario.rules.occupancy is not None:
         return scenario.rules
     has_sizes = any(robot.radius > 0 for robot in scenario.robots)
-    ahead = has_sizes or bool(scenario.roadmap.zones) or scenario.roadmap.passing is not None
+    roadmap = scenario.roadmap
+    ahead = has_sizes or roadmap.zones or roadmap.passing is not None or roadmap.opposite
     return replace(scenario.rules, occupancy="both" if ahead else "one")
 
 
@@ -180,6 +181,9 @@ def _find_space_faults(scenario: Scenario) -> Iterator[InputFault]:
     if scenario.roadmap.passing is not None and rules.occupancy == "one":
         message = "'one' does not go with vertices that have pass (give both: robots book ahead)"
         yield InputFault(("rules", "occupancy"), message)
+    if scenario.roadmap.opposite and rules.occupancy == "one":
+        message = "'one' does not go with lanes whose directions have vertices of their own"
+        yield InputFault(("rules", "occupancy"), f"{message} (give both: robots book ahead)")
     if all(robot.radius <= 0 for robot in scenario.robots):
         if rules.clearance > 0:
             remedy = "give a robot a radius"

@@ -1,6 +1,7 @@
 """LaCAM: the whole fleet at once, a search over where all robots are.
 
-The search goes from instant to instant with each robot's own speed and work. Where it ends without
+The search goes from instant to instant with each robot's own speed and work. It drives along whole
+lanes; their pieces are used by the earliest timetable of its order of visits. Where it ends without
 a plan, the same search brings all robots through their trips in steps (`Problem.as_steps`), in some
 order of moves. That order gives each robot a route, and each vertex an order of visits: rights of
 way, whose earliest timetable is a plan for any speeds, work times and headways.
@@ -32,6 +33,7 @@ from rightofway.repair.impossible import (
 from rightofway.repair.joint_states import plan_by_joint_states
 from rightofway.repair.moves import plan_by_moves
 from rightofway.repair.plan_request import Draft, PlanRequest
+from rightofway.repair.whole_lanes import join_pieces
 from rightofway.search import Distances, FleetSearch, plan_by_lacam
 
 SHARE_OF_TIME = 0.9
@@ -92,9 +94,10 @@ def plan_by_instants(
     scenario, robots, share = request.scenario, len(request.scenario.robots), SHARE_OF_TIME
     most_effort = max(LEAST_EFFORT, EFFORT_PER_PLACE * robots * scenario.roadmap.n_vertices)
     refuse_stranded(scenario, ())
+    whole = join_pieces(scenario.problem)
     try:
         tracks = plan_by_lacam(
-            scenario.problem,
+            scenario.problem if whole is None else whole.problem,
             seed=request.seed,
             most_effort=most_effort if effort is None else min(effort, most_effort),
             time_limit=request.deadline.shorten(
@@ -106,6 +109,9 @@ def plan_by_instants(
         refuse_the_impossible(scenario, Distances(scenario.roadmap))
         refuse_blocked_parts(request)
         refuse_blocked(request)
+    if tracks is not None and whole is not None:
+        in_pieces = [whole.split_track(robot, track) for robot, track in enumerate(tracks)]
+        tracks = build_timetable(scenario.problem, in_pieces)
     if tracks is None:
         return None
     request.has_plan()

@@ -199,13 +199,14 @@ def build_roadmap_of_level(
     second: Fraction = Fraction(1),
     spacing: Fraction | None = None,
     distance: Fraction = Fraction(0),
-    cuts_curves: bool = False,
+    has_sizes: bool = False,
 ) -> LevelRoadmap:
     """Make the roadmap of a level.
 
     With a spacing, lanes are split that are longer; without one it is chosen, for robots that keep
-    a distance [length unit]. For robots with a size, curves are cut into straight
-    pieces. Lanes that only some of the robots may use are barred for the others.
+    a distance [length unit]. For robots with a size, curves are cut into straight pieces, and both
+    directions of a lane have vertices of their own between pieces. Lanes that only some of the
+    robots may use are barred for the others.
 
     Raises
     ------
@@ -231,11 +232,11 @@ def build_roadmap_of_level(
     if closed:
         table = _remove_vertices(table, tuple(positions))
     zones = _list_zones(level, positions, lanes)
-    curves = _list_curves(lanes) if cuts_curves else {}
+    curves = _list_curves(lanes) if has_sizes else {}
     shapes = {
         ends: [(x * metre, y * metre) for x, y in shape.points] for ends, shape in curves.items()
     }
-    split = split_lanes(positions, table, spacing, shapes, distance=distance)
+    split = split_lanes(positions, table, spacing, shapes, distance=distance, has_sizes=has_sizes)
     roadmap = make_roadmap_of_table(
         split.positions,
         split.edges,

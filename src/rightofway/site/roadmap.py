@@ -136,7 +136,7 @@ class Lane:
 
     @property
     def joints(self) -> tuple[VertexId, ...]:
-        """The vertices between two pieces; both directions share them on one curve."""
+        """The vertices between two pieces."""
         return self.vertices[1:-1]
 
     @property
@@ -177,7 +177,8 @@ class Roadmap:
     zones
         Vertices and edges that hold one robot at a time.
     lanes
-        The lanes that were split into pieces, each direction by itself.
+        The lanes that were split into pieces, each direction by itself. On one curve, both
+        directions share the vertices between pieces, or each has its own: see `opposite`.
     obstacles
         The obstacles on blocked cells of a grid, in the site's frame before its yaw. Only for
         people: no plan depends on it, and roadmaps that differ in it alone are equal.
@@ -188,6 +189,10 @@ class Roadmap:
         on a grid.
     drawn_sides
         The same in floating point; float64, shape (V,), empty where vertices have none.
+    opposite
+        For each vertex between pieces of a lane the vertex of the other direction at the same
+        point, where the directions have vertices of their own. No edge joins the two, so that no
+        robot turns back there; they are one place, which holds one robot.
     passing
         The vertices that robots only drive through; None without such vertices. Several vertices
         then represent one passed vertex and have its name.
@@ -210,6 +215,7 @@ class Roadmap:
     sides: tuple[Fraction, ...] | None = None
     passing: Passing | None = None
     drawn_sides: NDArray[np.float64] = field(init=False, repr=False)
+    opposite: Mapping[VertexId, VertexId] = field(init=False, repr=False)
     _ids: Mapping[str, int] = field(init=False, repr=False)
     _stations: Mapping[str, VertexId] = field(init=False, repr=False)
     _lane_at: Mapping[int, Lane] = field(init=False, repr=False)
@@ -222,8 +228,25 @@ class Roadmap:
         ids = {name: vertex for vertex, name in enumerate(drawn)}
         object.__setattr__(self, "_ids", ids)
         object.__setattr__(self, "_stations", dict(self.drawing.stations))
+        object.__setattr__(self, "opposite", self._find_opposite())
         at = {joint: lane for lane in reversed(self.lanes) for joint in lane.joints}
+        at |= {joint: at[min(joint, other)] for joint, other in self.opposite.items()}
         object.__setattr__(self, "_lane_at", at)
+
+    def _find_opposite(self) -> dict[VertexId, VertexId]:
+        """Return for each vertex between pieces the one of the other direction at its point."""
+        ways: dict[tuple[VertexId, VertexId], list[Lane]] = {}
+        for lane in self.lanes:
+            ways.setdefault(lane.ends, []).append(lane)
+        opposite: dict[VertexId, VertexId] = {}
+        for lane in self.lanes:
+            for back in ways.get(lane.ends[::-1], ()):
+                along, across = list(lane.joints), list(back.joints[::-1])
+                if set(along).isdisjoint(across) and np.array_equal(
+                    self.positions[along], self.positions[across]
+                ):
+                    opposite |= dict(zip(along, across, strict=True))
+        return opposite
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Roadmap):
@@ -283,10 +306,15 @@ class Roadmap:
     def find_ways_along(self, ends: tuple[VertexId, VertexId]) -> list[tuple[VertexId, ...]]:
         """Return the vertices along an edge or a split lane, both ends included, in any direction.
 
-        One way for each drawing of the lane: its directions may be driven along different curves.
-        Empty if no edge or lane has these ends.
+        One way for each drawing of the lane: its directions may be driven along different curves,
+        or have vertices of their own. Empty if no edge or lane has these ends.
         """
-        ways = [ends] if any(self.is_drawn(*pair) for pair in (ends, ends[::-1])) else []
+        tail, head = (self.opposite.get(end, end) for end in ends)
+        ways = [
+            pair
+            for pair in dict.fromkeys((ends, (tail, head)))
+            if self.is_drawn(*pair) or self.is_drawn(*pair[::-1])
+        ]
         drawn: dict[frozenset[VertexId], tuple[VertexId, ...]] = {}
         for lane in self.lanes:  # both directions of one curve are one way
             if lane.ends in (ends, ends[::-1]):

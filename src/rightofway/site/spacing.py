@@ -82,12 +82,15 @@ def split_lanes(
     shapes: Mapping[tuple[str, str], Sequence[Point]] | None = None,
     *,
     distance: Fraction = Fraction(0),
+    has_sizes: bool = False,
     is_drawn: bool = True,
 ) -> SplitLanes:
     """Split lanes that are longer than the spacing into equal pieces, and curves at their points.
 
-    Both directions of a lane share the new vertices, which are named by the direction that is given
-    first: ``A-B/1``, ``A-B/2``, …. Directions that are driven along different curves share none.
+    The new vertices are named by the lane and its direction: ``A-B/1``, ``A-B/2``, …. For robots
+    with a size, each direction has its own, so that no robot turns back inside a lane; ``A-B/1``
+    and the last one of ``B-A`` are at one point. For points, both directions share the vertices,
+    named by the direction that is given first, unless they are driven along different curves.
 
     Without a spacing, but with a distance that two robots keep [length unit], the spacing is chosen
     (`choose_spacing`), and lanes stay whole that are not drawn as long as they are.
@@ -120,6 +123,7 @@ def split_lanes(
     bent = [edge for edge in range(len(table)) if lanes.get_bends(edge)] if curves else []
     is_bent[lanes.lane_of_edge[bent]] = True
     places = dict(positions)
+    places_back: dict[str, Point] = {}  # after all others, so that these have the same numbers
     pieces: dict[tuple[str, str], list[tuple[str, str]]] = {}
     ways = dict[int, _Way | None]()
     parts: dict[int, _Way] = {}
@@ -128,7 +132,16 @@ def split_lanes(
         lane = int(lanes.lane_of_edge[edge])
         if lane not in ways:
             own = spacing if is_long[lane] else None
-            ways[lane] = _make_way(lanes, edge, places, own, is_chosen=is_chosen, is_drawn=is_drawn)
+            ways[lane] = _make_way(
+                lanes,
+                edge,
+                places,
+                places_back,
+                own,
+                is_chosen=is_chosen,
+                is_drawn=is_drawn,
+                is_shared=not has_sizes,
+            )
         lane_way = ways[lane]
         if lane_way is not None:
             parts[edge] = (
@@ -141,6 +154,7 @@ def split_lanes(
         for lane_way in ways.values()
         if lane_way is not None and lane_way.is_cut
     ]
+    places |= places_back
     return SplitLanes(
         places,
         _join(table, tuple(places), parts),
@@ -154,13 +168,14 @@ class _Way(NamedTuple):
     """The vertices along a lane, and the pieces between them."""
 
     names: list[str]
+    names_back: list[str]  # in the other direction
     shares: list[Fraction]  # of the whole lane
     least: Fraction  # length of the lane, at least
     longest_piece: Fraction
     is_cut: bool  # whether a spacing makes pieces
 
     def reverse(self) -> _Way:
-        return self._replace(names=self.names[::-1], shares=self.shares[::-1])
+        return self._replace(names=self.names_back, names_back=self.names, shares=self.shares[::-1])
 
 
 class _Lanes:
@@ -180,7 +195,9 @@ class _Lanes:
                 if self.get_bends(edge) != self.curves.get(self.get_ends(edge)[::-1], ())[::-1]
             ]
             keys[apart] = count**2 + tails[apart] * count + heads[apart]
-        _, first, lane_of_edge = np.unique(keys, return_index=True, return_inverse=True)
+        _, first, lane_of_edge, self.n_directions = np.unique(
+            keys, return_index=True, return_inverse=True, return_counts=True
+        )
         self.first, self.lane_of_edge = first, lane_of_edge
         # The class of the longer direction.
         self.longest = table.kinds[first].copy()
@@ -226,16 +243,19 @@ def _make_way(
     lanes: _Lanes,
     edge: int,
     places: dict[str, Point],
+    places_back: dict[str, Point],
     spacing: Fraction | None,
     *,
     is_chosen: bool,
     is_drawn: bool,
+    is_shared: bool,
 ) -> _Way | None:
     """Return the way along a lane in the direction of an edge, and add its new vertices.
 
-    None for a lane that stays whole. Where the spacing is chosen nobody has asked for pieces: a
-    lane stays as it is whose pieces have names of vertices, or that winds more than it is drawn,
-    because nobody knows where it leads.
+    If the vertices are not shared, those of the other direction are added, too. None for a lane
+    that stays whole. Where the spacing is chosen nobody has asked for pieces: a lane stays as it is
+    whose pieces have names of vertices, or that winds more than it is drawn, because nobody knows
+    where it leads.
     """
     length = lanes.get_length(int(lanes.lane_of_edge[edge]))
     tail, head = lanes.get_ends(edge)
@@ -252,7 +272,11 @@ def _make_way(
     for own in (spacing, None) if is_chosen else (spacing,):
         inside, parts = _cut(points, lengths, own)
         names = [f"{tail}-{head}/{k}" for k in range(1, len(inside) + 1)]
-        taken = next((name for name in names if name in places), None)
+        back = [f"{head}-{tail}/{k}" for k in range(1, len(inside) + 1)]
+        if is_shared or lanes.n_directions[lanes.lane_of_edge[edge]] == 1:
+            back = names[::-1]
+        all_names = dict.fromkeys((*names, *back))
+        taken = next((name for name in all_names if name in places or name in places_back), None)
         if taken is None:
             break
     else:
@@ -261,9 +285,12 @@ def _make_way(
     if not names:
         return None
     places.update(zip(names, inside, strict=True))
+    if back != names[::-1]:
+        places_back.update(zip(reversed(back), inside, strict=True))
     whole = sum(lengths, Fraction(0))
     return _Way(
         names=[tail, *names, head],
+        names_back=[head, *back, tail],
         shares=_compute_each(parts, whole.__rtruediv__),
         least=whole if len(lengths) > 1 else Fraction(0),
         longest_piece=Fraction(0) if own is None else own,

@@ -72,7 +72,7 @@ def make_map_of_layout(
             second=1 / seconds,
             spacing=document.longest_piece,
             distance=document.choose_distance(fleet.distance),
-            cuts_curves=fleet.radius > 0,
+            has_sizes=fleet.radius > 0,
         )
         roadmap = level_map.roadmap
         notes = (

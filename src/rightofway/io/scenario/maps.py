@@ -275,7 +275,9 @@ def _map_of_roadmap(
     distance = on.choose_distance(fleet.distance) if document.sides is None else Fraction(0)
     is_split = on.longest_piece is not None or is_cut or distance > 0
     shapes = _cut_shapes(curves, positions, on.longest_piece, has_sizes) if is_split else {}
-    split = split_lanes(positions, edges, on.longest_piece, shapes, distance=distance)
+    split = split_lanes(
+        positions, edges, on.longest_piece, shapes, distance=distance, has_sizes=has_sizes
+    )
     written_pieces = {
         ends: [part for piece in pieces for part in split.pieces.get(piece, (piece,))]
         for ends, pieces in find_pieces(
