@@ -32,6 +32,11 @@ def test_the_report_says_what_is_done_and_what_robots_do(cli: Cli, scenario: Pat
     assert max(map(len, lines)) <= 80
 
 
+def test_robots_that_break_down_are_named_with_their_time(cli: Cli, scenario: Path) -> None:
+    ended = cli("shift", scenario, "--lead", "0", "--delays", "stop:R2@1", "--until", "40")
+    assert "robots lost   R2 from 1 s" in ended.out.splitlines()
+
+
 def test_the_record_is_a_file_that_plays_again(cli: Cli, scenario: Path, tmp_path: Path) -> None:
     path = tmp_path / "record.json"
     cli("shift", scenario, "--lead", "0", "-o", path)

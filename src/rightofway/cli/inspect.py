@@ -10,8 +10,8 @@ import click
 
 from rightofway.cli.completion import SCENARIOS, complete_files
 from rightofway.cli.inputs import jobs_option
-from rightofway.cli.options import Whole, as_json_option, require_writable
-from rightofway.cli.outputs import PAGE_SUFFIXES, put_text, refuse_outputs
+from rightofway.cli.options import Whole, as_json_option
+from rightofway.cli.outputs import make_output_option, make_page_option, put_text, refuse_outputs
 from rightofway.cli.terminal import (
     format_json,
     make_title,
@@ -66,10 +66,8 @@ Examples:
     metavar="N",
     help="Findings to list of each kind; all are counted.",
 )
-@click.option("-o", "--output", metavar="FILE", callback=require_writable(".json", ".txt"),
-              help="Write the report (.json, .txt); - for standard output.")  # fmt: skip
-@click.option("--page", metavar="FILE", callback=require_writable(*PAGE_SUFFIXES, stdout=False),
-              help="Write a page that shows the findings on the map (.html).")  # fmt: skip
+@make_output_option("the report", ".json", ".txt")
+@make_page_option("the findings on the map", "shows")
 @as_json_option("report")
 def inspect(
     *,

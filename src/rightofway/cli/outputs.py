@@ -51,21 +51,27 @@ INSTEAD = {
 """What to do for an ending that -o does not take where the result is a plan."""
 
 
-def plan_output_option(content: str) -> Decorator:
-    """Return the option -o of a command whose result is a plan."""
-    endings = ", ".join(PLAN_WRITERS)
+def make_output_option(
+    content: str, *suffixes: str, instead: dict[str, str] | None = None
+) -> Decorator:
+    """Return the option -o of a command; ``content`` names the content of the file."""
     return click.option(
-        "-o", "--output", metavar="FILE", callback=require_writable(*PLAN_WRITERS, instead=INSTEAD),
-        help=f"Write {content} to this file ({endings}); - for standard output.",
+        "-o", "--output", metavar="FILE", callback=require_writable(*suffixes, instead=instead),
+        help=f"Write {content} to this file ({', '.join(suffixes)}); - for standard output.",
     )  # fmt: skip
 
 
-def make_page_option(content: str) -> Decorator:
-    """Return the option --page of a command; ``what`` names the content of the page."""
+def plan_output_option(content: str) -> Decorator:
+    """Return the option -o of a command whose result is a plan."""
+    return make_output_option(content, *PLAN_WRITERS, instead=INSTEAD)
+
+
+def make_page_option(content: str, verb: str = "plays") -> Decorator:
+    """Return the option --page of a command; ``content`` names the content of the page."""
     return click.option(
         "--page", metavar="FILE",
         callback=require_writable(*PAGE_SUFFIXES, stdout=False),
-        help=f"Write a page that plays {content} (.html).",
+        help=f"Write a page that {verb} {content} (.html).",
     )  # fmt: skip
 
 

@@ -18,11 +18,10 @@ from rightofway.cli.options import (
     list_delays,
     make_delays_option,
     read_positive,
-    require_writable,
     seed_option,
     ticks_option,
 )
-from rightofway.cli.outputs import make_page_option, put_text, refuse_outputs
+from rightofway.cli.outputs import make_output_option, make_page_option, put_text, refuse_outputs
 from rightofway.cli.terminal import (
     format_json,
     make_title,
@@ -85,9 +84,7 @@ def _list_known_and_delays(formatter: click.HelpFormatter) -> None:
 @click.option("--lead", type=Time(), metavar="T",
               help="How long robots drive while a round is planned [time unit]; 0: robots stand"
               " still meanwhile. By default as long as --round-time.")  # fmt: skip
-@click.option("-o", "--output", metavar="FILE", callback=require_writable(".json"),
-              help="Write the whole shift to this file (.json); - for standard output.",
-              )  # fmt: skip
+@make_output_option("the whole shift", ".json")
 @make_page_option("the shift")
 @ticks_option
 @as_json_option("figures")

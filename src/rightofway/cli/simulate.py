@@ -14,11 +14,10 @@ from rightofway.cli.options import (
     delay_texts,
     list_delays,
     make_delays_option,
-    require_writable,
     seed_option,
     ticks_option,
 )
-from rightofway.cli.outputs import make_page_option, put_page, put_text
+from rightofway.cli.outputs import make_output_option, make_page_option, put_page, put_text
 from rightofway.cli.terminal import (
     format_json,
     make_title,
@@ -54,8 +53,7 @@ Examples:
 @click.option("--replan", is_flag=True,
               help="Replan the rest of the work where this is expected to save time, and when a"
               " robot breaks down permanently.")  # fmt: skip
-@click.option("-o", "--output", metavar="FILE", callback=require_writable(".json"),
-              help="Write the outcome to this file (.json); - for standard output.")  # fmt: skip
+@make_output_option("the outcome", ".json")
 @make_page_option("one run beside the plan")
 @click.option("--run", type=Whole(0), metavar="K",
               help="Run that the page plays, from 0; by default the one of median lateness.",

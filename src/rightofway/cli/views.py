@@ -25,7 +25,7 @@ from rightofway.cli.options import (
     require_writable,
     ticks_option,
 )
-from rightofway.cli.outputs import PAGE_SUFFIXES, complain_of_faults, put_page
+from rightofway.cli.outputs import PAGE_SUFFIXES, complain_of_faults, make_page_option, put_page
 from rightofway.cli.terminal import (
     complain,
     make_title,
@@ -135,9 +135,7 @@ def _report_data(plan: Plan, report: Report, quantities: Quantities) -> dict[str
               callback=require_writable(*PAGE_SUFFIXES, ".png", ".gif"),
               help="Write a page (.html), picture (.png) or film (.gif); - prints the page.",
               )  # fmt: skip
-@click.option("--page", metavar="FILE", callback=require_writable(*PAGE_SUFFIXES, stdout=False),
-              help="Write a page that plays the plan (.html).",
-              )  # fmt: skip
+@make_page_option("the plan")
 @click.option("--at", type=Time(), metavar="TIME",
               help="Time that the picture shows, in the scenario's unit; the start by default.",
               )  # fmt: skip

@@ -15,7 +15,8 @@ from rightofway.kinds.numbers import format_number
 from rightofway.report.facts import FactWriter
 from rightofway.report.lines import Facts, Part, Table, lay_out
 from rightofway.report.phrases import join_items, say_count
-from rightofway.report.quantities import Quantities, format_decimal
+from rightofway.report.quantities import Quantities
+from rightofway.units import round_half_up
 
 MAX_ROBOTS = 20
 """Robots in the report; --json has them all."""
@@ -56,6 +57,13 @@ def _list_totals(
     if figures.done:
         yield "throughput", f"a job every {duration(Fraction(record.until, figures.done))}"
         yield "service time", _write_quantiles(figures.service, quantities)
+    lost = [
+        f"{robot.name} from {quantities.format_moment(own.lost)}"
+        for robot, own in zip(record.scenario.robots, figures.robots, strict=True)
+        if own.lost is not None
+    ]
+    if lost:
+        yield "robots lost", join_items(lost)
     if figures.bottlenecks:
         name = record.scenario.roadmap.name
         yield (
@@ -137,12 +145,10 @@ def _write_shares(own: RobotUse, until: int, has_batteries: bool) -> Iterator[st
 
 
 def _write_percent(share: Fraction) -> str:
-    return format_decimal(100 * share, 0)
+    return str(round_half_up(100 * share))
 
 
 def _write_remark(record: ShiftRecord, own: RobotUse, quantities: Quantities) -> str:
-    if own.lost is not None:
-        return f"does not go on from {quantities.format_moment(own.lost)}"
     if not own.waits_for:
         return ""
     other, ticks = own.waits_for[0]
