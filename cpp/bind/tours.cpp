@@ -66,8 +66,10 @@ Parameters
 full, on, work, charge, reserve : int64[B]
     Capacity; use per tick until the robot rests, and per tick of work; gain per tick of a charge;
     what has to be left.
-drive : int64[B * P * P]
-    Use of a drive between two places, apart from `on`.
+table : int32[B]
+    The table of a kind.
+drive : int64[T * P * P]
+    Use of a drive between two places, apart from `on`, for each table.
 to_charging : int64[B * P]
     Least use from a place to a charging place; more than `full` without a way.
 first_charging, charging : int32[B + 1], int32[n]
@@ -264,6 +266,7 @@ struct BoundTourBatteries {
     ArrayIn<std::int64_t> work;
     ArrayIn<std::int64_t> charge;
     ArrayIn<std::int64_t> reserve;
+    ArrayIn<std::int32_t> table;
     ArrayIn<std::int64_t> drive;
     ArrayIn<std::int64_t> to_charging;
     ArrayIn<std::int32_t> first_charging;
@@ -284,8 +287,8 @@ void init_tour_problem(TourProblem* self, std::int32_t n_places, const ArrayIn<s
          view(rules.due), view(rules.begun_by), view(rules.first_robot), view(rules.robots),
          view(rules.first_after), view(rules.after)},
         {view(batteries.full), view(batteries.on), view(batteries.work), view(batteries.charge),
-         view(batteries.reserve), view(batteries.drive), view(batteries.to_charging),
-         view(batteries.first_charging), view(batteries.charging)},
+         view(batteries.reserve), view(batteries.table), view(batteries.drive),
+         view(batteries.to_charging), view(batteries.first_charging), view(batteries.charging)},
         objective, unit, late);
 }
 
@@ -426,9 +429,10 @@ void bind_tour_input(nb::module_& module) {
              array("release"), array("due"), array("begun_by"), array("first_robot"),
              array("robots"), array("first_after"), array("after"));
     nb::class_<BoundTourBatteries>(module, "TourBatteries", tour_batteries_doc)
-        .def(nb::init<Wholes, Wholes, Wholes, Wholes, Wholes, Wholes, Wholes, Ids, Ids>(),
+        .def(nb::init<Wholes, Wholes, Wholes, Wholes, Wholes, Ids, Wholes, Wholes, Ids, Ids>(),
              array("full"), array("on"), array("work"), array("charge"), array("reserve"),
-             array("drive"), array("to_charging"), array("first_charging"), array("charging"));
+             array("table"), array("drive"), array("to_charging"), array("first_charging"),
+             array("charging"));
 }
 
 }  // namespace

@@ -91,7 +91,11 @@ void TourProblem::take_batteries(const BatteryArrays& given) {
         require_length(name, values.size(), n);
         require_ranges(name, values, 0, most_energy);
     }
-    require_length("drive", given.drive.size(), n * places * places);
+    const std::size_t pairs = places * places;
+    const std::size_t n_tables = pairs == 0 ? 0 : given.drive.size() / pairs;
+    require_length("drive", given.drive.size(), n_tables * pairs);
+    require_length("table", given.table.size(), n);
+    require_kinds("table", given.table, n_tables, 0);
     require_ranges("drive", given.drive, 0, most_energy);
     require_length("to_charging", given.to_charging.size(), n * places);
     require_ranges("to_charging", given.to_charging, 0, most_energy);
@@ -105,7 +109,7 @@ void TourProblem::take_batteries(const BatteryArrays& given) {
         const auto first = index(given.first_charging[k]);
         batteries_.push_back(
             {given.full[k], given.on[k], given.work[k], given.charge[k], given.reserve[k],
-             std::span<const std::int64_t>(drains_).subspan(k * places * places, places * places),
+             std::span<const std::int64_t>(drains_).subspan(index(given.table[k]) * pairs, pairs),
              std::span<const std::int64_t>(to_charging_).subspan(k * places, places),
              std::span<const std::int32_t>(charging_).subspan(
                  first, index(given.first_charging[k + 1]) - first)});

@@ -53,14 +53,17 @@ struct TourJobArrays {
     std::span<const std::int32_t> after;  // jobs that end before it begins
 };
 
-// One entry for each kind of battery; `drive` and `to_charging` one for each pair or place as well.
+// One entry for each kind of battery. Kinds that differ in their charging places alone share a
+// table of drives: where each robot charges only at home, a table for each kind would fill the
+// memory.
 struct BatteryArrays {
     std::span<const std::int64_t> full;
     std::span<const std::int64_t> on;
     std::span<const std::int64_t> work;
     std::span<const std::int64_t> charge;  // per tick
     std::span<const std::int64_t> reserve;
-    std::span<const std::int64_t> drive;        // P * P for each kind, of the quickest way
+    std::span<const std::int32_t> table;        // of its drives
+    std::span<const std::int64_t> drive;        // P * P for each table, of the quickest way
     std::span<const std::int64_t> to_charging;  // P for each kind, least; above full: no way
     std::span<const std::int32_t> first_charging;
     std::span<const std::int32_t> charging;

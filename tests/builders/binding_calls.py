@@ -474,8 +474,8 @@ def _tour_parts() -> dict[str, Part]:
         }),
         "batteries": Part("TourBatteries", {
             "full": int64(20), "on": int64(1), "work": int64(0), "charge": int64(4),
-            "reserve": int64(2), "drive": int64(*spread.ravel()), "to_charging": int64(*spread[0]),
-            "first_charging": int32(0, 1), "charging": int32(0),
+            "reserve": int64(2), "table": int32(0), "drive": int64(*spread.ravel()),
+            "to_charging": int64(*spread[0]), "first_charging": int32(0, 1), "charging": int32(0),
         }),
     }  # fmt: skip
 

@@ -266,6 +266,8 @@ def _limit(tick: Tick | None) -> int:
 
 def _bind_batteries(travel: Travel) -> _core.TourBatteries:
     kinds = travel.batteries
+    tables = {id(kind.drives): kind.drives for kind in kinds}
+    number = {key: index for index, key in enumerate(tables)}
     empty = [np.empty(0, np.int64)]
     return _core.TourBatteries(
         full=_as_wholes(kind.battery.full for kind in kinds),
@@ -273,7 +275,8 @@ def _bind_batteries(travel: Travel) -> _core.TourBatteries:
         work=_as_wholes(kind.battery.work for kind in kinds),
         charge=_as_wholes(kind.battery.charge for kind in kinds),
         reserve=_as_wholes(kind.battery.reserve for kind in kinds),
-        drive=np.concatenate([kind.drives.reshape(-1) for kind in kinds] or empty),
+        table=_as_ids(number[id(kind.drives)] for kind in kinds),
+        drive=np.concatenate([drives.reshape(-1) for drives in tables.values()] or empty),
         to_charging=np.concatenate([kind.to_charging for kind in kinds] or empty),
         first_charging=_number_lists([kind.charging for kind in kinds]),
         charging=_as_ids(place for kind in kinds for place in kind.charging),

@@ -40,7 +40,8 @@ class BatteryKind:
         Indices of the places at which it may be charged.
     drives
         The charge that drives between places take on the quickest way, without `on`; int64, shape
-        (P, P). More than full where there is no way, and to starts.
+        (P, P). More than full where there is no way, and to starts. Kinds that differ in their
+        charging places alone share one array.
     to_charging
         The least that is needed from each place to a charging place, with `on`; int64, shape (P,).
         More than full where there is no way.
@@ -97,13 +98,15 @@ class Travel:
             Ticks that are added to those of ``ticks``; int32, shape (K, P, P). Entries without a
             way stay so.
         drains
-            For each kind of battery, what is added to `BatteryKind.drives`.
+            For each kind of battery, what is added to `BatteryKind.drives`: one array for kinds
+            that share one.
         """
         later = np.where(self.ticks < 0, self.ticks, self.ticks + delays)
-        batteries = tuple(
-            replace(kind, drives=kind.drives + more)
+        drives = {
+            id(kind.drives): kind.drives + more
             for kind, more in zip(self.batteries, drains, strict=True)
-        )
+        }
+        batteries = tuple(replace(kind, drives=drives[id(kind.drives)]) for kind in self.batteries)
         return replace(self, ticks=later.astype(np.int32), batteries=batteries)
 
 
@@ -184,13 +187,27 @@ def _add_batteries(
         if robot.battery is not None:
             alike = _list_shares(robot.battery), paces[index], robot.charging
             kinds.setdefault(alike, []).append(index)
+    tables = dict[object, NDArray[np.int64]]()
     batteries, battery_of = list[BatteryKind](), [-1] * len(robots)
     for members in kinds.values():
         for full, group in _group_by_full(members, robots):
             for index in group:
                 battery_of[index] = len(batteries)
-            robot, (edge_ticks, *_) = robots[group[0]], paces[group[0]]
-            batteries.append(_measure_battery(travel, robot, full, edge_ticks, distances))
+            charging, (edge_ticks, *_) = robots[group[0]].charging, paces[group[0]]
+            battery = scale_battery(robots[group[0]].battery, full)
+            key = edge_ticks, battery.drive, full
+            if key not in tables:
+                tables[key] = _measure_drives(travel, battery, edge_ticks, distances)
+            batteries.append(
+                BatteryKind(
+                    battery=battery,
+                    charging=tuple(travel.place_of[vertex] for vertex in charging),
+                    drives=tables[key],
+                    to_charging=_measure_to_charging(
+                        travel, battery, charging, edge_ticks, distances
+                    ),
+                )
+            )
     return replace(travel, batteries=tuple(batteries), battery_of=tuple(battery_of))
 
 
@@ -217,33 +234,37 @@ def _group_by_full(
     return groups
 
 
-def _measure_battery(
-    travel: Travel,
-    robot: BoundRobot,
-    full: int,
-    edge_ticks: tuple[Tick, ...],
-    distances: Distances,
-) -> BatteryKind:
-    assert robot.battery is not None, "the robot has a battery"
-    battery = scale_battery(robot.battery, full)
-    at, most = np.array(travel.vertices, np.int32), full + 1
+def _measure_drives(
+    travel: Travel, battery: BoundBattery, edge_ticks: tuple[Tick, ...], distances: Distances
+) -> NDArray[np.int64]:
+    """Return `BatteryKind.drives`."""
+    at, most = np.array(travel.vertices, np.int32), battery.full + 1
     drives = np.full((len(at), len(at)), most, np.int64)  # nobody drives to a start
     for vertex, place in travel.place_of.items():
         drives[:, place] = distances.measure_energies(vertex, edge_ticks, battery.drive, most)[at]
+    return drives
+
+
+def _measure_to_charging(
+    travel: Travel,
+    battery: BoundBattery,
+    charging: Iterable[VertexId],
+    edge_ticks: tuple[Tick, ...],
+    distances: Distances,
+) -> NDArray[np.int64]:
+    """Return `BatteryKind.to_charging`."""
+    most = battery.full + 1
     moving = tuple(
         -1 if ticks < 0 else min(drive + battery.on * ticks, most)
         for drive, ticks in zip(battery.drive, edge_ticks, strict=True)
     )
-    return BatteryKind(
-        battery=battery,
-        charging=tuple(travel.place_of[vertex] for vertex in robot.charging),
-        drives=drives,
-        to_charging=distances.find_least_energies(robot.charging, moving, most)[at],
-    )
+    energies = distances.find_least_energies(charging, moving, most)
+    return energies.take(travel.vertices)
 
 
-def scale_battery(battery: BoundBattery, full: int) -> BoundBattery:
+def scale_battery(battery: BoundBattery | None, full: int) -> BoundBattery:
     """Return a battery with other whole numbers: ``full`` is a multiple of its own."""
+    assert battery is not None, "the robot has a battery"
     factor = full // battery.full
     return BoundBattery(
         full=full,

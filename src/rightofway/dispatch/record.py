@@ -108,7 +108,7 @@ class RoundRecord:
     Attributes
     ----------
     begin, takeover
-        When it began, and when its plan took over [ticks].
+        When it began, and when its plan took over, or would have at the end of a shift [ticks].
     seconds
         How long it took [s].
     jobs

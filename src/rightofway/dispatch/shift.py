@@ -27,8 +27,12 @@ MOST_STILL = 3
 """Rounds in a row that find no tour for the jobs that are left, while nothing moves: then a shift
 without a time for its end is over."""
 
-MOST_PATIENT = 8
-"""A round has up to that many times its time, after rounds in which the old plan stood."""
+MOST_DOUBLED = 3
+"""The time of a round is doubled so often at most, each time after the old plan stood."""
+
+HASTE = 8
+"""Every so many rounds half the time is tried again, where planning takes time on the floor: a slow
+round costs the fleet less than one that keeps the old plan."""
 
 FOR_GOOD: frozenset[UnservedReason] = frozenset({"latest", "after"})
 """Reasons for which a job leaves the pool: no robot can ever do it."""
@@ -116,7 +120,7 @@ class _Shift:
         self._assigned = frozenset[str]()  # jobs in tours of the last round
         self._retry_at = 0  # when a round looks again at jobs without a tour
         self._later: tuple[StopsLater, ...] = ()  # what robots do behind their routes
-        self._n_stood = 0  # rounds in a row after which the old plan stood
+        self._n_doubled = 0  # how often the time of a round is doubled
         self._n_still = 0  # rounds in a row that began while nothing moved
         self._tried: Situation | None = None  # at the begin of the last round
         self._watch = FloorWatch(self._floor)
@@ -145,15 +149,15 @@ class _Shift:
         self._note_events()
         situation = self._look()
         reasons = tuple(list_triggers(self._tried, situation))
-        if not reasons and self._n_stood:
+        if not reasons and self._rounds and self._rounds[-1].stands:
             reasons = (Fact("old plan stood"),)
         if not reasons and situation.waiting and self._now >= self._retry_at:
             reasons = (Fact("jobs still wait"),)
         if reasons:
             self._plan_round(situation, reasons)
         self._find_standstill()
-        until = self._now + self._rules.step
-        self._move_on(min(until, self._rules.until or until))
+        if not reasons or not self._rules.lead:  # else the next round may begin at the takeover
+            self._move_on(self._now + self._rules.step)
 
     def describe_progress(self) -> Fact:
         """Return how far the shift has come."""
@@ -178,6 +182,8 @@ class _Shift:
     # --- what happens ----------------------------------------------------------------------------
 
     def _move_on(self, until: int) -> None:
+        if self._rules.until is not None:
+            until = min(until, self._rules.until)
         self._floor.advance(until)
         self._now = Tick(until)
 
@@ -250,9 +256,8 @@ class _Shift:
     def _plan_round(self, situation: Situation, reasons: tuple[Fact, ...]) -> None:
         """Plan a round, and let its plan take over after the lead."""
         rules, begin = self._rules, self._now
-        patience = min(MOST_PATIENT, 2**self._n_stood)
-        limit = None if rules.time_limit is None else rules.time_limit * patience
-        takeover = Tick(begin + rules.lead * patience)
+        limit = None if rules.time_limit is None else rules.time_limit * 2**self._n_doubled
+        takeover = Tick(begin + rules.lead * 2**self._n_doubled)
         self._retry_at = self._now + RETRY * rules.step
         self._n_still = self._n_still + 1 if self._is_still else 0
         jobs = dict(self._pool.jobs)
@@ -267,11 +272,12 @@ class _Shift:
         if rules.lead:
             cap_floor(self._floor, view)
             self._move_on(takeover)
-        if planned.stands:
+        if planned.stands or self._now < takeover:  # at the end of the shift
             lift_caps(self._floor)
-            self._n_stood += 1
+            self._n_doubled = min(self._n_doubled + 1, MOST_DOUBLED)
         else:
-            self._n_stood = 0
+            if not rules.lead or len(self._rounds) % HASTE == 0:
+                self._n_doubled = max(0, self._n_doubled - 1) if rules.lead else 0
             splice_round(self._floor, view, planned, jobs)
             self._note_unserved(planned)
             self._watch.take_over(self._now, jobs)

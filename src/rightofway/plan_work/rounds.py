@@ -132,7 +132,10 @@ class _Rounds:
         self._deadline, self._last_deadline = deadlines  # of the rounds; without a plan
         self._travel = measure_travel(scenario.problem, Distances(scenario.roadmap))
         self._delays = np.zeros(self._travel.ticks.shape)
-        self._drains = [np.zeros_like(kind.drives) for kind in self._travel.batteries]
+        # Kinds that share a table of drives share what is learned about it.
+        kinds = self._travel.batteries
+        tables = {id(kind.drives): np.zeros_like(kind.drives) for kind in kinds}
+        self._drains = [tables[id(kind.drives)] for kind in kinds]
         self._start: Assignment | None = None  # from which the next search for tours starts
         self._fewer: Assignment | None = None  # the next assignment, after one without a plan
         self._n_refused = 0  # plans that the judge has refused since the last good one

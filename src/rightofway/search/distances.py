@@ -179,10 +179,13 @@ class Distances:
             table, ticks = self.to(target, edge_ticks), self.compute_edge_ticks(edge_ticks)
             by_edge = np.array(energies, np.int64)[self.roadmap.class_of_edge]
             known = self._kernel.energies_of_quickest_ways(table, ticks, by_edge, most)
-            while self._energies and (len(self._energies) + 1) * len(table) > MOST_ENERGIES:
-                del self._energies[next(iter(self._energies))]
-            self._energies[key] = known
+            self._keep_energies(key, known)
         return known
+
+    def _keep_energies(self, key: object, table: NDArray[np.int64]) -> None:
+        while self._energies and (len(self._energies) + 1) * len(table) > MOST_ENERGIES:
+            del self._energies[next(iter(self._energies))]
+        self._energies[key] = table
 
     def find_least_energies(
         self, targets: Iterable[VertexId], energies: tuple[int, ...], most: int
@@ -203,8 +206,13 @@ class Distances:
         ndarray of int64, shape (V,)
             Energies.
         """
-        by_edge = np.array(energies, np.int64)[self.roadmap.class_of_edge]
-        return self._kernel.least_energies(np.fromiter(targets, np.int32), by_edge, most)
+        key = tuple(targets), energies, most
+        known = self._energies.get(key)
+        if known is None:
+            by_edge = np.array(energies, np.int64)[self.roadmap.class_of_edge]
+            known = self._kernel.least_energies(np.array(key[0], np.int32), by_edge, most)
+            self._keep_energies(key, known)
+        return known
 
     def is_symmetric(self, edge_ticks: tuple[Tick, ...]) -> bool:
         """Return whether every edge may be driven in both directions in equal ticks."""
