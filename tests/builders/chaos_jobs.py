@@ -127,7 +127,7 @@ class LateRounds(RoundsAtOnce):
 
     def begin(self, request: RoundRequest) -> None:
         """Plan a round; its plan comes after some more messages."""
-        with patch("rightofway.dispatch.round.MOST_IN_VAIN", 5):  # how good a plan is, is no matter
+        with patch("rightofway.dispatch.round.MOST_IN_VAIN", 1):  # how good a plan is, is no matter
             super().begin(request)
         self._polls = self._draw.choice([0, 3, 30, 100])
 
@@ -189,8 +189,8 @@ class JobWorld(World):
 
     def _event(self) -> None:
         self.events += 1
-        for robot, own in enumerate(self.control.ledger.robots):
-            if self.observer.is_charging(robot, own):
+        for robot in range(len(self.robots)):
+            if self.observer.is_charging(robot):
                 self.socs[robot] = min(1.0, self.socs[robot] + CHARGED_PER_EVENT)
         super()._event()
         if self.events % EVENTS_PER_TICK == 0:
@@ -272,16 +272,13 @@ class JobWorld(World):
     def _is_done(self) -> bool:
         """Whether all has been done, or said why not."""
         ledger = self.control.ledger
-        waiting = self.rounds.watch.list_waiting()
-        are_told = all(name in self.said for name in waiting)
-        begun = [own for own in ledger.pool.jobs.values() if own.is_begun]
         return (
             (
-                are_told
-                and not begun
-                and all(own.is_done or own.is_off for own in ledger.robots)
-                and len(waiting) == len(ledger.pool.jobs)
+                all(own.is_done or own.is_off for own in ledger.robots)
+                and not any(own.is_begun for own in ledger.pool.jobs.values())
                 and not self.rounds.is_under_way
+                and len(waiting := self.rounds.watch.list_waiting()) == len(ledger.pool.jobs)
+                and self.said.issuperset(waiting)
             )
             or self._stands_told()
             or all(own.is_off and self._has_no_place(k) for k, own in enumerate(ledger.robots))
@@ -304,20 +301,16 @@ class JobObserver(Observer):
     def __init__(self, scenario: Scenario, robots: Any) -> None:
         super().__init__(scenario, robots)
         self.counted: list[Counter[str]] = [Counter() for _ in robots]
+        self.charges = [False] * len(robots)  # whether the last charge of each has not ended
         self.stops: dict[str, list[tuple[int, int]]] = {}  # of each job, robot and stop as done
         self.known = set[str]()
         self.before: dict[str, tuple[str, ...]] = {}  # jobs that end before each job
         self.lengths: dict[str, int] = {}  # stops of each job
         self.over = set[str]()  # jobs that had left without being begun
 
-    def is_charging(self, robot: int, own: RobotLedger) -> bool:
+    def is_charging(self, robot: int) -> bool:
         """Return whether the last charge of a robot has begun, and it has not driven on."""
-        real, job_of = self.robots[robot], {**self._job_of[robot], **own.jobs_of}
-        if real.is_driving:
-            return False
-        items = [job_of.get(action, "") for action in real.done]
-        steps = [step for item in items if (step := find_charge_step(item))]
-        return bool(steps) and steps[-1] == "begin"
+        return self.charges[robot] and not self.robots[robot].is_driving
 
     def look(self, control: FleetControl) -> None:
         """Compare what robots hold, and what they have done."""
@@ -345,6 +338,8 @@ class JobObserver(Observer):
                 raise Fault(f"robot {robot} has done {item} {count} times")
             if stop := find_stop(item):
                 self._count_stop(robot, *stop)
+            elif step := find_charge_step(item):
+                self.charges[robot] = step == "begin"
 
     def _count_stop(self, robot: int, name: str, stop: int) -> None:
         done = self.stops.setdefault(name, [])
