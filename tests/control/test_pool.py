@@ -140,6 +140,14 @@ def test_a_job_that_has_changed_is_done_where_it_is_now() -> None:
     assert places == {"N12"}
 
 
+def test_a_change_to_nothing_removes_a_key_and_the_others_stay() -> None:
+    shift = Shift()
+    shift.ask("add", name="A1", at="N2", earliest=20, due=30, latest=40)
+    shift.ask("change", name="A1", latest=None, due=35)
+    job = shift.pool.jobs["A1"].job
+    assert (job.earliest, job.due, job.stops[-1].latest) == (20, 35, None)
+
+
 def test_an_urgent_job_is_begun_before_others_that_are_not_due() -> None:
     """R1 drives six edges to N14, of which at most four are released to it."""
     shift = Shift()

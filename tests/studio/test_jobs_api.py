@@ -96,6 +96,17 @@ def test_a_job_is_added_once_listed_and_withdrawn(server: Server) -> None:
     assert names_of(server) == ["J1", "J2", "J3"]
 
 
+def test_a_job_is_changed_and_a_change_sent_twice_changes_no_more(server: Server) -> None:
+    server.send("POST", "/jobs", {"name": "a/1", "at": "N12", "latest": 900, "earliest": 600})
+    change = {"at": "N0", "latest": None, "kind": "add", "name": "other"}
+    for _ in range(2):
+        assert server.send("PATCH", "/jobs/a%2F1", change) == (200, {"name": "a/1"})
+    _, listed = server.send("GET", "/jobs")
+    places = {job["name"]: job["at"] for job in listed["jobs"]}
+    assert places["a/1"] == "N0"
+    assert "other" not in places
+
+
 @pytest.mark.parametrize(
     ("method", "path", "body", "text"),
     [
@@ -103,6 +114,9 @@ def test_a_job_is_added_once_listed_and_withdrawn(server: Server) -> None:
         ("POST", "/jobs", {"name": "A", "at": "N2", "work": -1}, "time: -1 is no duration"),
         ("POST", "/jobs", {"name": "A"}, "has no place to work at"),
         ("DELETE", "/jobs/Z", None, "'Z' is no job"),
+        ("PATCH", "/jobs/Z", {"at": "N2"}, "'Z' is no job"),
+        ("PATCH", "/jobs/J2", {"at": "N99"}, "'N99' is outside the map"),
+        ("PATCH", "/jobs/J2", {"robot": "R9"}, "'R9' is no robot"),
     ],
 )
 def test_what_cannot_be_done_is_refused_with_its_reason(

@@ -94,7 +94,8 @@ def _add_job_options(command: Any) -> Any:
             click.option("--due", metavar="TIME", callback=_read_moment,
                          help="When it should be done, likewise: later costs more."),
             click.option("--latest", metavar="TIME", callback=_read_moment,
-                         help="When it has to be done, likewise: else nobody does it."),
+                         help="When it has to be done, likewise. If no robot can do it by then, it"
+                         " is not done at all."),
             click.option("--urgent", is_flag=True, help="Due at once: it comes before others."),
             click.option("--weight", metavar="FACTOR",
                          help="How much it counts compared with other jobs; 1 by default."),

@@ -82,6 +82,14 @@ def make_jobs_router(prefix: str) -> APIRouter:
             response.status_code = 200
         return {"name": answer["name"]}
 
+    @jobs.patch("/jobs/{name:path}")
+    def change_job(
+        request: Request, name: str, job: Annotated[dict[str, Any], Body()]
+    ) -> dict[str, Any]:
+        """Change the given keys of a job that is not begun; null removes one."""
+        answer = find(request).ask_on_jobs({**job, "kind": "change", "name": name})
+        return {"name": answer["name"]}
+
     @jobs.delete("/jobs/{name:path}")
     def withdraw_job(request: Request, name: str) -> dict[str, Any]:
         """Withdraw a job that is not begun; withdrawn already, it stays so."""
