@@ -41,7 +41,7 @@ class Deadline:
         return self if left is None else Deadline.after(max(left - seconds, left / 2))
 
     def measure_seconds_left(self) -> float | None:
-        """Return how long it is until then [s], never negative; None for no limit."""
+        """Return the time until then [s], never negative; None for no limit."""
         return None if self.at is None else max(self.at - time.monotonic(), 0.0)
 
     def check(self, doing: Fact | str) -> None:

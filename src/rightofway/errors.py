@@ -233,7 +233,7 @@ class InputFault:
 
     @property
     def file(self) -> str:
-        """The file or argument that it stands in; empty for data in no file."""
+        """The file or argument of the fault; empty for data in no file."""
         return self.location.file
 
     def map_locations(self, move: Callable[[Location], Location]) -> InputFault:
@@ -325,7 +325,7 @@ def name_file(source: str) -> Iterator[None]:
     Parameters
     ----------
     source
-        Its name; faults that stand in a file already keep theirs.
+        Its name; faults with a file keep it.
     """
     try:
         yield

@@ -98,12 +98,12 @@ class Units:
 
     @property
     def seconds(self) -> Fraction | None:
-        """Length of the time unit [s], or None where it is not known."""
+        """Length of the time unit [s], or None if it is unknown."""
         return None if self.time is None else SECONDS[self.time]
 
     @property
     def metres(self) -> Fraction | None:
-        """Length of the length unit [m], or None where it is not known."""
+        """Length of the length unit [m], or None if it is unknown."""
         return None if self.length is None else METRES[self.length]
 
     def to_document(self) -> dict[str, str | None]:

@@ -24,9 +24,9 @@ class JobCost:
     robot
         Index of the robot.
     cost
-        By how much the objective grows with the job at its best place in the tour of the robot,
-        compared with the tours without the job [ticks; of a job or a robot of weight 1]; None where
-        it fits nowhere.
+        The growth of the objective with the job at its best place in the tour of the robot,
+        compared with the tours without the job [ticks; of a job or a robot of weight 1]; None if it
+        fits nowhere.
     """
 
     robot: int

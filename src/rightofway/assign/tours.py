@@ -142,8 +142,8 @@ class AssignmentSearch:
     def compare_robots(self, job: int) -> tuple[list[int | None], int]:
         """Return the objective with a job on each robot, and without the job.
 
-        The job is at its best place in the best tour of the robot; None where it fits nowhere. It
-        is in no other tour, and the jobs that come after it are in none. Values are those of
+        The job is at its best place in the best tour of the robot; None if it fits nowhere. It is
+        in no other tour, and the jobs that come after it are in none. Values are those of
         `AssignmentCost.value`.
         """
         *values, without = self._search.compare_robots(job).tolist()
@@ -164,7 +164,7 @@ class AssignmentSearch:
 
     @property
     def cost(self) -> AssignmentCost:
-        """What the best assignment costs."""
+        """The cost of the best assignment."""
         return AssignmentCost(*self._search.cost)
 
     @property

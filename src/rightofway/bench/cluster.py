@@ -46,7 +46,7 @@ def run_on_cluster(
     Notes
     -----
     If a worker dies, the scheduler gives its cases, and results it held, to another worker; a case
-    whose workers die four times is a row that says so.
+    whose workers die four times is a row with this reason.
     """
     distributed = load_library("distributed", "a cluster")
     try:

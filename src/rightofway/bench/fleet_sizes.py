@@ -33,7 +33,7 @@ class FleetSize:
     robots
         How many.
     cases, solved
-        How many shifts there are, and how many were simulated to their end.
+        Numbers of shifts, and of shifts that were simulated to their end.
     known, done
         Jobs that became known and that ended, of all shifts.
     in_time

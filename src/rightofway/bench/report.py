@@ -88,8 +88,8 @@ def write_report(
     rows
         The results.
     path
-        ``.html`` for one file that holds its pictures; ``.md`` for Markdown, with pictures beside
-        it, ``-cactus.png``, ``-ratio.png`` and ``-fleets.png`` behind its name.
+        ``.html`` for one file that holds its pictures; ``.md`` for Markdown, with pictures in the
+        same folder, ``-cactus.png``, ``-ratio.png`` and ``-fleets.png`` behind its name.
     title
         Heading of the report.
     in_time

@@ -100,7 +100,7 @@ class Results:
             raise
 
     def add(self, row: Mapping[str, Any]) -> None:
-        """Write a row; one whose key is there already is left out."""
+        """Write a row; a row with a known key is left out."""
         if row["key"] not in self.rows:
             self.rows[row["key"]] = dict(row)
             self._write(_write_line([_write_text(row[name]) for name in HEADER]))

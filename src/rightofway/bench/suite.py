@@ -84,9 +84,9 @@ class Case:
     problem
         ``{"random": …}``, ``{"grid": …, "ends": …}`` or ``{"scenario": …}``, as plain data.
     fleet_data
-        ``speeds``, whether they are drawn ``by_seed`` or dealt round robin, least and most
-        ``work`` [time unit], and ``rules`` as in a scenario. For a scenario ``speeds``, ``rules``
-        and the number of ``chargers``, or None if it is taken as it is.
+        ``speeds``, whether they are drawn ``by_seed`` or assigned in turn, least and most ``work``
+        [time unit], and ``rules`` as in a scenario. For a scenario ``speeds``, ``rules`` and the
+        number of ``chargers``, or None if it is taken as it is.
     key
         A hash of all this but the names: the same case has the same key in every run.
     """

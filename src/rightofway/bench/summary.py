@@ -34,7 +34,7 @@ class Group:
     Attributes
     ----------
     cases, solved
-        How many there are, and how many of them are solved.
+        Numbers of cases, and of solved cases.
     ratio
         Flowtime / lower bound of the solved ones.
     seconds
@@ -42,7 +42,7 @@ class Group:
     memory
         The most memory that one of them held [MB].
     statuses
-        How many cases ended with each status.
+        Number of cases with each status.
     """
 
     cases: int

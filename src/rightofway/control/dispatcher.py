@@ -254,7 +254,7 @@ class Dispatcher:
         stops
             The stops that each robot still has to make; None for those of the journal.
         withdrawn
-            Robot and name of jobs that nobody wants any more.
+            Robot and name of withdrawn jobs.
         notes
             Entries that are committed together with the plan.
         placed

@@ -63,7 +63,7 @@ class FleetControl:
     journal
         Empty, or of an earlier start; `begin` gives an empty one its plan.
     look_ahead
-        How many parts are released beyond the vertex last arrived at, at most.
+        The largest number of parts that are released beyond the vertex last arrived at.
     snapshot_every
         Entries after which the journal gets a snapshot, with the next splice.
     long_order
@@ -93,16 +93,15 @@ class FleetControl:
         do; a dispatcher sets it.
     may_drive
         Tells of each robot whether it may drive from a vertex to another one, by their names; a
-        dispatcher, which knows the map, sets it.
+        dispatcher with the map sets it.
     may_enter
         Tells of a robot whether a part of its route may be released, if all before it is; a
-        dispatcher, which knows the closures of the scenario, sets it.
+        dispatcher with the closures of the scenario sets it.
     may_stop
         Tells whether robots may stop at a vertex, by its name; a dispatcher sets it.
     may_begin
-        Tells of a robot whether an item of its work may begin, see
-        `rightofway.control.work_items`: robots drive to the places of work that may not, and stand
-        there. A dispatcher sets it.
+        Tells of a robot whether an item of its work may begin, see `rightofway.control.work_items`:
+        robots drive to the places of work that may not begin, and wait there. A dispatcher sets it.
     list_actions
         Returns the actions of a robot for an item of its work. A dispatcher sets it.
     kept_parts
@@ -167,7 +166,7 @@ class FleetControl:
         run
             A name that no other journal has; the ids of orders and actions begin with it.
         routes, graph
-            The routes of all robots, and who waits for whom.
+            The routes of all robots, and the arrivals that their parts wait for.
         names
             Of the robots; left out, reports give their numbers.
         notes
@@ -217,9 +216,9 @@ class FleetControl:
             Routes that begin with all that is released, sent or not, acknowledged or not. Visits
             before the one that a robot has last arrived at may be left out.
         graph
-            Who waits for whom on them; parts that are released are no longer looked at.
+            The arrivals that their parts wait for; parts that are released are no longer looked at.
         withdrawn
-            Robot and name of jobs that nobody wants any more.
+            Robot and name of withdrawn jobs.
         notes
             Entries that are committed together with the splice.
         placed
@@ -263,7 +262,7 @@ class FleetControl:
 
     @property
     def is_done(self) -> bool:
-        """Whether each robot that is on the floor has come to the end of its route."""
+        """Whether each robot on the floor is at the end of its route."""
         return all(own.is_off or own.is_done for own in self.ledger.robots)
 
     def is_fit(self, robot: int) -> bool:
@@ -280,7 +279,7 @@ class FleetControl:
         return condition is None or condition.is_fit
 
     def list_stuck(self) -> list[int]:
-        """Return the robots on the floor that do not go on for now."""
+        """Return the robots on the floor that do not drive on for now."""
         return [
             robot
             for robot, own in enumerate(self.ledger.robots)

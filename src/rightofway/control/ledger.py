@@ -77,7 +77,7 @@ class Ledger:
 
     @property
     def closed_edges(self) -> set[Edge]:
-        """The edges that nobody may enter, by the names of their vertices."""
+        """The closed edges, by the names of their vertices."""
         return {edge for edges in self.closed.values() for edge in edges}
 
     def owns(self, robot: int, order_id: str) -> bool:
@@ -204,7 +204,7 @@ class Ledger:
         self.changed.update(range(len(self.robots)))
 
     def count_jobs(self) -> tuple[int, ...]:
-        """Return how many jobs each robot has done; of plans without jobs, its stops."""
+        """Return the number of finished jobs of each robot; of plans without jobs, its stops."""
         has_jobs = self.pool.jobs or self.pool.left
         return tuple(own.whole_jobs if has_jobs else own.jobs_done for own in self.robots)
 
@@ -222,7 +222,7 @@ class Ledger:
                 self.robots[robot].whole_jobs += 1
 
     def make_snapshot(self) -> Entry:
-        """Return an entry that says all that the entries before it say together."""
+        """Return an entry that is equivalent to all entries before it."""
         robots = [own.to_document() for own in self.robots]
         waits = _write_waits(self.graph, [own.released for own in self.robots])
         return {

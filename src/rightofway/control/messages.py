@@ -119,7 +119,7 @@ class Condition:
     mode
         Its operating mode.
     is_paused
-        Whether it stands still until it is let go.
+        Whether it is paused.
     emergency_stop
         Which emergency stop is pressed; ``NONE`` for none.
     errors
@@ -160,7 +160,7 @@ class StateReport:
     Attributes
     ----------
     order_id, update_id
-        Of the order that it has; an empty id where it has none.
+        Of the order that it has; an empty id without one.
     last_place, last_sequence_id
         The node that it has reached last.
     nodes, edges
@@ -172,14 +172,14 @@ class StateReport:
     condition
         Whether it is fit to drive on.
     position
-        Where it is: x and y [m], and the map; None where it does not say. For people only.
+        Where it is: x and y [m], and the map; None if the message has none. For people only.
     theta
-        Where it heads, from x to y in its own frame [rad]; None where it does not say. For
+        Where it heads, from x to y in its own frame [rad]; None if the message has none. For
         forecasts only.
     charge
-        The state of charge of its battery, from 0 to 1; None where it does not say.
+        The state of charge of its battery, from 0 to 1; None if the message has none.
     loads
-        What it carries; None where it does not say.
+        What it carries; None if the message has none.
     """
 
     order_id: str
@@ -198,5 +198,5 @@ class StateReport:
 
     @property
     def is_idle(self) -> bool:
-        """Whether nothing is left to be driven."""
+        """Whether the order has no remaining nodes."""
         return not self.nodes and not self.edges and not self.is_driving

@@ -91,7 +91,7 @@ class RobotLedger:
         return self.arrived == self.route.end - 1 and self.finished >= self.route.all_jobs
 
     def find_next_item(self) -> str | None:
-        """Return the next work of a robot that stands at the end of its released parts."""
+        """Return the next work of a robot at the end of its released parts."""
         if self.arrived < self.released:
             return None
         items = self.route.get_jobs(self.arrived)
@@ -102,7 +102,7 @@ class RobotLedger:
         return self.attempts.get(item, 0) > 0
 
     def count_steps(self, item: str) -> int:
-        """Return by how many actions an item is done that an order had."""
+        """Return the number of actions of an item that an order had."""
         return len({split_action(action)[1] for action, job in self.jobs_of.items() if job == item})
 
     def is_asked_for(self, item: str) -> bool:
@@ -111,7 +111,7 @@ class RobotLedger:
         return item in self.failed or any(self.jobs_of.get(action) == item for action in actions)
 
     def count_laps(self) -> int:
-        """Return how many laps it has made, or will have made at the end of its route."""
+        """Return the number of its laps until now, or until the end of its route."""
         return self.laps_done + sum(end > self.arrived for end in self.route.lap_ends)
 
     def find_held(self, place: str) -> int | None:

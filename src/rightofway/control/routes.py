@@ -33,8 +33,7 @@ class RouteToDrive:
     first
         The number of the first visit that is kept.
     work
-        For each job of each visit how long it lasts with its turn [ticks]; empty where nobody
-        plans.
+        The duration of each job of each visit, with its turn [ticks]; empty without a planner.
     enter
         When each visit is planned to begin [ticks]: only the order of these times counts. Empty
         where nobody plans.
@@ -82,7 +81,7 @@ class RouteToDrive:
         return self.jobs[self._index(visit)]
 
     def get_work(self, visit: int) -> tuple[int, ...]:
-        """Return how long each job of a visit lasts [ticks].
+        """Return the duration of each job of a visit [ticks].
 
         Parameters
         ----------

@@ -33,7 +33,7 @@ class SimulatedRobot:
     Parameters
     ----------
     place
-        The name of the vertex where it is switched on.
+        The name of its first vertex.
 
     Attributes
     ----------
@@ -42,11 +42,11 @@ class SimulatedRobot:
     is_driving
         Whether it drives to the first node of `ahead`.
     ahead
-        The rest of its base.
+        The remaining nodes of its base.
     done
-        How often each action was finished, by its id.
+        The number of times that each action was finished, by its id.
     rejected
-        How many orders it has refused.
+        The number of rejected orders.
     instant_actions
         The ids of all instant actions that it was asked for.
     charging

@@ -31,7 +31,7 @@ def refuse_changes(
     committed
         The last part of each robot that they have to keep.
     withdrawn
-        Robot and name of jobs that nobody wants any more.
+        Robot and name of withdrawn jobs.
     placed
         Robots off the floor that were put at the begin of their routes.
 

@@ -69,8 +69,7 @@ class ParameterCurve:
     pieces
         Each begins where the one before ends. A time is examined from 0 (a headway that keeps
         robots from rotating: from one tick) up to the period or four times its value, whichever is
-        longer. A headway has one piece that is a point where robots would wait for each other for
-        ever with any longer one.
+        longer. The curve of a headway is a single point if any longer headway is a deadlock.
     """
 
     kind: Kind

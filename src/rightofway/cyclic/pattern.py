@@ -82,7 +82,7 @@ class Pattern:
     period
         The least period of all robots [ticks].
     counts
-        Laps of each robot per period; 0 if it stands still for ever.
+        Laps of each robot per period; 0 if it is permanently stuck.
     history
         The enters of visits, for at least a period after the transient [ticks].
     lengths
@@ -133,7 +133,7 @@ class Pattern:
         return range(home, home + self.counts[robot] * self.lengths[robot])
 
     def make_timetable(self, context: GroupContext) -> CyclicSchedule | None:
-        """Return one period, counted from `begins`; None if a robot stands still for ever."""
+        """Return one period, counted from `begins`; None if a robot is permanently stuck."""
         if not all(self.counts):
             return None
         return CyclicSchedule(

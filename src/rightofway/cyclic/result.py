@@ -70,7 +70,7 @@ class BaselineComparison:
         The least ratio of laps made to laps possible alone, over all robots; 0 to 1.
     baseline_ends
         End of the baseline on the usual routes: as in `GroupResult`, or ``starves`` if its pattern
-        repeats while a robot stands still for ever.
+        repeats while a robot is permanently stuck.
     baseline
         The value of the baseline's laps per tick, in its pattern or else in the simulated time; 0
         in a deadlock.
@@ -91,8 +91,8 @@ class GroupResult:
     context
         The robots and their cyclic routes.
     ends
-        ``repeats``: the pattern repeats for ever. ``deadlock``: robots wait for each other for
-        ever. ``open``: time ran out before either was known.
+        ``repeats``: the pattern repeats for ever. ``deadlock``: robots wait for each other
+        permanently. ``open``: time ran out before either was known.
     history
         For each robot, the enters of its visits from visit 0 on [ticks].
     pattern
@@ -117,7 +117,7 @@ class GroupResult:
 
     @property
     def timetable(self) -> CyclicSchedule | None:
-        """One period of the pattern; None without one, or if a robot stands still for ever."""
+        """One period of the pattern; None without one, or if a robot is permanently stuck."""
         return self.pattern.make_timetable(self.context) if self.pattern else None
 
     def count_laps(self) -> tuple[int, ...]:

@@ -45,8 +45,8 @@ class CyclicRoute:
     lap
         The repeated lap.
     first_dwell
-        How long visit 0 lasts at least, without the drive that follows: no lap comes before, so
-        the robot does not turn [ticks].
+        The least duration of visit 0, without the drive that follows: no lap comes before, so the
+        robot does not turn [ticks].
     """
 
     robot: int
@@ -207,7 +207,7 @@ def make_cyclic_routes(scenario: Scenario, routes: str = "clear") -> list[Cyclic
     routes
         ``clear`` or ``shortest``: as in the planners. ``direct``: clear of other robots in
         proportion to the frequency of their passes in repeated laps. Clear and direct routes avoid
-        the homes of other robots if two robots would otherwise block each other for ever.
+        the homes of other robots if two robots would otherwise block each other permanently.
 
     Returns
     -------

@@ -98,7 +98,7 @@ def make_excerpt(
     -------
     plan, steady
         The plan holds whole laps of each robot beyond this time, so that no robot stays at home
-        before; a robot that stands still for ever makes no more visits. After this time, bookings
+        before; a robot that is permanently stuck makes no further visits. After this time, bookings
         may conflict: the plan is for display only. The steady state of each group that repeats has
         its first tick and its bottleneck.
 

@@ -43,7 +43,7 @@ class PoolEvent:
     Attributes
     ----------
     kind
-        What has happened.
+        The event.
     at
         When, from the start of the shift [ticks].
     name
@@ -132,7 +132,7 @@ class Pool:
         How each job has left the pool, by name: ``done``, ``withdrawn``, or a reason of
         `rightofway.model.work.UnservedReason`.
     counts
-        How many events of each kind have changed something since this pool was made.
+        The number of effective events of each kind since this pool was made.
     """
 
     def __init__(self) -> None:
@@ -149,7 +149,7 @@ class Pool:
         Parameters
         ----------
         event
-            What has happened.
+            The event.
         """
         has_changed = self._apply(event)
         self.counts[event.kind] += has_changed

@@ -143,7 +143,7 @@ class RoundPlanner:
         time_limit: float | None,
         seed: int = 0,
     ) -> Round:
-        """Return the plan of a round; the old plan where nothing else was found.
+        """Return the plan of a round; the old plan if no other one was found.
 
         Parameters
         ----------

@@ -38,7 +38,7 @@ class PlannedStep:
     job, stop
         Name of the job, and index of the stop among all its stops; None and None for a charge.
     least
-        How long a charge lasts at least [ticks]; it goes on while the robot would wait.
+        The least duration of a charge [ticks]; it continues while the robot would wait.
     """
 
     visit: int
@@ -139,12 +139,12 @@ class Round:
     postponed
         Names of the jobs that are left to later rounds.
     later
-        For each robot the stops that it goes on with behind the end of its track: a later round
-        plans the routes, before the robot comes there. Empty: no robot does.
+        For each robot the stops behind the end of its track: a later round plans the routes, before
+        the robot comes there. Empty: no robot does.
     stands
-        Whether the old plan stands, because nothing better was found.
+        Whether the old plan stays valid, because no better one was found.
     facts
-        What the round has to tell.
+        The facts to report.
     seconds
         How long it took [s].
     """

@@ -93,7 +93,7 @@ def simulate(
     `after` have ended; a charge lasts as long as in the plan. `latest` and batteries may be missed.
 
     Closures are kept by the clock: a robot starts no drive whose bookings would overlap a closure
-    if all drives and stays last as planned; robots that are caught in one all the same are counted.
+    if all drives and stays last as planned; robots that are caught in one nevertheless are counted.
 
     For delays of any length, bookings never overlap, and robots never deadlock, because the plan
     has no deadlock. Collisions and deadlocks are counted nevertheless.

@@ -73,7 +73,7 @@ class FleetBuilder:
         A layout of lanes, or its file, as `read_layout` takes it. Lengths are metres and times
         seconds, unless ``units`` says otherwise; places are names of vertices or stations.
     level, vehicle_type
-        Which level of a layout, and whose lanes, where it has several.
+        The level of a layout, and the vehicle type of its lanes, if it has several.
     cell_size
         Side of a cell of a grid or a map file [length unit].
     y
@@ -203,7 +203,7 @@ class FleetBuilder:
         name
             A name of its own.
         x, y
-            Where it lies on the site [length unit].
+            Its position on the site [length unit].
         barred
             Types of robots that may not be there.
         surcharge

@@ -60,7 +60,7 @@ def make_schema(kind: Literal["scenario", "plan", "shift", "suite"]) -> dict[str
 
     Notes
     -----
-    Every document that is accepted fits its schema. A schema cannot say everything: the readers
+    Every document that is accepted fits its schema. A schema cannot express all rules: the readers
     check, for example, that homes are free cells and that names are unique.
     """
     from pydantic import BaseModel

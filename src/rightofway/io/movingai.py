@@ -179,7 +179,7 @@ def write_scen(scenario: Scenario, path: Path | str, *, map_name: str) -> tuple[
     path
         The file.
     map_name
-        Name of the map file beside it, for the rows.
+        Name of the map file in the same folder, for the rows.
 
     Returns
     -------

@@ -35,7 +35,7 @@ class Comparison:
     tick
         The tick in which times are counted [time unit of the first plan].
     scales
-        How many of these ticks a tick of each plan lasts.
+        The length of a tick of each plan in these ticks.
     robots
         The names of all robots, those of the first plan first.
     changes

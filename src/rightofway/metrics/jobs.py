@@ -21,7 +21,7 @@ class JobTimes:
     service_time
         From its `earliest` until its end [ticks].
     late
-        How long after its `due` it ends [ticks], 0 where it is in time or has none.
+        The time from its `due` to its end [ticks], 0 if it is in time or has none.
     """
 
     job: int

@@ -59,7 +59,7 @@ class Metrics:
     def gap(self) -> float | None:
         """By which part the flowtime exceeds the lower bound: 0.1 is a tenth more.
 
-        None with jobs, whose tours no bound knows, and above a lower bound of 0.
+        None with jobs, whose tours have no bound, and above a lower bound of 0.
         """
         if self.service_time is not None:
             return None

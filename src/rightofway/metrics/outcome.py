@@ -22,8 +22,8 @@ def derive_outcome(plan: Plan) -> Outcome:
 
     Notes
     -----
-    An outcome that the plan itself refutes, because it is below the bound, counts for nothing:
-    files can be changed.
+    An outcome that the plan itself refutes, because it is below the bound, is dropped: files can be
+    changed.
     """
     outcome = plan.run.outcome
     if outcome is not None and outcome.kind in WITHOUT_PLAN:

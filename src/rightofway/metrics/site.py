@@ -37,7 +37,7 @@ class Finding:
     kind
         Its kind.
     severity
-        How much it hurts.
+        The severity of the problem.
     fact
         The finding, and its place.
     remedy

@@ -50,7 +50,7 @@ def trace_tours(
 
     Notes
     -----
-    What a drive takes counts evenly over the drive here, and at its end for the judge.
+    The energy of a drive is spread evenly over the drive here, and counts at its end for the judge.
     """
     work = plan.scenario.problem.work
     if work is None:

@@ -25,8 +25,8 @@ class Lap:
     vertices
         Where each visit is; the first is at home.
     dwell
-        How long each visit lasts at least, without the drive that follows: at a stop the work and
-        the turn, at home the turn between two laps; of a robot with a turn rate also the change of
+        The least duration of each visit, without the drive that follows: at a stop the work and the
+        turn, at home the turn between two laps; of a robot with a turn rate also the change of
         heading [ticks].
     drive
         Ticks of the edge driven into each visit; into the first: from the last one.
@@ -41,7 +41,7 @@ class Lap:
 
     @property
     def duration(self) -> Tick:
-        """How long a lap without waits lasts [ticks]."""
+        """The duration of a lap without waits [ticks]."""
         return Tick(sum(self.dwell) + sum(self.drive))
 
     def compute_least(self, visit: int) -> Tick:

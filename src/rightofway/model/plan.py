@@ -115,9 +115,9 @@ class Improvement:
     Attributes
     ----------
     saved
-        How much less the flowtime is than that of the first plan [ticks].
+        The reduction of the flowtime from that of the first plan [ticks].
     tries
-        How many changes it tried, or None where they were not counted.
+        The number of tried changes, or None if they were not counted.
     interrupted
         Whether an interrupt ended the search.
     """
@@ -200,7 +200,7 @@ class RobotPlan:
     robot
         The robot.
     track
-        Where it is, when, by vertex number.
+        Its vertices and times, by vertex number.
     vertices
         The names of the vertices that it visits, in order.
     enter

@@ -43,7 +43,7 @@ class Stage:
     vertex
         Where.
     work
-        How long the robot works there [ticks].
+        The work time of the robot there [ticks].
     turn
         How long it then turns, if an edge is to be driven afterwards [ticks]; 0 where the next
         stage is at the same vertex. In a scenario with jobs a visit turns once, after the last of
@@ -53,7 +53,7 @@ class Stage:
     latest
         The work ends then or before [ticks]; None for no limit.
     weight
-        How much a tick of the end of the work costs; 0 for nothing.
+        The cost of a tick of the end of the work; 0 for nothing.
     due
         From when on a tick of the end costs `Work.late` times the weight more [ticks]; None for
         never.
@@ -90,16 +90,16 @@ class Itinerary:
     home
         The vertex it is at from tick 0: the home, or the start of a robot with a state.
     stages
-        Its stages, in order. The vertex of the last one is where it stays for ever.
+        Its stages, in order. It stays at the vertex of the last one permanently.
     edge_ticks
         Ticks it needs for an edge, by edge class of the roadmap; -1 where it is barred.
     surcharges
         Ticks by which an edge of each class is less liked; empty where all are 0.
     turning
-        How long it turns on the spot between two edges, or None if that takes no time.
+        The times of turns on the spot between two edges, or None if they take no time.
     weight
-        How much a tick of it counts beside a tick of the other robots; whole numbers for a fleet,
-        all 1 where robots count alike.
+        The weight of a tick of it, compared with a tick of the other robots; whole numbers for a
+        fleet, all 1 where robots count alike.
     ready
         Until then the robot stays where it begins [ticks].
     heading
@@ -110,7 +110,7 @@ class Itinerary:
         [ticks]; empty where the first drive needs no turn.
     ends_anywhere
         Whether the robot, of a scenario with jobs, completes with its last work and may then drive
-        to any vertex, where it stays for ever. A last stage without work and weight is such a
+        to any vertex, where it stays permanently. A last stage without work and weight is such a
         vertex, as far as it is known.
     """
 
@@ -152,11 +152,11 @@ class Itinerary:
 
     @property
     def last(self) -> VertexId:
-        """The vertex where the robot stays for ever."""
+        """The vertex where the robot stays permanently."""
         return self.stages[-1].vertex
 
     def as_steps(self) -> Itinerary:
-        """Return the trip with a tick for each edge, and nothing else that takes time."""
+        """Return the trip with a tick for each edge, without work and turning."""
         return Itinerary(
             home=self.home,
             stages=tuple(
@@ -219,7 +219,7 @@ class Problem:
 
     @property
     def is_open(self) -> bool:
-        """Whether nothing is closed, and every robot may drive along every edge."""
+        """Whether there is no closure, and every robot may drive along every edge."""
         return self.closures is None and not self.is_barred
 
     @property

@@ -49,7 +49,7 @@ class Clock:
         return Tick(-(-above // (duration.denominator * self.tick.numerator)))
 
     def convert_to_time(self, ticks: int) -> Fraction:
-        """Return how long ``ticks`` last [time unit]."""
+        """Return the duration of ``ticks`` [time unit]."""
         return ticks * self.tick
 
 

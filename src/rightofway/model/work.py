@@ -105,7 +105,7 @@ class Job:
     stops
         At least one. Their loads sum to 0, and no first part of them to less.
     weight
-        How much the job counts compared with other jobs, positive.
+        The weight of the job, compared with other jobs, positive.
     due
         Completion after this time costs more [time unit]; None for no such time.
     types
@@ -284,7 +284,7 @@ class BoundStop:
     vertex
         Where.
     work
-        How long the robot works there [ticks].
+        The work time of the robot there [ticks].
     load
         By how much the load changes at the end of the work.
     earliest
@@ -309,9 +309,9 @@ class BoundJob:
     stops
         The stops that are left, in order; those of a begun job have no `latest`.
     first
-        How many stops are done: the index of ``stops[0]`` among all stops of the job.
+        The number of finished stops: the index of ``stops[0]`` among all stops of the job.
     weight
-        How much a tick of its completion costs; whole numbers in the ratio of the weights of jobs.
+        The cost of a tick of its completion; whole numbers in the ratio of the weights of jobs.
     due
         Completion after this tick costs more, rounded down; None for never.
     robots
@@ -375,7 +375,7 @@ class BoundRobot:
     Attributes
     ----------
     start
-        Where it is from tick 0.
+        Its vertex from tick 0.
     ready
         Until then it stays there [ticks], rounded up.
     heading

@@ -153,7 +153,7 @@ def book_times(
     Parameters
     ----------
     problem
-        The scenario in ticks; its booking rules say when bookings begin and end.
+        The scenario in ticks; its booking rules define begin and end of bookings.
     tracks
         One track for each robot.
     drive

@@ -46,7 +46,7 @@ class PlannerSpec:
 
     @property
     def options(self) -> tuple[Option, ...]:
-        """Every option with its default, what it may be, and what it does."""
+        """Every option with its default, its values, and its effect."""
         return self.options_type.described()
 
     def load(self) -> Planner:

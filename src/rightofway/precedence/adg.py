@@ -184,7 +184,7 @@ class ActionDependencyGraph:
         When each visit was given its right of way; it begins no sooner [ticks]; int64[N]. Without,
         tick 0.
     tours
-        Of a plan with jobs: what robots do in which visits. They give the routes.
+        Of a plan with jobs: the items of robots, with their visits. They give the routes.
 
     Attributes
     ----------

@@ -155,7 +155,7 @@ class PrecedenceGraph:
         return not self._delays_frozen and self._kernel.precede(first, second)
 
     def give_all(self, rights: Iterable[tuple[Visit, Visit]]) -> bool:
-        """Give several rights of way; false, with nothing changed, if that is impossible."""
+        """Give several rights of way; false, without a change, if that is impossible."""
         mark = self.checkpoint()
         if all(self.give_way(first, second) for first, second in rights):
             return True
@@ -213,7 +213,7 @@ class PrecedenceGraph:
             raise ValueError("when: in this order some visit cannot take place")
 
     def keeps_order(self, when: Sequence[Sequence[int] | NDArray[np.int64]]) -> bool:
-        """Do as `keep_order`; false, with nothing changed, if some visit cannot take place."""
+        """Do as `keep_order`; false, without a change, if some visit cannot take place."""
         return self._kernel.keep_order(np.concatenate(when, dtype=np.int64))
 
     def list_rights_of(self, robot: int) -> list[tuple[Visit, Visit]]:
@@ -263,7 +263,7 @@ class PrecedenceGraph:
         self._kernel.rollback(mark)
 
     def withdraw(self, robot: int) -> None:
-        """Remove a robot for good: it has no conflicts any more, and no robot waits for it."""
+        """Remove a robot for good: it then has no conflicts, and no robot waits for it."""
         self._last_dwells -= self.routes[robot].dwell[-1]
         self._kernel.withdraw(robot)
 
@@ -293,7 +293,7 @@ class PrecedenceGraph:
         return Meeting(tick=Tick(tick), kind="vertex", robots=robots, visits=(first, other))
 
     def get_completion(self, robot: int) -> Tick:
-        """Return when a robot has done its work and is where it ends."""
+        """Return the completion time of a robot."""
         return Tick(self._kernel.completion(robot) + self.routes[robot].dwell[-1])
 
     def compute_flowtime(self) -> Tick:

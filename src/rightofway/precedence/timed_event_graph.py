@@ -88,9 +88,9 @@ class Arcs:
     tail, head
         Visits; int32.
     length
-        How long after its tail the head comes at least [ticks]; int64.
+        The least time from tail to head [ticks]; int64.
     height
-        How many periods later; int32.
+        The number of periods between; int32.
     first
         The visit that goes first where the arc is a right of way, -1 where it is a robot's own
         progress; int32.

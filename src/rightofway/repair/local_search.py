@@ -165,7 +165,7 @@ class LocalSearch:
         return self.give_all(rights)
 
     def give_all(self, rights: Sequence[tuple[int, int]]) -> bool:
-        """Give several rights of way; false, with nothing changed, if that is impossible."""
+        """Give several rights of way; false, without a change, if that is impossible."""
         return all(self.may_wait(second) for _, second in rights) and self.graph.give_all(rights)
 
     def resolve(self, *, below: Value | None = None, preference: _Preference | None = None) -> bool:

@@ -119,7 +119,7 @@ class Draft:
         Whether the plan may hold swaps, as plans of the published method do.
     proof
         A lower bound that the planner has proven; None where it proves nothing beyond the sum of
-        the robots alone, which `rightofway.solve` knows.
+        the robots alone, which `rightofway.solve` computes.
     """
 
     tracks: tuple[Track, ...]

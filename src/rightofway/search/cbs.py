@@ -61,7 +61,7 @@ class ConflictBasedSearch:
     targets
         Whether conflicts with robots that have reached their ends are resolved as such.
     disjoint
-        Whether one child of a conflict holds a robot to where it is, and the other keeps it away;
+        Whether one child of a conflict requires a robot at its place, and the other excludes it;
         for points without headway.
     pairs
         Whether nodes are split by the completion times of pairs that lose to each other.
@@ -196,7 +196,7 @@ def find_fewest_actions(
     """Return tracks of no higher cost with which robots wait and drive less often.
 
     A wait is a visit that lasts longer than the work, turns and drive that it is for. Waits and
-    drives count alike, so that nobody drives to and fro rather than wait.
+    drives count alike, so that no robot drives to and fro instead of waiting.
 
     Parameters
     ----------

@@ -106,7 +106,7 @@ class FleetSearch:
 
     @property
     def idle(self) -> int:
-        """How many times in a row `improve` has brought no gain."""
+        """The number of consecutive calls of `improve` without a gain."""
         return self._core.n_idle
 
     def prioritize(

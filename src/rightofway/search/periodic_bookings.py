@@ -186,7 +186,7 @@ class PeriodicBookings:
             raise ValueError(f"enter: a booking of robot {robot} overlaps another robot's")
 
     def add_if_free(self, robot: int, lap: Lap, count: int, enter: NDArray[np.int64]) -> bool:
-        """Book as `add` does; false, with nothing booked, if a booking overlaps another robot's."""
+        """Book as `add` does; false, without a booking, if one overlaps another robot's."""
         visits, edges = self._list_visits(robot, lap, count)
         return self._kernel.add(robot, *visits, enter, None, edges)
 
@@ -229,7 +229,7 @@ class PeriodicBookings:
         Notes
         -----
         Complete for this lap, unless no other robot visits its home: then the robot stays there
-        until the phase, and None says nothing about other phases.
+        until the phase, and None excludes no other phase.
         """
         visits, edges = self._list_visits(robot, lap, count)
         enter = self._kernel.search(*visits, phase, time_limit, edges)

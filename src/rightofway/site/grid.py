@@ -43,7 +43,7 @@ def make_grid_roadmap(
     cell_size
         Side of a cell, and so the length of every edge [length unit].
     y_up
-        Whether y grows upwards in the site's frame; the first row is the upper one all the same.
+        Whether y grows upwards in the site's frame; the first row is the upper one in any case.
     origin
         The lower left corner of the grid in the site's frame [length unit]. By default (0, 0) is
         the corner of the grid that has the least x and y.

@@ -101,12 +101,12 @@ class EdgeClass:
         return dict(self.max_speed_by_type).get(robot_type, self.max_speed)
 
     def limit_speed(self, speed: Fraction, robot_type: str | None) -> Fraction:
-        """Return how fast a robot of a speed and a type drives along an edge."""
+        """Return the speed of a robot of a speed and a type along an edge."""
         limit = self.get_speed_limit(robot_type)
         return speed if limit is None else min(speed, limit)
 
     def compute_duration(self, speed: Fraction, robot_type: str | None = None) -> Fraction:
-        """Return how long a robot of a speed and a type drives along an edge [time unit]."""
+        """Return the time of a robot of a speed and a type along an edge [time unit]."""
         speed = self.limit_speed(speed, robot_type)
         return self.length if speed == 1 else self.length / speed
 

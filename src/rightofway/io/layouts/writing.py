@@ -66,7 +66,7 @@ def format_layout(layout: Layout, name: str) -> tuple[str, tuple[Fact, ...]]:
     Raises
     ------
     InputError
-        If the name is unknown, or the layout has several levels and the format knows one.
+        If the name is unknown, or the layout has several levels and the format only one.
     """
     writer = LAYOUT_WRITERS[make_words(*sorted(LAYOUT_WRITERS)).read_at("name", name)]
     if len(layout.levels) > 1 and "levels" not in writer.says:

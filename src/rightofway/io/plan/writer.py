@@ -35,7 +35,7 @@ def dump_plan(plan: Plan, *, seconds: bool = False) -> dict[str, Any]:
     plan
         A plan; it need not keep the rules.
     seconds
-        Whether to keep how long planning took, which no two runs agree on.
+        Whether to keep the time of planning, which differs between runs.
 
     Raises
     ------
@@ -100,7 +100,7 @@ def format_plan(plan: Plan, *, seconds: bool = False) -> str:
     plan
         The plan.
     seconds
-        Whether to write how long planning took.
+        Whether to write the time of planning.
     """
     return format_json(dump_plan(plan, seconds=seconds))
 

@@ -79,7 +79,7 @@ def parse_scenario(
     ----------
     document
         Plain data, as a YAML or JSON file would hold. A float counts as the shortest decimal that
-        stands for it.
+        represents it.
     base
         The directory that files in it are relative to; None if it may name none.
     source

@@ -52,10 +52,10 @@ def make_page(
     plan
         The plan.
     steady
-        Where the plan repeats itself, unless it says so itself: the page marks the periods and
+        The steady state of the plan, if the plan has none itself: the page marks the periods and
         repeats one endlessly.
     actual
-        An execution of the plan: the page shows it beside the plan.
+        An execution of the plan: the page shows it next to the plan.
     no_plan
         Why the fleet has no plan; ``plan`` then holds every robot at its home.
     title
