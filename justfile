@@ -84,6 +84,7 @@ nightly law_seconds="60":
         just chaos 20000; \
         just kills 200; \
         just chaos-broker 100; \
+        just chaos-broker 100 --jobs; \
         just fuzz-states 20000; \
         just fuzz-files 20000; \
         just fuzz-bindings --count 20000; \
@@ -113,7 +114,7 @@ chaos count *args:
 chaos-jobs first last:
     python -m tests.campaigns.jobs {{ first }} {{ last }}
 
-# Drive plans over a real broker COUNT times (0: without end), its processes killed at random
+# Drive plans over a real broker COUNT times (0: without end), its processes killed at random; `--jobs`
 chaos-broker count *args:
     python -m tests.campaigns.broker {{ count }} {{ args }}
 

@@ -2,17 +2,29 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
+import sqlite3
 from functools import cache
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import rightofway
 from rightofway.control.demo import drive_demo
 from rightofway.control.endpoints import Letter
+from rightofway.control.journal import JournalReader
+from rightofway.control.ledger import Ledger
 from rightofway.io import parse_scenario
 from rightofway.model import Plan
 
-__all__ = ["Action", "driven_actions", "floor_document", "floor_plan"]
+__all__ = [
+    "Action",
+    "count_finished",
+    "driven_actions",
+    "floor_document",
+    "floor_plan",
+    "read_pool",
+]
 
 
 def floor_document() -> dict[str, Any]:
@@ -77,3 +89,25 @@ def driven_actions(plan: Plan, **options: Any) -> tuple[list[Action], list[dict[
 
     drive_demo(plan, watch=watch, **options)
     return actions, states
+
+
+def read_pool(journal: Path) -> dict[str, str]:
+    """Return how jobs have left the pool, by the entries of a journal."""
+    reader = JournalReader(journal)
+    ledger = Ledger(floor_plan().scenario.roadmap)
+    for row in reader.read_rows():
+        ledger.read(row.number, row.entry)
+    reader.close()
+    return dict(ledger.pool.left)
+
+
+def count_finished(journal: Path) -> dict[str, int]:
+    """Return how often the journal has each stop of a job as finished, in their order."""
+    with contextlib.closing(sqlite3.connect(journal)) as database:
+        query = "SELECT json_extract(entry, '$.job'), count(*) FROM entries"
+        return dict(
+            database.execute(
+                f"{query} WHERE json_extract(entry, '$.kind') = 'finished'"
+                " AND json_extract(entry, '$.job') LIKE '%/%' GROUP BY 1 ORDER BY min(number)"
+            )
+        )

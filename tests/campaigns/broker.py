@@ -4,6 +4,8 @@ Each run is a plan of some robots with trouble of their own. Its control is kill
 on its journal, its broker is killed, until all robots are home. A fault is a place that two robots
 hold, an order with two contents, a message that is not valid, a job lost or done twice, or a run
 that does not end.
+
+With ``--jobs`` jobs become known, change and are withdrawn meanwhile, and each stop is counted.
 """
 
 from __future__ import annotations
@@ -17,17 +19,18 @@ import time
 import traceback
 from collections import Counter
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
-from functools import partial
 from itertools import count
 from pathlib import Path
 from random import SystemRandom
 
+from rightofway.control.commands import Commands
 from rightofway.io import write_plan
 from tests.builders.brokers import Command, Mosquitto, WarmCommand, wait_for
+from tests.builders.floor_jobs import count_finished, floor_plan, read_pool
 from tests.builders.observers import Observer
 from tests.builders.warehouses import warehouse
 
-__all__ = ["run_chaos_at_a_broker"]
+__all__ = ["run_chaos_at_a_broker", "run_jobs_at_a_broker"]
 
 TROUBLES = {"late": 0.5, "stop": 0.05, "error": 0.05, "offline": 0.05, "reset": 0.05}
 """The largest share of each kind of trouble."""
@@ -89,6 +92,87 @@ def run_chaos_at_a_broker(seed: int, robots: int | None = None) -> Counter[str]:
     return counts
 
 
+def run_jobs_at_a_broker(seed: int) -> Counter[str]:
+    """Make one run in which people ask for jobs; return what happened.
+
+    Raises
+    ------
+    AssertionError
+        At a fault.
+    """
+    draw = random.Random(seed)  # noqa: S311
+    options = ["--seed", str(seed), "--time-scale", str(draw.choice([5, 10, 20]))]
+    for kind in ("late", "offline", "reset"):
+        options += ["--trouble", f"{kind}:{draw.uniform(0, TROUBLES[kind]):.3f}"]
+    counts = Counter({"runs": 1})
+    with tempfile.TemporaryDirectory(prefix="rightofway-chaos-") as name:
+        folder, broker = Path(name), Mosquitto(Path(name))
+        write_plan(floor_plan(), folder / "plan.json")
+        observer = Observer(broker.port)
+        own = ("plan.json", "--broker", broker.url, *options, "--write-identities", "robots.yaml")
+        asked = ("--broker", broker.url, "--identities", "robots.yaml", "--stay")
+        journal = folder / "plan.journal"
+        try:
+            with Command(folder, "robots", *own).running():
+                wait_for((folder / "robots.yaml").exists, 120, "the file of identities")
+                with WarmCommand(folder, "drive", "plan.json", *asked).running() as drive:
+                    wait_for(lambda: "sets out" in drive.log, LONGEST, "robots")
+                    names = _ask_for_jobs(drive, broker, journal, draw, counts)
+                    try:
+                        wait_for(lambda: read_pool(journal).keys() >= names, LONGEST, "all jobs")
+                    except AssertionError as error:
+                        error.add_note(f"{names - read_pool(journal).keys()}: {drive.log[-3000:]}")
+                        raise
+            _judge_jobs(journal, counts)
+            counts.update({f"{key}s": value for key, value in observer.counts.items()})
+            observer.close()
+        finally:
+            broker.kill()
+    return counts
+
+
+def _ask_for_jobs(
+    drive: Command, broker: Mosquitto, journal: Path, draw: random.Random, counts: Counter[str]
+) -> set[str]:
+    """Add, change and withdraw jobs, and kill control and broker; return the names of all jobs."""
+    names, commands = {"J1", "J2", "J3"}, Commands(journal)
+    places = ["N0", "N2", "N3", "N5", "N7", "N10", "N12", "N13"]
+    for number in range(draw.randrange(4, 20)):
+        kind = draw.choice(["add", "add", "add", "change", "withdraw", "kill", "broker", "wait"])
+        name = draw.choice(sorted(names))
+        if kind == "add":
+            name = f"A{number}" if draw.random() < 0.8 else name  # else it is asked for again
+            given = {"pickup": draw.choice(places), "dropoff": draw.choice(places)}
+            commands.ask({"kind": kind, "name": name, **given, "urgent": draw.random() < 0.2})
+            names.add(name)
+        elif kind in {"change", "withdraw"}:
+            commands.ask({"kind": kind, "name": name, "at": draw.choice(places)})
+        elif kind == "kill":
+            drive.kill()
+            drive.start()
+        elif kind == "broker" and draw.random() < 0.3:
+            broker.kill()
+            broker.start()
+        counts[f"{kind}s"] += 1
+        time.sleep(draw.expovariate(1.0))
+    commands.close()
+    return names
+
+
+def _judge_jobs(journal: Path, counts: Counter[str]) -> None:
+    """Raise where a stop was done twice, or in the wrong order, or a withdrawn job was done."""
+    finished, left = count_finished(journal), read_pool(journal)
+    stops: dict[str, list[int]] = {}
+    for item, times in finished.items():
+        assert times == 1, f"{item} was done {times} times"
+        name, _, stop = item.rpartition("/")
+        stops.setdefault(name, []).append(int(stop))
+    for name, numbers in stops.items():
+        assert numbers == sorted(numbers), f"stops of {name} were done in the order {numbers}"
+        assert left[name] == "done", f"{name} has left as {left[name]}, with stops {numbers}"
+    counts.update(f"jobs {state}" for state in left.values())
+
+
 def _kill(
     drive: Command, broker: Mosquitto, observer: Observer, draw: random.Random, counts: Counter[str]
 ) -> None:
@@ -123,9 +207,11 @@ def main() -> int:
     parser.add_argument("count", type=int, help="runs to make; 0 for no end")
     parser.add_argument("--seed", type=int, default=SystemRandom().randrange(10**9))
     parser.add_argument("--at-once", type=int, default=6, help="runs beside each other")
+    parser.add_argument("--jobs", action="store_true", help="ask for jobs meanwhile")
     parser.add_argument("--seconds", type=float, default=math.inf, help="begin no run after them")
     given = parser.parse_args()
     _say(f"chaos-broker {given.count} --seed {given.seed}")
+    run = run_jobs_at_a_broker if given.jobs else run_chaos_at_a_broker
     began, total, faults = time.perf_counter(), Counter[str](), 0
     seeds = iter(range(given.seed, given.seed + given.count) if given.count else count(given.seed))
     with ThreadPoolExecutor(given.at_once) as pool:
@@ -136,7 +222,7 @@ def main() -> int:
                 and time.perf_counter() - began < given.seconds
                 and (seed := next(seeds, None)) is not None
             ):
-                running[pool.submit(partial(run_chaos_at_a_broker, seed))] = seed
+                running[pool.submit(run, seed)] = seed
             if not running:
                 break
             for ended in wait(running, return_when=FIRST_COMPLETED).done:

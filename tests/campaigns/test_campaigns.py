@@ -52,6 +52,7 @@ def test_a_studio_that_is_killed_loses_nothing(law_seed: int) -> None:
 
 
 @pytest.mark.skipif(MOSQUITTO is None, reason="mosquitto is not installed")
-def test_plans_are_driven_over_a_broker_that_is_killed() -> None:
-    said = said_by("tests.campaigns.broker", "2", "--seed", "3")
+@pytest.mark.parametrize("options", [(), ("--jobs",)])
+def test_plans_are_driven_over_a_broker_that_is_killed(options: tuple[str, ...]) -> None:
+    said = said_by("tests.campaigns.broker", "2", "--seed", "3", *options)
     assert re.search(r"^chaos-broker: 2 runs, 0 faults, \d+ s$", said, re.MULTILINE), said

@@ -2,44 +2,18 @@
 
 from __future__ import annotations
 
-import contextlib
-import sqlite3
 from pathlib import Path
 
 import pytest
 
-from rightofway.control.journal import JournalReader
-from rightofway.control.ledger import Ledger
 from rightofway.io import write_plan
 from tests.builders.brokers import MOSQUITTO, Command, Mosquitto, wait_for
-from tests.builders.floor_jobs import floor_plan
+from tests.builders.floor_jobs import count_finished, floor_plan, read_pool
 
 pytestmark = pytest.mark.slow
 
 PATIENCE = 90
 """Seconds in which a run ends that takes some five of them."""
-
-
-def read_pool(journal: Path) -> dict[str, str]:
-    """Return how jobs have left the pool, by the entries of a journal."""
-    reader = JournalReader(journal)
-    ledger = Ledger(floor_plan().scenario.roadmap)
-    for row in reader.read_rows():
-        ledger.read(row.number, row.entry)
-    reader.close()
-    return dict(ledger.pool.left)
-
-
-def count_finished(journal: Path) -> dict[str, int]:
-    """Return how often the journal says that each stop of a job is finished."""
-    with contextlib.closing(sqlite3.connect(journal)) as database:
-        query = "SELECT json_extract(entry, '$.job'), count(*) FROM entries"
-        return dict(
-            database.execute(
-                f"{query} WHERE json_extract(entry, '$.kind') = 'finished'"
-                " AND json_extract(entry, '$.job') LIKE '%/%' GROUP BY 1"
-            )
-        )
 
 
 @pytest.mark.skipif(MOSQUITTO is None, reason="mosquitto is not installed")
