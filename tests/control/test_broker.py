@@ -488,6 +488,31 @@ def test_the_commands_of_the_page_take_in_a_robot_that_comes_later(
                 assert asking.wait(30) == 0, asking.log
 
 
+def test_all_robots_stop_at_once_where_they_are_and_go_on(
+    tmp_path: Path, broker: Mosquitto
+) -> None:
+    """Their factsheets list startPause. A control that was killed meanwhile ends the pause."""
+    observer = Observer(broker.port)
+    with robots_of(warehouse(20), tmp_path, broker.url, "--time-scale", "2"):
+        wait_for((tmp_path / "robots.yaml").exists, 60, "the file of identities")
+        options = ("plan.json", "--broker", broker.url, "--identities", "robots.yaml")
+        with Command(tmp_path, "drive", *options).running() as drive:
+            wait_for(lambda: drive.log.count("sets out") > 10, 60, "drives")
+            with Command(tmp_path, "jobs", "plan.journal", "stop").running() as asking:
+                assert asking.wait(30) == 0, asking.log
+            wait_for(lambda: drive.log.count("is paused: it gets") == 20, 30, "pauses of all")
+            orders = set(observer.orders)
+            drive.kill()
+            drive.start()
+            wait_for(lambda: drive.log.count("is paused: it gets") == 40, 30, "pauses again")
+            assert set(observer.orders) == orders
+            with Command(tmp_path, "jobs", "plan.journal", "go").running() as asking:
+                assert asking.wait(30) == 0, asking.log
+            wait_for(lambda: drive.log.count("is paused no longer") == 20, 30, "the ends")
+            wait_for(lambda: set(observer.orders) != orders, 60, "further orders")
+    observer.close()
+
+
 def test_the_drawing_of_the_page_becomes_robots_that_drive(
     tmp_path: Path, broker: Mosquitto
 ) -> None:

@@ -493,6 +493,25 @@ def test_a_robot_on_hold(floor: Floor) -> None:
     assert floor.ends_well()
 
 
+@pytest.mark.parametrize("can_pause", [True, False])
+def test_a_robot_that_is_stopped_pauses_if_its_factsheet_has_that(
+    floor: Floor, can_pause: bool
+) -> None:
+    """Without startPause it drives to the end of its released nodes, as on hold."""
+    if can_pause:
+        floor.dispatcher.control.can_pause.add(1)
+    before = floor.places[1]
+    floor.send(floor.operator.operate("stop", "R2"))
+    floor.wait()
+    assert floor.robots[1].robot.is_paused == can_pause
+    assert (floor.places[1] == before) == can_pause
+    floor.send(floor.operator.operate("go", "R2"))
+    floor.wait()
+    assert not floor.robots[1].robot.is_paused
+    assert floor.dispatcher.ledger.robots[1].pause is None
+    assert floor.ends_well()
+
+
 def test_a_robot_that_is_passed_no_longer_is_planned_with_again(
     floor: Floor, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -87,7 +87,24 @@ FACTSHEET: dict[str, dict[str, Any]] = {
         "maxArrayLens": {},
         "timing": {"minOrderInterval": 0.0, "minStateInterval": 0.0},
     },
-    "protocolFeatures": {"optionalParameters": [], "agvActions": []},
+    "protocolFeatures": {
+        "optionalParameters": [],
+        "agvActions": [
+            {
+                "actionType": kind,
+                "actionScopes": ["INSTANT"],
+                "pauseAllowed": True,
+                "cancelAllowed": False,
+            }
+            for kind in (
+                "cancelOrder",
+                "factsheetRequest",
+                "startPause",
+                "stateRequest",
+                "stopPause",
+            )
+        ],
+    },
     "agvGeometry": {},
     "loadSpecification": {},
 }
@@ -333,6 +350,8 @@ class ControlEnd:
     def _compare(self, robot: int, sheet: vda5050.Factsheet) -> None:
         """Report where a robot is slower or larger than the plan takes it to be."""
         scenario = self._maps[robot].scenario
+        if sheet.can_pause:
+            self.control.can_pause.add(robot)
         if (begin := compare_speed(scenario, robot, sheet)) is not None:
             self.notices.begin(robot, "speed", begin, Fact("fast enough"))
         else:
@@ -503,8 +522,10 @@ class RobotEnd:
 
     def report_state(self) -> Letter:
         """Return its state as it is sent."""
-        robot = self.robot
-        state = robot.report_state(self.condition, self.battery.soc if self.battery else None)
+        robot, condition = self.robot, self.condition
+        if robot.is_paused:
+            condition = replace(condition, is_paused=True)
+        state = robot.report_state(condition, self.battery.soc if self.battery else None)
         body = vda5050.StateMessage.of(
             replace(state, theta=self._find_theta()),
             [node.place for node in robot.ahead],

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from fractions import Fraction
+from typing import Literal
 
 from rightofway.control.journal import Entry, Journal, JournalFailed
 from rightofway.control.ledger import Ledger, make_plan_entry
@@ -131,6 +132,7 @@ class FleetControl:
         self.places: dict[int, str] = {}
         self.points: dict[int, tuple[float, float]] = {}
         self.lost, self.refused, self.stranded = set[int](), set[int](), set[int]()
+        self.can_pause = set[int]()
         self._reminded = set[int]()  # robots that were sent again what they have not answered
         self._just_sent = set[int]()  # robots that the next reminder leaves out
         self.dispatch: Callable[[], list[Message]] = list
@@ -311,7 +313,7 @@ class FleetControl:
         # Facts are committed before anything is released because of them (rule 5).
         facts = list(list_facts(self.ledger, robot, state, visit, self._report))
         self.commit(*facts)
-        answers = list(self._follow_state(robot, state))
+        answers = [*self._follow_state(robot, state), *self._follow_pause(robot, state)]
         self.commit(*answers)
         # At once: by the timer alone, a robot that says often that it has no order, because the
         # next one is not sent yet, could be asked without end.
@@ -372,6 +374,28 @@ class FleetControl:
             yield own.message
         elif own.cancel is not None and own.cancel.action_id is not None:
             yield InstantAction(robot=robot, action_id=own.cancel.action_id, kind="cancelOrder")
+        # No release depends on a pause: it goes beside the others.
+        yield from self.list_pauses(robot)
+
+    def list_pauses(self, robot: int) -> Iterator[InstantAction]:
+        """Yield the message that begins or ends a pause, until a state shows it."""
+        own, condition = self.ledger.robots[robot], self.conditions.get(robot)
+        if own.pause is None or robot not in self.can_pause:
+            return
+        is_paused = condition is not None and condition.is_paused
+        if not own.pause.is_on or not is_paused:
+            kind: Literal["startPause", "stopPause"]
+            kind = "startPause" if own.pause.is_on else "stopPause"
+            yield InstantAction(robot=robot, action_id=own.pause.action_id, kind=kind)
+
+    def _follow_pause(self, robot: int, state: StateReport) -> Iterator[Entry]:
+        """Yield the end of a pause, once the robot has answered and is not paused."""
+        own = self.ledger.robots[robot]
+        if own.pause is None or own.pause.is_on or state.condition.is_paused:
+            return
+        has_answered = state.actions.get(own.pause.action_id) in {"FINISHED", "FAILED"}
+        if has_answered or robot not in self.can_pause:
+            yield {"kind": "pause over", "robot": robot}
 
     # Some methods below are a call and no more: chaos has a wrong wording of the rule for each.
 

@@ -74,11 +74,11 @@ class Order:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InstantAction:
-    """An immediate command: send the state, or stop and cancel the order."""
+    """An immediate command: send the state, cancel the order, pause, or end the pause."""
 
     robot: int
     action_id: str
-    kind: Literal["stateRequest", "cancelOrder", "factsheetRequest"]
+    kind: Literal["stateRequest", "cancelOrder", "factsheetRequest", "startPause", "stopPause"]
 
 
 Message = Order | InstantAction

@@ -6,7 +6,7 @@ was killed knows at its next start which commands it has carried out.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise
@@ -49,6 +49,7 @@ __all__ = ["OPERATIONS", "Operator"]
 OPERATIONS: Mapping[str, Entry] = {
     "hold": {"kind": "hold", "on": True},  # nothing more is released to it until it is let go
     "go": {"kind": "hold", "on": False},
+    "stop": {"kind": "hold", "on": True},  # and it pauses where it is, if it can
     "cancel": {"kind": "cancel wanted"},  # as far as it can stop before
     "clear": {"kind": "cleared"},  # a person confirms that it is where the journal has it
     "remove": {"kind": "taken off"},  # a person confirms that it is off the floor
@@ -201,7 +202,7 @@ class Operator:
         kind
             One of `OPERATIONS`.
         name
-            Of the robot; None for all, with hold and go.
+            Of the robot; None for all, with hold, go and stop.
 
         Raises
         ------
@@ -216,10 +217,22 @@ class Operator:
         fact = Fact("all operated", operation=kind)
         if name is not None:
             fact = Fact("operated", robot=name, operation=kind)
-        messages = self._note(*({**entry, "robot": robot} for robot in robots), fact=fact)
+        entries: list[Entry] = [{**entry, "robot": robot} for robot in robots]
+        entries += (pause for robot in robots for pause in self._list_pauses(kind, robot))
+        messages = self._note(*entries, fact=fact)
+        control = self._dispatcher.control
+        messages += (pause for robot in robots for pause in control.list_pauses(robot))
         if self._dispatcher.rounds is not None and kind in {"clear", "remove"}:
             messages += self._dispatcher.replan()
         return messages
+
+    def _list_pauses(self, kind: str, robot: int) -> Iterator[Entry]:
+        """Yield the entry of a pause that begins or ends; robots that cannot pause are on hold."""
+        own = self._ledger.robots[robot]
+        was_on = own.pause is not None and own.pause.is_on
+        if (kind == "stop" and not was_on) or (kind == "go" and was_on):
+            action = f"{self._ledger.run}-{robot}-pause{own.pauses}"
+            yield {"kind": "pause wanted", "robot": robot, "on": kind == "stop", "action": action}
 
     def place_robot(self, name: str, at: str | None = None) -> list[Message]:
         """Take in a robot again that was off the floor, where a person has put it.

@@ -43,6 +43,22 @@ class Cancel:
     stands_at: int | None = None  # the part of the order of one node
 
 
+@dataclass(frozen=True, slots=True)
+class Pause:
+    """A pause that a person has asked for.
+
+    Attributes
+    ----------
+    is_on
+        Whether the robot is to pause; else it is to end its pause.
+    action_id
+        The id of the instant action.
+    """
+
+    is_on: bool
+    action_id: str
+
+
 @dataclass(slots=True)
 class RobotLedger:
     """One robot. It holds the vertex last arrived at and every released part after it."""
@@ -61,6 +77,8 @@ class RobotLedger:
     cancel: Cancel | None = None
     cancels: int = 0
     is_on_hold: bool = False
+    pause: Pause | None = None  # that a person wants to begin or end
+    pauses: int = 0
     fault: Entry | None = None  # as a fact has it
     strays_at: str | None = None  # the place that a faulty robot names
     is_off: bool = False  # taken off the floor
@@ -178,6 +196,7 @@ class RobotLedger:
                 "orders": orders,
                 "message": Order.of_document(message) if message else None,
                 "cancel": Cancel(**cancel) if cancel else None,
+                "pause": Pause(**document["pause"]) if document["pause"] else None,
                 "finished": set(document["finished"]),
                 "failed": set(document["failed"]),
             }
@@ -262,6 +281,14 @@ def _hold(own: RobotLedger, entry: Entry) -> None:
     own.is_on_hold = entry["on"]
 
 
+def _want_pause(own: RobotLedger, entry: Entry) -> None:
+    own.pause, own.pauses = Pause(entry["on"], entry["action"]), own.pauses + 1
+
+
+def _end_pause(own: RobotLedger, _: Entry) -> None:
+    own.pause = None
+
+
 def _take_off(own: RobotLedger, _: Entry) -> None:
     own.is_off = True
 
@@ -305,6 +332,8 @@ APPLY_TO_ROBOT: Mapping[str, Callable[[RobotLedger, Entry], None]] = {
     "fault": _find_fault,
     "cleared": _clear,
     "hold": _hold,
+    "pause wanted": _want_pause,
+    "pause over": _end_pause,
     "taken off": _take_off,
     "placed": _place,
     "again": _record_retry,

@@ -57,10 +57,12 @@ class SimulatedRobot:
         Actions that pick a load (True) or drop one, by their ids; its owner knows.
     loads
         What it carries.
+    is_paused
+        Whether it stands until its pause ends.
     """
 
     def __init__(self, place: str) -> None:
-        self.place, self.is_driving = place, False
+        self.place, self.is_driving, self.is_paused = place, False, False
         self.ahead: list[OrderNode] = []
         self.done: dict[str, int] = {}
         self.rejected, self.instant_actions = 0, set[str]()
@@ -83,6 +85,8 @@ class SimulatedRobot:
     @property
     def next_step(self) -> Step | None:
         """The action of the next `step`; None for none."""
+        if self.is_paused:
+            return None
         if self.is_driving:
             return "arrive"
         if self._waiting:
@@ -162,9 +166,12 @@ class SimulatedRobot:
         Parameters
         ----------
         action
-            A request for a state or a factsheet, or the withdrawal of the order.
+            A request for a state or a factsheet, the begin or the end of a pause, or the withdrawal
+            of the order.
         """
         self.instant_actions.add(action.action_id)
+        if action.kind in {"startPause", "stopPause"}:
+            self.is_paused = action.kind == "startPause"
         if action.kind != "cancelOrder":
             self._actions[action.action_id] = "FINISHED"
             return True

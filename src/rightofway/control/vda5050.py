@@ -287,7 +287,9 @@ def name_edge(tail: str, head: str) -> str:
 
 class _InstantAction(_Model):
     actionId: str
-    actionType: Literal["stateRequest", "cancelOrder", "factsheetRequest"]
+    actionType: Literal[
+        "stateRequest", "cancelOrder", "factsheetRequest", "startPause", "stopPause"
+    ]
     blockingType: str = "NONE"
     # The schema of instant actions of 2.0 asks for the type under another name than its text.
     actionName: str | None = None
@@ -582,10 +584,27 @@ class _Physical(_Model):
     length: float | None = None
 
 
+class _KnownAction(_Model):
+    actionType: str
+
+
+class _Features(_Model):
+    agvActions: tuple[_KnownAction, ...] = Field(
+        default=(), strict=False, validation_alias=AliasChoices("agvActions", "mobileRobotActions")
+    )
+
+
 class Factsheet(_Model):
-    """The kind of a robot: how fast and how large [m/s, m]."""
+    """The kind of a robot: how fast and how large it is [m/s, m], and its actions."""
 
     physicalParameters: _Physical = _Physical()
+    protocolFeatures: _Features = _Features()
+
+    @property
+    def can_pause(self) -> bool:
+        """Whether it knows the actions that begin and end a pause."""
+        known = {action.actionType for action in self.protocolFeatures.agvActions}
+        return {"startPause", "stopPause"} <= known
 
 
 Body = OrderMessage | InstantActions | StateMessage | ConnectionMessage | Factsheet

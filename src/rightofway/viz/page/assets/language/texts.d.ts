@@ -73,6 +73,7 @@ export interface PageTexts {
     holdUps: string;
     orders: string;
     holdAll: string;
+    stopAll: string;
     goAll: string;
     holdOne: string;
     clearOne: string;

@@ -28,6 +28,7 @@ export class Orders {
     this.at = root.part("order-at", HTMLInputElement);
     const { driven: own } = texts;
     root.part("hold-all").addEventListener("click", () => this.#send("hold")); // safe: not asked first
+    root.part("stop-all").addEventListener("click", () => this.#send("stop"));
     root.part("go-all").addEventListener("click", () => this.#confirm(own.goAllAsked, "go"));
     this.one.addEventListener("click", () => this.#send(this.#isHeld ? "go" : "hold", this.#name));
     this.clear.addEventListener("click", () =>

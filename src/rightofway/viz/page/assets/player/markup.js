@@ -210,6 +210,7 @@ ${below(STATES, ["zoom-in", "zoom-out", "fit", "bottleneck", "corridor", "space"
   </section>
   <div id="orders" class="orders" role="toolbar" data-label="orders" hidden>
     <button type="button" id="hold-all" class="quiet" data-text="holdAll"></button>
+    <button type="button" id="stop-all" class="quiet" data-text="stopAll"></button>
     <button type="button" id="go-all" class="quiet" data-text="goAll"></button>
     <button type="button" id="hold-one" class="quiet" data-text="holdOne" hidden></button>
     <button type="button" id="clear-one" class="quiet" data-text="clearOne" hidden></button>
