@@ -61,6 +61,30 @@ def test_a_robot_charges_at_home_while_it_has_nothing_to_do() -> None:
     assert (20, Fraction(1)) in record.robots[0].soc
 
 
+def test_a_robot_whose_next_job_goes_to_another_one_charges_for_its_rest() -> None:
+    """R1 has 5 of 20 cells left at N7, when it has driven 15; at home it needs 2 + 7 of them.
+
+    A round begins at tick 25, in which it has nothing to do and 10 cells. It charges 6 more, and
+    has 9 at home.
+    """
+    stops = [{"at": "N5"}, {"at": "N1"}, {"at": "N5"}]
+    jobs = [
+        {"name": "J1", "stops": stops, "robot": "R1"},
+        {"name": "J2", "at": "N9", "robot": "R2", "earliest": 25},
+    ]
+    robots = {"R1": {"home": "N0", "battery": "tank"}, "R2": "N8"}
+    tank = {"drive": "1/20", "charge": "1/40", "reserve": "1/10"}
+    scenario = make_scenario(
+        ["........", "........"], robots, jobs=jobs, batteries={"tank": tank}, charging=["N7"]
+    )
+    record = hold_shift(scenario, until=Tick(100))
+    (charge,) = [step for step in record.robots[0].steps if not step.job]
+    assert charge.begin == 15
+    assert charge.end >= 37
+    assert record.robots[0].vertices[-1] == 0
+    assert check(record.make_plan()).ok
+
+
 def test_a_robot_that_breaks_down_is_a_closure_and_others_do_the_rest() -> None:
     grid = ["....", "...."]
     jobs = [transport("J1", "N3", "N0"), transport("J2", "N7", "N4")]

@@ -23,6 +23,7 @@ from fractions import Fraction
 from rightofway.assign import AssignmentSearch, measure_travel
 from rightofway.check import check
 from rightofway.deadline import Deadline
+from rightofway.dispatch.charging import charge_for_rest
 from rightofway.dispatch.horizon import STOPS_AHEAD, cut_tours
 from rightofway.dispatch.overdue import assign_overdue, has_choice
 from rightofway.dispatch.pool import PooledJob
@@ -284,7 +285,8 @@ class RoundPlanner:
             search.improve(STEPS_PER_JOB * len(work.jobs), hurried.measure_seconds_left())
         if search.cost.missing:
             raise GaveUp(Fact("begun jobs without a tour"))
-        return _spare_charges(search.assignment, work), search.list_ends()
+        assignment, ends = charge_for_rest(search.assignment, search.list_ends(), work, travel)
+        return _spare_charges(assignment, work), ends
 
     def _improve_old(
         self, toured: Scenario, old: Sequence[RobotView], deadline: Deadline, seed: int
