@@ -35,10 +35,12 @@ from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.fleet_control import LONG_ORDER
 from rightofway.control.laps import LapsToDrive
 from rightofway.control.operator import Operator
+from rightofway.control.stop_actions import ActionToDo, split_action
+from rightofway.control.work_items import find_charge_step
 from rightofway.cyclic import make_excerpt, plan_of_laps, run_laps
 from rightofway.cyclic.result import CyclicResult
 from rightofway.errors import GaveUp, InputError, NoPlanExists
-from rightofway.model import Plan, Rules, Scenario, Stop
+from rightofway.model import Plan, Rules, Scenario, Stop, StopAction
 from rightofway.model.steady_state import keep_within
 from rightofway.precedence import Arrival, Part, ReleaseGraph
 from tests.builders.fleets import random_fleet
@@ -263,6 +265,13 @@ def run_chaos(
     return world.counts
 
 
+def list_several(_robot: int, _place: str, item: str) -> tuple[ActionToDo, ...]:
+    """Return three actions for each stop, and one for each step of a charge."""
+    if find_charge_step(item) is not None:
+        return (ActionToDo(),)
+    return tuple(ActionToDo(action=StopAction(action=name)) for name in ("lower", "scan", "lift"))
+
+
 class World:
     """A control, its robots and their network.
 
@@ -276,6 +285,7 @@ class World:
         self.plan, self.chaos, self.kind = plan, chaos, control
         self.draw = random.Random(seed)  # noqa: S311
         self.counts = Counter[str]()
+        self.several = seed % 3 == 0  # whether stops have several actions
         self.scenario = plan.scenario
         self.robots = [
             SimulatedRobot(plan.scenario.roadmap.name(int(track.vertices[0])))
@@ -307,6 +317,8 @@ class World:
                     time_limit=None,
                     patience=2,
                 )
+                if self.several:
+                    control.list_actions = list_several
                 if not self.journal.written:
                     dispatcher.begin("run")
                 self.control, self.dispatcher = control, dispatcher
@@ -705,11 +717,16 @@ class Observer:
         self._open[robot] = jobs - own.finished
 
     def _done(self, robot: int) -> Counter[str]:
-        """Return how often each job was done."""
+        """Return how often each job was done: the action that was done least often."""
         done = self.robots[robot].done
-        return Counter(
-            job for action, job in self._job_of[robot].items() for _ in range(done.get(action, 0))
-        )
+        steps = dict[str, Counter[int]]()
+        for action, job in self._job_of[robot].items():
+            own = steps.setdefault(job, Counter())
+            own[split_action(action)[1]] += done.get(action, 0)
+        for job, own in steps.items():
+            if max(own.values()) > 1:
+                raise Fault(f"robot {robot} has done {job} twice: {dict(own)}")
+        return +Counter({job: min(own.values()) for job, own in steps.items()})
 
     def look_at_jobs(self, control: FleetControl) -> None:
         """Count how often each job was done."""

@@ -18,13 +18,14 @@ from rightofway.control import FleetControl, Message, RobotLedger
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.operator import Operator
 from rightofway.control.round_worker import RoundRequest, RoundsAtOnce
+from rightofway.control.stop_actions import split_action
 from rightofway.control.work_items import find_charge_step, find_stop
 from rightofway.dispatch import Round
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.facts import Fact
 from rightofway.io import parse_scenario
 from rightofway.model import Plan, Scenario
-from tests.builders.chaos import Chaos, Fault, Killed, Observer, World
+from tests.builders.chaos import Chaos, Fault, Killed, Observer, World, list_several
 
 __all__ = ["JOB_KINDS", "plan_with_jobs", "run_job_chaos"]
 
@@ -163,6 +164,8 @@ class JobWorld(World):
                 )
                 rounds = LateRounds(self.draw)
                 dispatcher = Dispatcher(control, self.plan, rounds=rounds, patience=2)
+                if self.several:
+                    control.list_actions = list_several
                 dispatcher.keep_time(lambda: self.events // EVENTS_PER_TICK)
                 dispatcher.report = self._note
                 assert dispatcher.rounds is not None
@@ -307,6 +310,7 @@ class JobObserver(Observer):
         self.before: dict[str, tuple[str, ...]] = {}  # jobs that end before each job
         self.lengths: dict[str, int] = {}  # stops of each job
         self.over = set[str]()  # jobs that had left without being begun
+        self.steps: list[dict[str, set[int]]] = [{} for _ in robots]  # of each item, as done
 
     def is_charging(self, robot: int) -> bool:
         """Return whether the last charge of a robot has begun, and it has not driven on."""
@@ -337,9 +341,19 @@ class JobObserver(Observer):
             if count > 1:
                 raise Fault(f"robot {robot} has done {item} {count} times")
             if stop := find_stop(item):
-                self._count_stop(robot, *stop)
-            elif step := find_charge_step(item):
-                self.charges[robot] = step == "begin"
+                if self._is_stop_done(robot, action, item):
+                    self._count_stop(robot, *stop)
+            elif charge_step := find_charge_step(item):
+                self.charges[robot] = charge_step == "begin"
+
+    def _is_stop_done(self, robot: int, action: str, item: str) -> bool:
+        """Return whether an action that was done is the last one of its stop."""
+        step, done = split_action(action)[1], self.steps[robot].setdefault(item, set())
+        if step in done:
+            raise Fault(f"robot {robot} has done action {step} of {item} twice")
+        done.add(step)
+        ids = [own for own, job in self._job_of[robot].items() if job == item]
+        return len(done) == len({split_action(own)[1] for own in ids})
 
     def _count_stop(self, robot: int, name: str, stop: int) -> None:
         done = self.stops.setdefault(name, [])
