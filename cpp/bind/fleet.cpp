@@ -61,6 +61,23 @@ Raises
 ValueError
     If the others are no tracks of these trips, or overlap.)";
 
+constexpr auto take_over_doc =
+    R"(Start from tracks of an earlier plan, and return the robots that have no track now, int32[n].
+
+A robot whose track serves its stages keeps it. The robots of ``order`` get new tracks one after
+another, around all other tracks; until a robot has one, its earlier track stays booked.
+
+Parameters
+----------
+first_visit : int32[R + 1]
+    Robot ``r`` has the visits ``first_visit[r] .. first_visit[r + 1] - 1``.
+vertices, enter : int32[N], int64[N]
+    Where and when each visit begins. [ticks] Tracks may miss stages.
+order : int32[n]
+    The robots to plan, each once.
+time_limit : float or None
+    When to stop; at once for 0 or less. [s])";
+
 constexpr auto prioritize_doc =
     R"(Give the robots tracks one after another, in this order; return whether all have one now.
 
@@ -197,6 +214,22 @@ void bind_fleet(nb::module_& module) {
                 self.start({view(first_visit), view(vertices), view(enter)});
             },
             array("first_visit"), array("vertices"), array("enter"), start_doc)
+        .def(
+            "take_over",
+            [](FleetSearch& self, const ArrayIn<std::int32_t>& first_visit,
+               const ArrayIn<VertexId>& vertices, const ArrayIn<Tick>& enter,
+               const ArrayIn<RobotId>& order, std::optional<double> time_limit) {
+                const Deadline deadline(time_limit);
+                std::vector<RobotId> left;
+                {
+                    const nb::gil_scoped_release released;
+                    left = self.take_over({view(first_visit), view(vertices), view(enter)},
+                                          view(order), deadline);
+                }
+                return to_numpy(std::move(left));
+            },
+            array("first_visit"), array("vertices"), array("enter"), array("order"),
+            nb::arg("time_limit").none(), take_over_doc)
         .def(
             "restore",
             [](FleetSearch& self, const ArrayIn<std::int32_t>& first_visit,

@@ -174,6 +174,88 @@ void FleetSearch::start(const GivenTracks& given) {
     }
 }
 
+// While robots wait for their turn, their earlier tracks are in the plan, though they miss stages:
+// so no two tracks ever overlap, and the plan is valid whenever the time ends.
+std::vector<RobotId> FleetSearch::take_over(const GivenTracks& given,
+                                            std::span<const RobotId> order,
+                                            const StopCondition& deadline) {
+    require_tracks(given);
+    require_each_once(order);
+    clear();
+    std::vector<std::uint8_t> misses_stage(n_robots(),
+                                           0);  // the track in the plan is an earlier one
+    for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
+        if (given.first_visit[index(robot)] == given.first_visit[index(robot + 1)]) {
+            continue;
+        }
+        TimedTrack track;
+        try {
+            track = track_of(robot, given);
+        } catch (const std::invalid_argument&) {  // the robot is elsewhere, or later
+            continue;
+        }
+        const bool serves_all = measure(robot, track);
+        if (plan_.fits(robot, track)) {
+            misses_stage[index(robot)] = serves_all ? 0 : 1;
+            plan_.exchange(robot, track);
+        }
+    }
+    SafeIntervalSearch search(problem_.roads(), problem_.rules());
+    TripReader reader(distances_, true);
+    for (const RobotId robot : order) {
+        if (deadline()) {
+            break;
+        }
+        if (replace_track(robot, search, reader, deadline)) {
+            misses_stage[index(robot)] = 0;
+        }
+    }
+    std::vector<RobotId> left;
+    for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
+        if (misses_stage[index(robot)] != 0) {
+            TimedTrack none;
+            plan_.exchange(robot, none);
+        }
+        if (!plan_.has_track(robot)) {
+            left.push_back(robot);
+        }
+    }
+    return left;
+}
+
+// Whether a track serves all stages between those of the others; fills in its ends and its cost.
+bool FleetSearch::measure(RobotId robot, TimedTrack& track) const {
+    if (!problem_.has_arcs()) {
+        return plan_.measure(robot, track);
+    }
+    StageLimits limits;
+    plan_.find_limits(robot, false, limits);
+    return plan_.measure(robot, track, limits);
+}
+
+// Gives a robot a track around all others; where there is none, the one that it had.
+bool FleetSearch::replace_track(RobotId robot, SafeIntervalSearch& search, TripReader& reader,
+                                const StopCondition& deadline) {
+    TimedTrack track;
+    plan_.exchange(robot, track);
+    StageLimits limits;
+    if (problem_.has_arcs()) {
+        plan_.find_limits(robot, true, limits);
+    }
+    const Trip& trip = problem_.has_arcs() ? reader.read(robot, limits.earliest, limits.latest)
+                                           : reader.read(robot);
+    if (search.run({trip, plan_.bookings()}, deadline) == SearchEnd::found) {
+        TimedTrack found;
+        search.track(found.visits);
+        if (measure(robot, found) && plan_.fits(robot, found)) {
+            plan_.exchange(robot, found);
+            return true;
+        }
+    }
+    plan_.exchange(robot, track);
+    return false;
+}
+
 // The given tracks do not conflict with each other. So a robot can have its track again if all
 // robots in the way of it have theirs, and those in the way of these, and so on.
 std::int64_t FleetSearch::restore(const GivenTracks& given, const StopCondition& interrupt) {

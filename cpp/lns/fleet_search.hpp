@@ -17,6 +17,7 @@
 #include "lns/fleet_plan.hpp"
 #include "lns/prioritized_portfolio.hpp"
 #include "problem/problem.hpp"
+#include "search/sipp.hpp"
 
 namespace rightofway {
 
@@ -44,6 +45,13 @@ class FleetSearch {
 
     // Takes over tracks. They overlap no other track.
     void start(const GivenTracks& given);
+
+    // Starts from tracks of an earlier plan. A robot whose track serves its stages keeps it. The
+    // robots of `order` get new tracks one after another; until a robot has one, its earlier track
+    // stays booked. Returns the robots that have no track: none was found or given, or it overlaps
+    // one before it.
+    std::vector<RobotId> take_over(const GivenTracks& given, std::span<const RobotId> order,
+                                   const StopCondition& deadline);
 
     // Gives the robots tracks in this order, which names every robot once. Whether all have one.
     bool prioritize(std::span<const RobotId> order, std::int64_t n_searches,
@@ -79,6 +87,9 @@ class FleetSearch {
     void require_tracks(const GivenTracks& given) const;
     void require_all_tracks(const char* what) const;
     TimedTrack track_of(RobotId robot, const GivenTracks& given) const;
+    bool measure(RobotId robot, TimedTrack& track) const;
+    bool replace_track(RobotId robot, SafeIntervalSearch& search, TripReader& reader,
+                       const StopCondition& deadline);
     std::vector<TimedTrack> tracks_of(const GivenTracks& given) const;
     void measure_least();
     std::vector<RobotId> find_conflict_closure(RobotId first, std::span<const TimedTrack> old,

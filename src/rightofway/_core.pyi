@@ -870,6 +870,25 @@ class FleetSearch:
             If the others are no tracks of these trips, or overlap.
         """
 
+    def take_over(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], enter: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], time_limit: float | None) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+        """
+        Start from tracks of an earlier plan, and return the robots that have no track now, int32[n].
+
+        A robot whose track serves its stages keeps it. The robots of ``order`` get new tracks one after
+        another, around all other tracks; until a robot has one, its earlier track stays booked.
+
+        Parameters
+        ----------
+        first_visit : int32[R + 1]
+            Robot ``r`` has the visits ``first_visit[r] .. first_visit[r + 1] - 1``.
+        vertices, enter : int32[N], int64[N]
+            Where and when each visit begins. [ticks] Tracks may miss stages.
+        order : int32[n]
+            The robots to plan, each once.
+        time_limit : float or None
+            When to stop; at once for 0 or less. [s]
+        """
+
     def restore(self, first_visit: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], enter: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> int:
         """
         Give robots these tracks where that costs no more; return how many have theirs.

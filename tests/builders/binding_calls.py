@@ -625,6 +625,9 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
     "FleetSearch.alone": _timed(),
     "FleetSearch.start": _always(**TRACKS),
     "FleetSearch.restore": _always(**TRACKS),
+    "FleetSearch.take_over": lambda rng: {
+        **TRACKS, "order": int32(*rng.sample(range(3), rng.randrange(4))), "time_limit": 0.2
+    },
     "FleetSearch.prioritize": lambda rng: {
         "order": int32(*rng.sample(range(3), 3)), "n_searches": 100, "time_limit": 0.2,
         "with_fallback": 0.1,

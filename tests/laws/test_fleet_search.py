@@ -134,3 +134,26 @@ def test_neighbours_do_not_take_away_each_others_tracks_for_ever(seed: int) -> N
     order = search.compute_alone().argsort(kind="stable").tolist()
     assert search.prioritize(order, searches=20 * len(order), time_limit=None)
     assert judged(scenario, search.list_tracks())
+
+
+@law(FLEETS, st.integers(0, 10**6))
+def test_tracks_that_are_taken_over_never_overlap_and_serve_their_stages(
+    scenario: Scenario, seed: int
+) -> None:
+    rng, order = random.Random(seed), range(len(scenario.robots))  # noqa: S311
+    search = search_of(scenario)
+    if not search.prioritize(order, searches=500, time_limit=None):
+        return
+    # Some robots are to be planned anew, and some have stood still so far.
+    old = [
+        Track.of(track.vertices[:1].tolist(), [0]) if rng.random() < 1 / 4 else track
+        for track in search.list_tracks()
+    ]
+    chosen = [robot for robot in order if rng.random() < 1 / 2]
+    left = search.take_over(old, chosen, time_limit=None)
+    tracks = search.list_known_tracks()
+    assert left == tuple(robot for robot in order if tracks[robot] is None)
+    again = search_of(scenario)
+    again.start(tracks)  # refuses tracks that miss stages or overlap
+    if not left:
+        assert judged(scenario, search.list_tracks())

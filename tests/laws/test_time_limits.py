@@ -118,6 +118,11 @@ def repair(scenario: Scenario, limit: float) -> None:
     search.repair(order(scenario), searches=10**9, time_limit=limit)
 
 
+def take_over(scenario: Scenario, limit: float) -> None:
+    tracks = [None] * len(scenario.robots)
+    FleetSearch(scenario.problem).take_over(tracks, order(scenario), time_limit=limit)
+
+
 def move_one_at_a_time(scenario: Scenario, limit: float) -> None:
     timed = with_problem(scenario, list(scenario.problem.itineraries))
     FleetSearch(timed.problem).move_one_at_a_time(time_limit=limit)
@@ -226,6 +231,7 @@ CALLS: dict[str, Callable[[Scenario, float], object]] = {
     "FleetSearch.move_one_at_a_time": move_one_at_a_time,
     "FleetSearch.prioritize": prioritize,
     "FleetSearch.repair": repair,
+    "FleetSearch.take_over": take_over,
     "PeriodicBookings.find_route": find_route,
     "PeriodicBookings.search": search,
     "PriceAscent.run": raise_prices,

@@ -76,6 +76,30 @@ TEST_CASE("robots without a track get one, and no other robots are named") {
     CHECK(search.repair(missing, 10'000, no_deadline));
 }
 
+TEST_CASE("earlier tracks are taken over as far as they fit, and others are planned around them") {
+    const Crossing crossing(5);
+    const Problem problem(crossing.arrays(), {0, true});
+    FleetSearch search(problem, 1, 1);
+    REQUIRE(search.prioritize(all_robots(problem), 10'000, no_deadline, no_deadline));
+    const Tracks tracks = search.tracks();
+    const Tick cost = search.cost();
+    const std::vector<RobotId> nothing;
+    CHECK(search.take_over(given(tracks), nothing, no_deadline).empty());
+    CHECK(search.cost() == cost);
+
+    Tracks cut = tracks;  // robot 0 stays at home, where its track misses its stages
+    const auto n_dropped = index(cut.first_visit[1]) - 1;
+    cut.vertex.erase(cut.vertex.begin() + 1, cut.vertex.begin() + 1 + n_dropped);
+    cut.enter.erase(cut.enter.begin() + 1, cut.enter.begin() + 1 + n_dropped);
+    for (std::size_t r = 1; r < cut.first_visit.size(); ++r) {
+        cut.first_visit[r] -= static_cast<VisitId>(n_dropped);
+    }
+    CHECK(search.take_over(given(cut), nothing, no_deadline) == std::vector<RobotId>{0});
+    const std::vector<RobotId> missing{0};
+    CHECK(search.take_over(given(cut), missing, no_deadline).empty());
+    CHECK(search.cost() <= cost);
+}
+
 TEST_CASE("tracks that do not fit are refused with array, index and value") {
     const Crossing crossing(4);
     const Problem problem(crossing.arrays(), {0, false});

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 from rightofway.model import Assignment, Itinerary, Scenario, Tick, Tour, Work, assign_tours
 
-__all__ = ["STOPS_AHEAD", "CutTours", "cut_tours"]
+__all__ = ["STOPS_AHEAD", "CutTours", "cut_tours", "make_cut"]
 
 STOPS_AHEAD = 2
 """Stops of each tour that get routes in a round; a robot that has fewer of them left, and more
@@ -74,6 +74,21 @@ def cut_tours(
             cut = next(beyond, cut)
         firsts.append(tour[:cut])
         later.append(tour[cut:])
+    return make_cut(scenario, firsts, later)
+
+
+def make_cut(scenario: Scenario, firsts: Sequence[Tour], later: Sequence[Tour]) -> CutTours:
+    """Return a scenario whose tours are cut.
+
+    Parameters
+    ----------
+    scenario
+        The scenario of the round.
+    firsts, later
+        Of each robot, the tour before the cut and what is left of it.
+    """
+    work = scenario.problem.work
+    assert work is not None, "the scenario has jobs"
     toured = assign_tours(scenario, firsts)
     cut_toured = CutTours(toured=toured, later=tuple(later))
     if not cut_toured.is_whole:

@@ -3,9 +3,8 @@
     jobs + fleet at the takeover → tours → routes → judged behind the kept parts → plan
 
 The jobs of a round are those that are begun, and for each robot about three that are overdue and
-three others, so its time does not grow with the pool. Tours start from the old ones. Robots whose
-tours stay the same keep their old tracks at first, and the others are planned around them; then
-large neighbourhood search improves all of them until time is up.
+three others, so its time does not grow with the pool. Tours start from the old ones, and so do
+routes (`rightofway.dispatch.routes`).
 
 References
 ----------
@@ -19,14 +18,23 @@ import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 
 from rightofway.assign import AssignmentSearch, measure_travel
 from rightofway.check import check
 from rightofway.deadline import Deadline
 from rightofway.dispatch.charging import charge_for_rest
-from rightofway.dispatch.horizon import STOPS_AHEAD, cut_tours
+from rightofway.dispatch.horizon import STOPS_AHEAD, CutTours, cut_tours
 from rightofway.dispatch.overdue import assign_overdue, has_choice
 from rightofway.dispatch.pool import PooledJob
+from rightofway.dispatch.routes import (
+    HURRIED,
+    FoundRoutes,
+    find_routes,
+    keep_old_tours,
+    list_old_items,
+    list_same_tracks,
+)
 from rightofway.dispatch.view import (
     FleetView,
     PlannedStep,
@@ -58,12 +66,10 @@ from rightofway.model import (
 from rightofway.model.passing import wait_before_chains
 from rightofway.model.work import PATIENCE
 from rightofway.precedence import build_timetable
-from rightofway.repair.fleet_search import make_fleet_search
-from rightofway.repair.plan_request import PlanRequest
 from rightofway.resume.commitment import list_closures_after
 from rightofway.resume.held import list_held
 from rightofway.search import Distances
-from rightofway.solve import solve
+from rightofway.solve import OF_BATTERIES, solve
 
 __all__ = ["RoundPlanner", "choose_jobs"]
 
@@ -79,22 +85,11 @@ SHARE_OF_TOURS = 0.2
 SPARE = 10
 """Charges are longer than tours need them by the ticks for one part in so many of a battery."""
 
-SEARCHES = 20
-"""Searches for each robot without a track, and for each ten robots, before all are planned anew."""
-
-MOST_IN_VAIN = 200
-"""Steps in a row without a better plan, for each robot, after which routes are good enough."""
-
-SHARE_TO_JUDGE = 0.1
-"""The part of the time that is left to judge a plan."""
-
 HORIZON_IN_LEADS = 4
 """Routes end so many times later than the next takeover at least."""
 
 BEHIND_CUT = frozenset({"stop not done"})
 """Faults of plans whose tours are cut."""
-
-UNLIMITED = 2**31 - 1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,6 +105,19 @@ class _Given:
     overdue: tuple[int, ...]
     postponed: tuple[str, ...]
     unserved: tuple[tuple[str, UnservedReason], ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _RoundPlan:
+    """A judged plan of a round, and what is left of its tours behind the horizon.
+
+    The robots in ``keeping`` keep their old tours, for ``reasons``.
+    """
+
+    plan: Plan
+    later: tuple[Tour, ...]
+    keeping: tuple[int, ...] = ()
+    reasons: tuple[Fact, ...] = ()
 
 
 class RoundPlanner:
@@ -175,8 +183,13 @@ class RoundPlanner:
         seed: int,
     ) -> Round:
         given = self._make_scenario(view, jobs, over)
-        plan, later = self._find_plan(given, view, deadline, seed)
-        return replace(self._judge(view, given, plan), later=later)
+        drafted = self._find_plan(given, view, deadline, seed)
+        return replace(
+            self._judge(view, given, drafted.plan),
+            later=_list_later(given, drafted.later, len(view.robots)),
+            is_hurried=len(drafted.keeping) > HURRIED * len(given.able),
+            facts=_describe_kept(self._scenario, drafted),
+        )
 
     # --- the scenario of the round ---------------------------------------------------------------
 
@@ -236,31 +249,30 @@ class RoundPlanner:
 
     def _find_plan(
         self, given: _Given, view: FleetView, deadline: Deadline, seed: int
-    ) -> tuple[Plan, tuple[StopsLater, ...]]:
-        """Return a judged plan of the round, at first with the old tracks, and what is later."""
+    ) -> _RoundPlan:
+        """Return a judged plan of the round, at first with the old tracks."""
         old = [view.robots[robot] for robot in given.able]
-        assignment, ends = self._assign(given, old, deadline, seed)
+        items = [list_old_items(given.scenario, own) for own in old]
+        assignment, ends = self._assign(given, items, deadline, seed)
         lead = Tick(HORIZON_IN_LEADS * (view.takeover - view.now))
+        tracks = [own.track for own in old]
+        routing = partial(find_routes, old=tracks, deadline=deadline, seed=seed)
         for n_stops in dict.fromkeys((self._stops_ahead, None)):
             cut = cut_tours(given.scenario, assignment, ends, n_stops, lead)
-            tracks = self._improve_old(cut.toured, old, deadline, seed)
-            if tracks is None:
-                break
-            driven = wait_before_chains(cut.toured.problem, tracks)
-            plan = Plan(
-                scenario=cut.toured, tracks=driven, run=PlannerRun(), unserved=assignment.unserved
-            )
-            if (frozenset() if cut.is_whole else BEHIND_CUT).issuperset(check(plan).counts):
-                return plan, _list_later(given, cut.later, len(view.robots))
+            start = list_same_tracks(cut.toured, old)
+            planned = _find_routes(cut, assignment, start, items, routing)
+            if planned is not None:
+                return planned
         left = deadline.measure_seconds_left()
         if left == 0:
             raise GaveUp(Fact("time over without a plan"))
-        return solve(given.scenario, self._planner, time_limit=left, seed=seed), ()
+        plan = solve(given.scenario, self._planner, time_limit=left, seed=seed)
+        return _RoundPlan(plan=plan, later=((),) * len(old))
 
     def _assign(
         self,
         given: _Given,
-        old: Sequence[RobotView],
+        old: Sequence[tuple[Tour, Tour]],
         deadline: Deadline,
         seed: int,
     ) -> tuple[Assignment, list[tuple[Tick, ...]]]:
@@ -271,7 +283,7 @@ class RoundPlanner:
             self._distances = Distances(scenario.roadmap)
         travel = measure_travel(scenario.problem, self._distances)
         weights = scenario.problem.weights
-        old_tours = _make_old_assignment(scenario, old)
+        old_tours = Assignment(tours=tuple((*ahead, *behind) for ahead, behind in old))
         hurried = deadline.shorten(SHARE_OF_TOURS)
         if given.overdue:
             first = deadline.shorten(SHARE_OF_TOURS / 2)
@@ -287,31 +299,6 @@ class RoundPlanner:
             raise GaveUp(Fact("begun jobs without a tour"))
         assignment, ends = charge_for_rest(search.assignment, search.list_ends(), work, travel)
         return _spare_charges(assignment, work), ends
-
-    def _improve_old(
-        self, toured: Scenario, old: Sequence[RobotView], deadline: Deadline, seed: int
-    ) -> tuple[Track, ...] | None:
-        """Return tracks that start from the old ones of robots with the same tours, improved."""
-        judging = deadline.shorten(1 - SHARE_TO_JUDGE)
-        search = make_fleet_search(PlanRequest(scenario=toured, seed=seed, deadline=judging))
-        tracks = _list_old_tracks(toured, old)
-        try:
-            search.start(tracks)
-        except ValueError:  # a kept part is in the way of an old track
-            tracks = [None] * len(tracks)
-        left = [robot for robot, track in enumerate(tracks) if track is None]
-        alone = search.compute_alone()
-        order = sorted(left, key=lambda robot: (int(alone[robot]), robot))
-        searches = SEARCHES * (len(left) + len(tracks) // 10)
-        if left and not search.repair(
-            order, searches=searches, time_limit=judging.measure_seconds_left()
-        ):
-            return None
-        patience = MOST_IN_VAIN * len(tracks)
-        search.improve(UNLIMITED, patience=patience, time_limit=judging.measure_seconds_left())
-        if toured.problem.closures is None:
-            search.retime()
-        return search.list_tracks()
 
     # --- judgement -------------------------------------------------------------------------------
 
@@ -530,44 +517,56 @@ def _list_later(given: _Given, later: Sequence[Tour], n_robots: int) -> tuple[St
     )
 
 
-def _make_old_assignment(scenario: Scenario, old: Sequence[RobotView]) -> Assignment:
-    """Return the old tours, as far as their jobs are in the round."""
-    jobs = scenario.jobs or ()
-    index = {job.name: number for number, job in enumerate(jobs)}
-    tours = []
-    for own in old:
-        ahead = [(step.job, step.stop) for step in own.steps if step.job is not None]
-        tours.append(
-            tuple(
-                TourItem(
-                    job=index[job], stop=stop, vertex=jobs[index[job]].stops[stop].at,
-                    duration=Tick(0),
-                )
-                for job, stop in (*ahead, *own.later)
-                if job in index and stop is not None
+def _find_routes(
+    cut: CutTours,
+    assignment: Assignment,
+    start: Sequence[Track | None],
+    items: Sequence[tuple[Tour, Tour]],
+    routing: partial[FoundRoutes],
+) -> _RoundPlan | None:
+    """Return a plan that keeps the rules, if old tours of some robots make one possible."""
+    keeping, reasons = frozenset[int](), list[Fact]()
+    while True:
+        routes = routing(cut.toured, start)
+        wrong, reason = routes.left, Fact("no route in time")
+        tracks = [track for track in routes.tracks if track is not None]
+        if not wrong:
+            in_tours = {
+                item.job for tour in (*(cut.toured.tours or ()), *cut.later) for item in tour
+            }
+            plan = Plan(
+                scenario=cut.toured,
+                tracks=wait_before_chains(cut.toured.problem, tracks),
+                run=PlannerRun(),
+                unserved=tuple(pair for pair in assignment.unserved if pair[0] not in in_tours),
             )
-        )  # fmt: skip
-    return Assignment(tours=tuple(tours))
+            judged = check(plan)
+            if (frozenset() if cut.is_whole else BEHIND_CUT).issuperset(judged.counts):
+                return _RoundPlan(
+                    plan=plan,
+                    later=cut.later,
+                    keeping=tuple(sorted(keeping)),
+                    reasons=tuple(dict.fromkeys(reasons)),
+                )
+            reason = Fact("batteries do not last")
+            wrong = tuple(
+                robot for fault in judged.faults if fault.kind in OF_BATTERIES
+                for robot in fault.robots
+            )  # fmt: skip
+        if keeping.issuperset(wrong):
+            return None
+        keeping = keeping.union(wrong)
+        reasons.append(reason)
+        olds = routing.keywords["old"]
+        start = [olds[k] if k in wrong else track for k, track in enumerate(routes.tracks)]
+        cut = keep_old_tours(cut, items, keeping)
 
 
-def _list_old_tracks(toured: Scenario, old: Sequence[RobotView]) -> list[Track | None]:
-    """Return the old tracks of the robots that do what they would have done."""
-    names = [job.name for job in toured.jobs or ()]
-    tracks = list[Track | None]()
-    for tour, own, itinerary in zip(
-        toured.tours or (), old, toured.problem.itineraries, strict=True
-    ):
-        new = [
-            (None if item.job is None else names[item.job], item.stop, item.vertex)
-            for item in tour
-            if item.job is not None or item.duration
-        ]
-        before = [(step.job, step.stop, step.vertex) for step in own.steps]
-        is_same = own.track is not None and new == before
-        if is_same and own.track is not None and not itinerary.ends_anywhere:
-            is_same = int(own.track.vertices[-1]) == itinerary.last
-        tracks.append(own.track if is_same else None)
-    return tracks
+def _describe_kept(scenario: Scenario, planned: _RoundPlan) -> tuple[Fact, ...]:
+    """Return why robots keep their old tours, if some do."""
+    if not planned.keeping:
+        return ()
+    return (Fact("old tours kept", scenario, robots=len(planned.keeping), reasons=planned.reasons),)
 
 
 def _list_steps(

@@ -28,7 +28,8 @@ MOST_STILL = 3
 without a time for its end is over."""
 
 MOST_DOUBLED = 3
-"""The time of a round is doubled so often at most, each time after the old plan stood."""
+"""The time of a round is doubled so often at most, each time after the old plan stood, or
+after many robots kept their old tours."""
 
 HASTE = 8
 """Every so many rounds half the time is tried again, where planning takes time on the floor: a slow
@@ -276,7 +277,9 @@ class _Shift:
             lift_caps(self._floor)
             self._n_doubled = min(self._n_doubled + 1, MOST_DOUBLED)
         else:
-            if not rules.lead or len(self._rounds) % HASTE == 0:
+            if planned.is_hurried:
+                self._n_doubled = min(self._n_doubled + 1, MOST_DOUBLED)
+            elif not rules.lead or len(self._rounds) % HASTE == 0:
                 self._n_doubled = max(0, self._n_doubled - 1) if rules.lead else 0
             splice_round(self._floor, view, planned, jobs)
             self._note_unserved(planned)

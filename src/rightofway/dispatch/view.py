@@ -143,6 +143,8 @@ class Round:
         the robot comes there. Empty: no robot does.
     stands
         Whether the old plan stays valid, because no better one was found.
+    is_hurried
+        Whether many robots keep their old tours for lack of time: the next round needs more.
     facts
         The facts to report.
     seconds
@@ -155,6 +157,7 @@ class Round:
     postponed: tuple[str, ...] = ()
     later: tuple[StopsLater, ...] = ()
     stands: bool = False
+    is_hurried: bool = False
     facts: tuple[Fact, ...] = ()
     seconds: float = 0.0
 

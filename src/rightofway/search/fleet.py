@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import accumulate
+from itertools import accumulate, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -162,6 +162,27 @@ class FleetSearch:
         """
         self._core.start(*list_visits(tracks))
 
+    def take_over(
+        self, tracks: Sequence[Track | None], order: Sequence[int], *, time_limit: float | None
+    ) -> tuple[int, ...]:
+        """Start from tracks of an earlier plan; return the robots that have no track now.
+
+        A robot whose track serves its stages keeps it. A track that a robot cannot drive, or that
+        overlaps one before it, is left out.
+
+        Parameters
+        ----------
+        tracks
+            One for each robot; None for none. They may miss stages.
+        order
+            The robots that get new tracks, one after another around all others. Until a robot has
+            one, its earlier track stays booked.
+        time_limit
+            When to stop [s].
+        """
+        left = self._core.take_over(*list_visits(tracks), self._make_order(order), time_limit)
+        return tuple(left.tolist())
+
     def restore(self, tracks: Sequence[Track]) -> int:
         """Give robots these tracks where that costs nothing; return how many have theirs.
 
@@ -216,8 +237,16 @@ class FleetSearch:
         self._core.retime()
 
     def list_tracks(self) -> tuple[Track, ...]:
-        """Return the tracks."""
+        """Return the tracks; every robot has one."""
         return tuple(make_tracks(*self._core.tracks()))
+
+    def list_known_tracks(self) -> tuple[Track | None, ...]:
+        """Return the tracks, and None for robots without one."""
+        first, vertices, enter = self._core.tracks()
+        return tuple(
+            Track(vertices=vertices[a:b], enter=enter[a:b]) if a < b else None
+            for a, b in pairwise(first.tolist())
+        )
 
 
 def list_visits(

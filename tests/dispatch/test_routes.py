@@ -1,0 +1,89 @@
+"""Routes of a round: robots for which there is no time keep their old tours."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+from rightofway.dispatch import FleetView, PlannedStep, PooledJob, RobotView, RoundPlanner, routes
+from rightofway.dispatch.view import StopsLater
+from rightofway.model import Job, JobStop, Tick, Track
+from rightofway.site import VertexId
+from tests.builders.shifts import make_scenario
+
+SCENARIO = make_scenario(
+    ["....."], {"R1": "N0", "R2": "N4"}, jobs=[], rules={"return": "none", "rotations": False}
+)
+
+
+def make_job(name: str, at: int, robot: str | None = None) -> PooledJob:
+    """Return a job of one stop."""
+    stop = JobStop(at=VertexId(at), work=Fraction(0))
+    return PooledJob(job=Job(name=name, stops=(stop,), robot=robot), known=Tick(0))
+
+
+def look(vertices: list[int], job: str | None = None, later: StopsLater = ()) -> RobotView:
+    """Return a robot that drives on, a vertex each tick, and does a job at the end."""
+    times = list(range(len(vertices)))
+    end = Tick(times[-1])
+    step = PlannedStep(
+        visit=times[-1], vertex=VertexId(vertices[-1]), begin=end, end=end, job=job, stop=0
+    )
+    return RobotView(
+        kept_track=Track.of(vertices[:1], [0]),
+        track=Track.of(vertices, times),
+        steps=() if job is None else (step,),
+        later=later,
+    )
+
+
+@pytest.fixture
+def no_repair(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let no robot lose its track to another one."""
+    monkeypatch.setattr(routes, "SEARCHES", 0)
+
+
+@pytest.mark.usefixtures("no_repair")
+def test_a_robot_that_finds_no_route_waits_and_others_go_on_with_the_old_plan() -> None:
+    # R1 drives to N2 and stays there, so R2 does not come to N1 unless R1 makes room.
+    jobs = {"J1": make_job("J1", 2, "R1"), "J2": make_job("J2", 1, "R2")}
+    view = FleetView(now=Tick(0), takeover=Tick(0), robots=(look([0, 1, 2], "J1"), look([4])))
+    planned = RoundPlanner(SCENARIO).plan(view, jobs, over={}, time_limit=None)
+    assert not planned.stands
+    assert [[step.job for step in steps] for steps in planned.steps] == [["J1"], []]
+    assert planned.tracks[0].vertices.tolist() == [0, 1, 2]
+    assert planned.later == ((), (("J2", 0),))
+    assert planned.is_hurried
+    assert str(planned.facts[0]) == "old tours are kept (1 robot): no route was found in time"
+
+
+@pytest.mark.usefixtures("no_repair")
+def test_robots_with_new_routes_have_them_while_others_keep_their_old_ones() -> None:
+    # J2 waits as above. R3 gets its new job.
+    scenario = make_scenario(
+        [".....", "@@@@@", "....."],
+        {"R1": "N0", "R2": "N4", "R3": "N10"},
+        jobs=[],
+        rules={"return": "none", "rotations": False},
+    )
+    jobs = {
+        "J1": make_job("J1", 2, "R1"),
+        "J2": make_job("J2", 1, "R2"),
+        "J3": make_job("J3", 8, "R3"),
+    }
+    robots = (look([0, 1, 2], "J1"), look([4]), look([5]))
+    view = FleetView(now=Tick(0), takeover=Tick(0), robots=robots)
+    planned = RoundPlanner(scenario).plan(view, jobs, over={}, time_limit=None)
+    assert [[step.job for step in steps] for steps in planned.steps] == [["J1"], [], ["J3"]]
+    assert planned.tracks[2].vertices.tolist() == [5, 6, 7, 8]
+
+
+@pytest.mark.usefixtures("no_repair")
+def test_a_job_that_another_robot_takes_leaves_the_old_tour() -> None:
+    # J1 is R2's now, which has a route; R1 has no route to its new job behind R2.
+    jobs = {"J1": make_job("J1", 3, "R2"), "J2": make_job("J2", 4, "R1")}
+    view = FleetView(now=Tick(0), takeover=Tick(0), robots=(look([0, 1], "J1"), look([4])))
+    planned = RoundPlanner(SCENARIO).plan(view, jobs, over={}, time_limit=None)
+    assert [[step.job for step in steps] for steps in planned.steps] == [[], ["J1"]]
+    assert planned.later == ((("J2", 0),), ())
