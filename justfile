@@ -169,9 +169,9 @@ stub-is-fresh:
 docs:
     sphinx-build -W --keep-going -q -b html docs docs/_build/html
 
-# The documentation with the pages of the wall, each made by its command (a minute or two)
+# The documentation with the pages of the gallery, each made by its command (a minute or two)
 gallery *args:
-    sphinx-build -W --keep-going -q -t wall -b html docs docs/_build/html
+    sphinx-build -W --keep-going -q -t gallery -b html docs docs/_build/html
     python -m tests.builders.gallery docs/_build/html/gallery {{ args }}
 
 # Write the generated parts of the pages: help texts, tables of keys, options and names

@@ -1,7 +1,7 @@
-"""Run notebooks, and keep what their cells print: text, and pictures where a cell makes one.
+"""Run notebooks, and store the output of their cells: text and pictures.
 
-A page that plays is left out of the file, because it has 300 kB; a text stands for it. `refresh.py`
-beside this file runs all of them; ``python docs/notebooks.py FILE ...`` runs some.
+Animated pages are left out of the file, because each has 300 kB; a text replaces them. `refresh.py`
+in this folder runs all notebooks; ``python docs/notebooks.py FILE ...`` runs some.
 """  # noqa: INP001 (a script, run by its path)
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def run_notebook(path: Path) -> str:
 
 
 def run_cell(shell: InteractiveShell, cell: Cell, count: int) -> None:
-    """Run a cell and put what it prints and returns below it."""
+    """Run a cell and store its output and its result below it."""
     with shell.display_trap, capture_output() as captured:
         done = shell.run_cell("".join(cell["source"]))
     done.raise_error()
@@ -56,19 +56,19 @@ def run_cell(shell: InteractiveShell, cell: Cell, count: int) -> None:
 
 
 def printed(text: str) -> Iterator[Cell]:
-    """Yield the text that a cell prints."""
+    """Yield the printed text of a cell."""
     if text:
         yield {"name": "stdout", "output_type": "stream", "text": text.splitlines(keepends=True)}
 
 
 def old_pictures(cell: Cell) -> list[str]:
-    """Return the pictures that stand below a cell."""
+    """Return the pictures below a cell."""
     data = (output.get("data", {}) for output in cell["outputs"])
     return [each["image/png"] for each in data if "image/png" in each]
 
 
 def result(data: dict[str, Any], pictures: list[str], count: int) -> Cell:
-    """Return a result; a picture that is there stays, because libraries compress it otherwise."""
+    """Return a result; an existing picture is kept, because libraries compress differently."""
     kept = {form: data[form] for form in KEPT if form in data}
     if "image/png" in kept and pictures:
         kept["image/png"] = pictures[0]

@@ -1,8 +1,8 @@
 """Write the generated parts of the pages: `just docs-refresh`; with ``--check`` only compare.
 
-A generated part stands in its page as plain Markdown, so that it can be read without a build. It
-stands between ``<!-- generated: MAKER ARGUMENTS -->`` and ``<!-- end -->``. `MAKERS` lists the
-makers. They read the program itself: help texts, the registry of planners, the JSON Schemas of the
+A generated part is plain Markdown, so that it can be read without a build. It is between
+``<!-- generated: MAKER ARGUMENTS -->`` and ``<!-- end -->``. `MAKERS` lists the makers. They read
+the program itself: help texts, the registry of planners, the JSON Schemas of the
 formats, the OpenAPI document of the studio, ``__all__`` and docstrings, and the comments that C++
 headers begin with. Notebooks are run, and their results are written below their cells.
 """  # noqa: INP001 (a script, run by its path)
@@ -47,11 +47,11 @@ PARAMETER = re.compile(r"\{(\w+)\}")
 Row = Sequence[str]
 
 RULES = make_schema("scenario")["$defs"]["RulesDocument"]["properties"]
-"""Keys that stand last where a robot has them too."""
+"""Keys that come last, because a robot can have them too."""
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Bring every page up to date, or name the stale ones."""
+    """Update every page, or name the stale ones."""
     check = list(arguments) == ["--check"]
     stale = []
     for page in [*PAGES, *NOTEBOOKS]:
@@ -86,7 +86,7 @@ def _cell(text: str) -> str:
 
 
 def command_help(*path: str) -> Iterable[str]:
-    """Return what a command prints with ``--help``, as a code block."""
+    """Return the help text of a command as a code block."""
     terminal = CliRunner(env={"COLUMNS": "80"})
     printed = terminal.invoke(
         commands, [*path, "--help"], prog_name="rightofway", catch_exceptions=False
@@ -296,7 +296,7 @@ def decisions() -> Iterable[str]:
 
 
 def native_headers() -> Iterable[str]:
-    """Return the headers of the native core, with what each says of itself first."""
+    """Return the headers of the native core, with the first sentence of each."""
     headers = sorted((ROOT / "cpp").glob("[!bt]*/*.hpp"))
     return table(
         ("header", "content"),

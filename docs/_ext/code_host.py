@@ -1,9 +1,9 @@
-"""Pages that can be read without a build: what only Sphinx understands stands in comments.
+"""Pages that can be read without a build: Markdown for Sphinx is in comments.
 
-A comment that begins with ``<!-- sphinx`` on a line of its own holds Markdown for Sphinx; code
-hosts do not show it. Sphinx leaves out what stands between ``<!-- not sphinx -->`` and
+A comment that begins with ``<!-- sphinx`` on a line of its own contains Markdown for Sphinx; code
+hosts do not show it. Sphinx leaves out the text between ``<!-- not sphinx -->`` and
 ``<!-- end -->``. An equation is a block of the language ``math``, which both draw. With the tag
-``wall`` a link to the page that a command of the wall has made stands below the command.
+``gallery``, a link to its page follows each command of the gallery.
 """  # noqa: INP001 (a Sphinx extension, found by its path)
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ def reveal(app: Sphinx, _page: str, source: list[str]) -> None:
     text = FOR_SPHINX.sub(r"\1", FOR_CODE_HOSTS.sub("", source[0]))
     text = ROOT_PAGE.sub(lambda link: f"]({link[1]}{link[2].lower()}.md", text)
     text = OUTSIDE.sub(r"\1 (`\2`)", text)
-    if app.tags.has("wall"):
+    if app.tags.has("gallery"):
         text = MADE.sub(r'\g<0>\n\n<p><a href="\1">Play it</a></p>', text)
     source[0] = EQUATION.sub(r"\1```{math}", text)
 

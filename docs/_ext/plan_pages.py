@@ -1,4 +1,4 @@
-"""Plans that play in the page: each is planned while the documentation is built."""  # noqa: INP001 (a Sphinx extension, found by its path)
+"""Animated plans in pages: each is planned while the documentation is built."""  # noqa: INP001 (a Sphinx extension, found by its path)
 
 from __future__ import annotations
 

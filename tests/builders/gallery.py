@@ -1,8 +1,8 @@
-"""Make the pages of the wall: ``python -m tests.builders.gallery FOLDER [--pictures]``.
+"""Make the pages of the gallery: ``python -m tests.builders.gallery FOLDER [--pictures]``.
 
 docs/gallery/index.md has the commands, in blocks of the kind ``sh gallery``, and the files that
 they read. Each command is run in a folder that has the examples and samples of the repository.
-With ``--pictures`` a headless Chromium takes the picture of each page that stands beside it.
+With ``--pictures`` a headless Chromium takes the picture of each page.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ from PIL import Image
 from tests.builders.browsers import FRAMES, chromium
 from tests.builders.pages import DOCS, ROOT, blocks
 
-__all__ = ["WALL", "commands", "make_pages"]
+__all__ = ["GALLERY", "commands", "make_pages"]
 
-WALL = DOCS / "gallery" / "index.md"
+GALLERY = DOCS / "gallery" / "index.md"
 PICTURES = DOCS / "images" / "gallery"
 TICKS = {
     "warehouse": 120,
@@ -44,8 +44,8 @@ PAGE = re.compile(r"\b[\w-]+\.html$")
 
 
 def commands() -> Iterator[str]:
-    """Yield the commands of the wall in order."""
-    for block in blocks(WALL):
+    """Yield the commands of the gallery in order."""
+    for block in blocks(GALLERY):
         if block.info == ("sh", "gallery"):
             yield from block.text.splitlines()
 
@@ -54,7 +54,7 @@ def make_pages(work: Path, folder: Path) -> list[Path]:
     """Run all commands in one folder and return the pages, moved to another folder."""
     for name in ("examples", "tests"):
         (work / name).symlink_to(ROOT / name)
-    for block in blocks(WALL):
+    for block in blocks(GALLERY):
         if block.file_name is not None:
             (work / block.file_name).write_text(block.text, encoding="utf-8")
     scripts = Path(sys.executable).parent

@@ -45,4 +45,4 @@ def test_a_page_of_the_wall_is_linked_where_it_was_made() -> None:
         "```sh gallery\nrightofway plan a.yaml -o a.json\nrightofway show a.json -o a.html\n```\n"
     )
     assert read(text) == text
-    assert read(text, "wall") == text + '\n<p><a href="a.html">Play it</a></p>\n'
+    assert read(text, "gallery") == text + '\n<p><a href="a.html">Play it</a></p>\n'
