@@ -40,7 +40,7 @@ def test_an_equation_of_a_code_host_is_one_of_sphinx() -> None:
     assert read("```math\nx\n```\n") == "```{math}\nx\n```\n"
 
 
-def test_a_page_of_the_wall_is_linked_where_it_was_made() -> None:
+def test_a_page_of_the_gallery_is_linked_where_it_was_made() -> None:
     text = (
         "```sh gallery\nrightofway plan a.yaml -o a.json\nrightofway show a.json -o a.html\n```\n"
     )

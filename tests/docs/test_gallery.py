@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.builders.gallery import PAGE, PICTURES, GALLERY, commands, make_pages
+from tests.builders.gallery import GALLERY, PAGE, PICTURES, commands, make_pages
 from tests.builders.pages import SDIST
 
 PAGES = [page[0] for command in commands() if (page := PAGE.search(command))]
