@@ -117,7 +117,9 @@ def run_jobs_at_a_broker(seed: int) -> Counter[str]:
                 wait_for((folder / "robots.yaml").exists, 120, "the file of identities")
                 with WarmCommand(folder, "drive", "plan.json", *asked).running() as drive:
                     wait_for(lambda: "sets out" in drive.log, LONGEST, "robots")
-                    names = _ask_for_jobs(drive, broker, journal, draw, counts)
+                    names = _ask_for_jobs(
+                        drive, broker, observer, journal, draw=draw, counts=counts
+                    )
                     try:
                         wait_for(lambda: read_pool(journal).keys() >= names, LONGEST, "all jobs")
                     except AssertionError as error:
@@ -132,7 +134,13 @@ def run_jobs_at_a_broker(seed: int) -> Counter[str]:
 
 
 def _ask_for_jobs(
-    drive: Command, broker: Mosquitto, journal: Path, draw: random.Random, counts: Counter[str]
+    drive: Command,
+    broker: Mosquitto,
+    observer: Observer,
+    journal: Path,
+    *,
+    draw: random.Random,
+    counts: Counter[str],
 ) -> set[str]:
     """Add, change and withdraw jobs, and kill control and broker; return the names of all jobs."""
     names, commands = {"J1", "J2", "J3"}, Commands(journal)
@@ -154,7 +162,7 @@ def _ask_for_jobs(
             broker.kill()
             broker.start()
         counts[f"{kind}s"] += 1
-        time.sleep(draw.expovariate(1.0))
+        _wait_for_states(drive, observer, draw.randrange(1, 30))
     commands.close()
     return names
 
@@ -178,12 +186,7 @@ def _kill(
 ) -> None:
     """Kill control and broker, each time after some states."""
     for _ in range(draw.randrange(KILLS + 1)):
-        due = observer.counts["state"] + draw.randrange(1, 80)
-
-        def is_due(due: int = due) -> bool:
-            return observer.counts["state"] >= due or drive.code is not None
-
-        wait_for(is_due, LONGEST, "states")
+        _wait_for_states(drive, observer, draw.randrange(1, 80))
         if drive.code is not None:
             return
         if draw.random() < 0.25:
@@ -194,6 +197,12 @@ def _kill(
             drive.kill()
             drive.start()
             counts["control kills"] += 1
+
+
+def _wait_for_states(drive: Command, observer: Observer, count: int) -> None:
+    """Wait for some more states, or for the end of the control."""
+    due = observer.counts["state"] + count
+    wait_for(lambda: observer.counts["state"] >= due or drive.code is not None, LONGEST, "states")
 
 
 def _say(line: str) -> None:

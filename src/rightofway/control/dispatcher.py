@@ -26,15 +26,13 @@ from rightofway.control.rest import RestPlanner, explain_error
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.round_driver import RoundDriver
 from rightofway.control.round_worker import Rounds, RoundsAtOnce
-from rightofway.control.routes import RouteToDrive, make_route_from, make_routes_to_drive
+from rightofway.control.routes import RouteToDrive, make_routes_to_drive
 from rightofway.control.stop_actions import StopActions
 from rightofway.errors import GaveUp, InputError
 from rightofway.facts import Fact
 from rightofway.model import Plan
 from rightofway.precedence import Part, ReleaseGraph
-from rightofway.resume.held import list_held
 from rightofway.resume.rest_of_fleet import StopToMake
-from rightofway.search import Distances
 
 __all__ = ["Dispatcher"]
 
@@ -292,55 +290,6 @@ class Dispatcher:
         return self.control.splice(
             routes, graph, withdrawn=withdrawn, notes=notes, placed=[*placed]
         )
-
-    def place(self, robot: int, place: str, notes: Sequence[Entry]) -> list[Message]:
-        """Put a robot of a plan with jobs at a place; a round plans what it does from there.
-
-        Until then others drive to the ends of their released parts: it may be in their way.
-
-        Raises
-        ------
-        GaveUp
-            If another robot holds the place, or what excludes it, or no way leads home from there.
-        """
-        assert self.rounds is not None, "the plan has jobs"
-        scenario, ledger = self.rounds.scenario, self.ledger
-        vertex, home = scenario.roadmap.get_vertex(place), scenario.robots[robot].home
-        ticks = scenario.problem.itineraries[robot].edge_ticks
-        if Distances(scenario.roadmap).to(home, ticks)[vertex] < 0:
-            home_name = scenario.roadmap.name(home)
-            raise GaveUp(Fact("no way to home", place=place, home=home_name))
-        excluded = list_held(scenario, {robot: [int(vertex)]})
-        near = {*map(int, excluded.vertices), *(int(head) for _, head in excluded.edges)}
-        for name, own in zip(ledger.names, ledger.robots, strict=True):
-            held = {int(scenario.roadmap.get_vertex(vertex)) for vertex in own.held}
-            if not own.is_off and not held.isdisjoint(near):
-                raise GaveUp(Fact("place held", place=place, robot=name))
-        committed = self.control.list_committed()
-        routes = [
-            own.route.cut_before(own.arrived).cut_after(last)
-            for own, last in zip(ledger.robots, committed, strict=True)
-        ]
-        before = ledger.robots[robot].route
-        routes[robot] = replace(make_route_from(before, place), places=(place,), jobs=((),))
-        routes[robot] = replace(routes[robot], work=((),), enter=(before.enter[-1],))
-        lost = [
-            (number, item)
-            for number, (own, route) in enumerate(zip(ledger.robots, routes, strict=True))
-            for item in sorted(own.route.all_jobs - own.finished - route.all_jobs)
-        ]
-        absent = [k for k, own in enumerate(ledger.robots) if own.is_off and k != robot]
-        committed[robot] = routes[robot].first
-        graph = build_graph_behind_released(scenario, routes, committed, absent)
-        self.rounds.want()
-        messages = self.control.splice(
-            routes,
-            graph,
-            withdrawn=lost,
-            notes=notes,
-            placed=[robot],
-        )
-        return [*messages, *self.rounds.go_on()]
 
     def _list_closed_edges(self) -> set[Edge]:
         """Return the edges that nobody may enter now, by people and by the scenario."""

@@ -73,10 +73,8 @@ class JobCommands:
 
         Parameters
         ----------
-        given
-            Its name and the keys that change, as for `add`.
-        now
-            The time since the run began [ticks].
+        given, now
+            As for `add`: its name, and the keys that change.
 
         Raises
         ------
@@ -117,10 +115,8 @@ class JobCommands:
 
         Parameters
         ----------
-        name
-            Of the job.
-        now
-            The time since the run began [ticks].
+        name, now
+            As for `withdraw`.
         """
         entries: list[Entry] = [
             {"kind": "skipped", "robot": robot, "job": item}

@@ -264,7 +264,7 @@ class Operator:
         place = self._name_stop(at or said)
         if self._dispatcher.rounds is not None:
             notes = self._record_answer(Fact("robot placed", robot=name, place=place))
-            return self._dispatcher.place(robot, place, notes)
+            return self._dispatcher.rounds.place(robot, place, notes)
         first, stops = own.route.end, self._dispatcher.list_stops()
         # A lap that ends where the robot has arrived was counted, its work there may not be done.
         laps_ahead = tuple(end for end in own.route.lap_ends if end > own.arrived)

@@ -15,6 +15,7 @@ from rightofway.control.held_work import list_ready
 from rightofway.control.journal import Entry
 from rightofway.control.laps import build_graph_behind_released
 from rightofway.control.messages import Message
+from rightofway.control.round_place import list_lost, make_routes_to_stand, refuse_place
 from rightofway.control.round_view import (
     ViewOfRound,
     find_kept_parts,
@@ -24,7 +25,6 @@ from rightofway.control.round_view import (
 )
 from rightofway.control.round_watch import RoundWatch
 from rightofway.control.round_worker import RoundRequest, Rounds
-from rightofway.control.routes import RouteToDrive
 from rightofway.dispatch import PoolEvent, Round
 from rightofway.errors import InputError
 from rightofway.facts import Fact
@@ -129,6 +129,30 @@ class RoundDriver:
             messages += self._take_over(self._seen, planned)
         return messages
 
+    def place(self, robot: int, place: str, notes: Sequence[Entry]) -> list[Message]:
+        """Put a robot that was off the floor at a place; a round plans what it does from there.
+
+        Parameters
+        ----------
+        robot, place
+            The number of the robot, and the name of a vertex.
+        notes
+            Entries that are committed together with the new routes.
+
+        Raises
+        ------
+        GaveUp
+            If another robot is in the way, or no way leads home from there.
+        """
+        control, ledger = self._control, self._control.ledger
+        refuse_place(self.scenario, ledger, robot, place)
+        committed = control.list_committed()
+        routes, graph = make_routes_to_stand(self.scenario, ledger, committed, robot, place)
+        self.want()
+        lost = list_lost(ledger, routes)
+        messages = control.splice(routes, graph, withdrawn=lost, notes=notes, placed=[robot])
+        return [*messages, *self.go_on()]
+
     def _begin(self, *, ignores_closures: bool = False) -> None:
         """Begin a round; perhaps as if nothing was closed and all robots could drive.
 
@@ -185,7 +209,7 @@ class RoundDriver:
         graph = build_graph_behind_released(self.scenario, routes, seen.kept_parts, absent)
         if graph.find_rotation():
             return self._keep_old(Fact("robots would rotate"))
-        notes, moved = self._list_unserved(planned), self._list_moved(routes)
+        notes, moved = self._list_unserved(planned), list_lost(ledger, routes)
         try:
             messages = control.splice(routes, graph, withdrawn=moved, notes=notes)
         except InputError as error:  # the guard: no round ends the control
@@ -221,16 +245,6 @@ class RoundDriver:
         fact = Fact("no plan of the rest", reason=reason if is_general else str(reason))
         self.report(fact, False)
         return self._control.note()
-
-    def _list_moved(self, routes: Sequence[RouteToDrive]) -> list[tuple[int, str]]:
-        """Return the work that robots had to do and have no more: others do it, or later."""
-        return [
-            (robot, item)
-            for robot, (own, route) in enumerate(
-                zip(self._control.ledger.robots, routes, strict=True)
-            )
-            for item in sorted(own.route.all_jobs - own.finished - route.all_jobs)
-        ]
 
     def _list_unserved(self, planned: Round) -> list[Entry]:
         """Return entries on jobs that no robot can ever do."""
