@@ -35,7 +35,7 @@ from rightofway.control.vda5050 import (
     write_message,
 )
 from rightofway.errors import InputError
-from rightofway.io import parse_scenario
+from rightofway.io import dump_scenario, parse_scenario
 from rightofway.model import Robot, Scenario, Stop
 from rightofway.model.bind_work import find_heading_on_site
 from rightofway.model.turning import list_headings
@@ -195,6 +195,32 @@ def test_nodes_have_their_position_in_the_frame_of_the_robot(version: str) -> No
     assert deviations[version].items() <= first.items()
     speed = "maximumSpeed" if version == "3.0.0" else "maxSpeed"
     assert (document["edges"][0][speed], document["edges"][0]["length"]) == (0.5, 2.0)
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_headings_of_a_layout_are_sent_where_robots_work_and_along_edges(version: str) -> None:
+    """The map of the robot is turned left by a right angle: north on the site is 0 there.
+
+    A robot that passes C, without work there, need not turn.
+    """
+    vertices = {"A": [100, 200], "B": [300, 200], "C": {"at": [300, 600], "heading": 90}}
+    edges = [["A", "B"], {"from": "B", "to": "C", "orientation": 180, "both_ways": False}]
+    scenario = site(roadmap={"vertices": vertices, "edges": edges}, spacing=200)
+    assert parse_scenario(dump_scenario(scenario)).roadmap.drawing == scenario.roadmap.drawing
+    order_map = map_of(scenario, frame=Frame(yaw=Fraction(math.pi / 2)))
+    order = order_over("A", "B", "B-C/1", "C")
+    passing = write_message(OrderMessage.of(order, order_map), header(version))
+    nodes = (*order.nodes[:-1], replace(order.nodes[-1], actions=("work",)))
+    works = write_message(OrderMessage.of(replace(order, nodes=nodes), order_map), header(version))
+    for document in (passing, works):
+        validator(version, "order").validate(document)
+        first, *others = document["edges"]
+        assert "orientation" not in first
+        assert [edge["orientation"] for edge in others] == pytest.approx([math.pi, math.pi])
+    assert not any("theta" in node["nodePosition"] for node in passing["nodes"])
+    *before, last = works["nodes"]
+    assert not any("theta" in node["nodePosition"] for node in before)
+    assert last["nodePosition"]["theta"] == pytest.approx(0)
 
 
 def test_a_site_whose_y_grows_downwards_is_mirrored() -> None:

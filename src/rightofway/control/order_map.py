@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from math import degrees
+from math import degrees, radians, remainder, tau
 from typing import Any
 
 from rightofway.control.identities import Identity
@@ -28,11 +28,14 @@ class Place:
         The map of the robot.
     deviation
         How near the robot has to come [m]; None for its usual value.
+    theta
+        Heading of the robot when it works there, from -pi to pi [rad]; None for any.
     """
 
     point: tuple[float, float]
     map_id: str
     deviation: float | None = None
+    theta: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,12 +52,15 @@ class OrderLane:
         The control points of its shape, both ends included [m]; none for a straight line.
     is_bezier
         Whether the points are those of one Bézier curve; else straight lines join them.
+    orientation
+        Angle of the robot against the direction of driving, from -pi to pi [rad]; None for any.
     """
 
     length: float
     max_speed: float
     points: tuple[tuple[float, float], ...] = ()
     is_bezier: bool = False
+    orientation: float | None = None
 
 
 Shapes = Mapping[tuple[int, int], tuple[tuple[Point, ...], bool]]
@@ -66,8 +72,23 @@ class _LookedUp:
     """The places looked up in a map, for all robots that see it alike."""
 
     shapes: Shapes
+    headings: Mapping[int, Fraction]
+    orientations: Mapping[tuple[int, int], Fraction]
     places: dict[str, Place | None] = field(default_factory=dict)
     lanes: dict[tuple[str, str], OrderLane | None] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, roadmap: Roadmap, shapes: Shapes) -> _LookedUp:
+        """Return an empty lookup in a roadmap."""
+        drawing = roadmap.drawing
+        return cls(
+            shapes=shapes,
+            headings={int(vertex): heading for vertex, heading in drawing.headings},
+            orientations={
+                (int(tail), int(head)): orientation
+                for tail, head, orientation in drawing.orientations
+            },
+        )
 
 
 @dataclass(slots=True)
@@ -95,11 +116,12 @@ class OrderMap:
     looked_up: _LookedUp | None = None
     _places: dict[str, Place | None] = field(init=False)
     _lanes: dict[tuple[str, str], OrderLane | None] = field(init=False)
-    _shapes: Shapes = field(init=False)
+    _known: _LookedUp = field(init=False)
 
     def __post_init__(self) -> None:
-        known = self.looked_up or _LookedUp(_list_shapes(self.scenario.roadmap))
-        self._places, self._lanes, self._shapes = known.places, known.lanes, known.shapes
+        roadmap = self.scenario.roadmap
+        self._known = self.looked_up or _LookedUp.of(roadmap, _list_shapes(roadmap))
+        self._places, self._lanes = self._known.places, self._known.lanes
 
     @property
     def _metre(self) -> Fraction:
@@ -134,6 +156,7 @@ class OrderMap:
                     point=self._point(self.scenario.roadmap.get_point(vertex)),
                     map_id=self.identity.map_id,
                     deviation=self.deviation,
+                    theta=self._find_theta(vertex),
                 )
             )
         return self._places[name]
@@ -159,7 +182,7 @@ class OrderMap:
         kind = roadmap.get_edge_class(edges[0])
         robot = scenario.robots[self.robot]
         speed = kind.limit_speed(robot.speed, robot.type)
-        shape = self._shapes.get((start, end))
+        shape = self._known.shapes.get((start, end))
         points = tuple[tuple[float, float], ...]()
         if shape is not None:
             course = (roadmap.get_point(start), *shape[0], roadmap.get_point(end))
@@ -169,6 +192,7 @@ class OrderMap:
             max_speed=float(speed * self._metre / (scenario.units.seconds or 1)),
             points=points,
             is_bezier=shape is not None and shape[1],
+            orientation=self._find_orientation(start, end),
         )
 
     def _find_vertex(self, name: str) -> VertexId | None:
@@ -183,6 +207,20 @@ class OrderMap:
         up = y if self.scenario.roadmap.frame.y_up else -y
         x, y = self.identity.frame.to_plane((x * self._metre, up * self._metre))
         return float(x), float(y)
+
+    def _find_theta(self, vertex: VertexId) -> float | None:
+        """Return the heading at a vertex in the frame of the robot; `find_heading` inverts it."""
+        heading = self._known.headings.get(int(vertex))
+        return None if heading is None else self._turn(heading, self.identity.frame.yaw)
+
+    def _find_orientation(self, tail: VertexId, head: VertexId) -> float | None:
+        orientation = self._known.orientations.get((int(tail), int(head)))
+        return None if orientation is None else self._turn(orientation)
+
+    def _turn(self, angle: Fraction, yaw: Fraction = Fraction(0)) -> float:
+        """Return an angle of the site, from x to y, as the robot has it, from -pi to pi [rad]."""
+        up = angle if self.scenario.roadmap.frame.y_up else -angle
+        return remainder(radians(up) - yaw, tau)
 
     def find_heading(self, theta: float) -> Fraction:
         """Return a heading of the robot on the site, as `RobotState.heading` [degrees].
@@ -233,7 +271,7 @@ def make_order_maps(scenario: Scenario, identities: Sequence[Identity]) -> list[
     maps = []
     for robot, (own, identity) in enumerate(zip(scenario.robots, identities, strict=True)):
         view = (identity.frame, identity.map_id, identity.deviation, own.speed, own.type)
-        known = looked_up.setdefault(view, _LookedUp(shapes))
+        known = looked_up.setdefault(view, _LookedUp.of(scenario.roadmap, shapes))
         maps.append(OrderMap(scenario, robot, identity, known))
     return maps
 

@@ -102,6 +102,7 @@ class _NodePosition(_Model):
     mapId: str
     # A circle's radius, which 3.0 writes as an ellipse.
     allowedDeviationXY: Any = None
+    theta: float | None = None
 
 
 class _Node(_Model):
@@ -134,6 +135,7 @@ class _Edge(_Model):
         default=None, validation_alias=AliasChoices("maxSpeed", "maximumSpeed")
     )
     length: float | None = None
+    orientation: float | None = None  # against the direction of driving
     trajectory: _Trajectory | None = None
     actions: tuple[_Action, ...] = Field(default=(), strict=False)
 
@@ -177,7 +179,9 @@ class OrderMessage(_Model):
                 nodeId=node.place,
                 sequenceId=node.sequence_id,
                 released=True,
-                nodePosition=_make_position(order_map.get_place(node.place)),
+                nodePosition=_make_position(
+                    order_map.get_place(node.place), is_work=bool(node.actions)
+                ),
                 actions=tuple(
                     _make_work(
                         action,
@@ -217,11 +221,18 @@ class OrderMessage(_Model):
         return Order(robot=robot, order_id=self.orderId, update_id=self.orderUpdateId, nodes=nodes)
 
 
-def _make_position(place: Place | None) -> _NodePosition | None:
+def _make_position(place: Place | None, *, is_work: bool) -> _NodePosition | None:
+    """Return where a node is; with the heading there, if the robot works at the node."""
     if place is None:
         return None
     x, y = place.point
-    return _NodePosition(x=x, y=y, mapId=place.map_id, allowedDeviationXY=place.deviation)
+    return _NodePosition(
+        x=x,
+        y=y,
+        mapId=place.map_id,
+        allowedDeviationXY=place.deviation,
+        theta=place.theta if is_work else None,
+    )
 
 
 def _make_work(action_id: str, item: str, task: ActionToDo, identity: Identity) -> _Action:
@@ -262,6 +273,7 @@ def _make_edge(tail: str, head: str, sequence_id: int, order_map: OrderMap) -> _
         endNodeId=head,
         maxSpeed=None if lane is None else lane.max_speed,
         length=None if lane is None else lane.length,
+        orientation=None if lane is None else lane.orientation,
         trajectory=_make_trajectory(lane),
     )
 

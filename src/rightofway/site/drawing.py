@@ -68,6 +68,12 @@ class Drawing:
     controls
         Tail and head of each edge that the scenario draws as a Bézier curve, with its control
         points between the ends in the site's frame [length unit].
+    headings
+        Vertices at which robots work in a heading, with it: angle from the site's x axis to its y
+        axis [degrees].
+    orientations
+        Tail and head of each edge along which robots drive in an orientation, with the angle from
+        the direction of driving, turned as a heading [degrees]; 180 for backwards.
     picture
         The picture that lies below the map.
     """
@@ -77,4 +83,6 @@ class Drawing:
     charging: tuple[VertexId, ...] = ()
     curves: tuple[tuple[VertexId, VertexId, tuple[Point, ...]], ...] = ()
     controls: tuple[tuple[VertexId, VertexId, tuple[Point, ...]], ...] = ()
+    headings: tuple[tuple[VertexId, Fraction], ...] = ()
+    orientations: tuple[tuple[VertexId, VertexId, Fraction], ...] = ()
     picture: Picture | None = None

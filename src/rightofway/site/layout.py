@@ -6,7 +6,7 @@ Lengths are metres, speeds metres per second, and y grows upwards, whatever the 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -39,6 +39,8 @@ class LayoutVertex:
         Whether a robot may park, or can be charged, there.
     is_passed
         Whether robots only drive through, without a stop.
+    heading
+        Heading of robots that work there: angle from the x axis to the y axis [degrees].
     """
 
     name: str
@@ -46,6 +48,7 @@ class LayoutVertex:
     is_parking: bool = False
     is_charging: bool = False
     is_passed: bool = False
+    heading: Fraction | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,6 +81,9 @@ class Level:
         Names of tail and head of each lane that leads to another level.
     picture
         The picture that it is drawn over [m].
+    orientations
+        Orientations along lanes, by names of tail and head: angle from the direction of driving
+        [degrees].
     """
 
     name: str
@@ -87,6 +93,7 @@ class Level:
     zones: tuple[NamedZone, ...] = ()
     links: tuple[tuple[str, str], ...] = ()
     picture: Picture | None = None
+    orientations: Mapping[tuple[str, str], Fraction] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         names = tuple(vertex.name for vertex in self.vertices)
@@ -364,6 +371,15 @@ def _make_drawing(
             (ids[tail], ids[head], tuple((x * metre, y * metre) for x, y in points))
             for (tail, head), points in bends.items()
             if {tail, head} <= ids.keys() and roadmap.is_drawn(ids[tail], ids[head])
+        ),
+        headings=tuple(
+            (ids[vertex.name], vertex.heading) for vertex in known if vertex.heading is not None
+        ),
+        orientations=tuple(
+            (tail, head, orientation)
+            for ends, orientation in level.orientations.items()
+            if ids.keys() >= {*ends}
+            for tail, head in roadmap.list_pieces((ids[ends[0]], ids[ends[1]]))
         ),
         picture=level.picture and level.picture.scale(metre),
     )

@@ -321,6 +321,15 @@ class Roadmap:
                 drawn.setdefault(frozenset(lane.vertices), lane.vertices)
         return [*ways, *drawn.values()]
 
+    def list_pieces(self, ends: tuple[VertexId, VertexId]) -> tuple[tuple[VertexId, VertexId], ...]:
+        """Return tail and head of an edge, or of the pieces of a split lane in one direction.
+
+        Empty if no edge or lane has these ends.
+        """
+        if self.is_drawn(*ends):
+            return (ends,)
+        return next((lane.pieces for lane in self.lanes if lane.ends == ends), ())
+
     @checks_arguments
     def is_along_one_lane(self, vertices: Collection[int]) -> bool:
         """Return whether vertices are joints, or joints and ends, of one lane that was split."""

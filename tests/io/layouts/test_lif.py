@@ -5,11 +5,13 @@ from __future__ import annotations
 import json
 from fractions import Fraction
 from itertools import product
+from math import pi
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from rightofway.io import format_layout
 from rightofway.io.layouts import read_layout
 from rightofway.site.layout import Layout, build_roadmap_of_level
 from tests.builders.sentences import tell_notes
@@ -124,3 +126,55 @@ def test_version_2_is_read(tmp_path: Path) -> None:
     assert [lane.max_speed for lane in level.edges] == [Fraction(3, 2), None]
     assert [station.name for station in level.stations] == ["Dock"]
     assert tell_notes(found) == ()
+
+
+def test_headings_and_orientations_are_read_and_written(tmp_path: Path) -> None:
+    """Those of nodes count before those of stations; types of robots may differ in one."""
+
+    def node(name: str, x: float, *thetas: float) -> dict[str, Any]:
+        own = [{"vehicleTypeId": str(k), "theta": theta} for k, theta in enumerate(thetas)]
+        place = {"nodeId": name, "nodePosition": {"x": x, "y": 0}}
+        return place | {"vehicleTypeNodeProperties": own or [{"vehicleTypeId": "0"}]}
+
+    def edge(tail: str, head: str, **own: Any) -> dict[str, Any]:
+        properties = [{"vehicleTypeId": name, "rotationAllowed": True} | own for name in "01"]
+        ends = {"edgeId": tail + head, "startNodeId": tail, "endNodeId": head}
+        return ends | {"vehicleTypeEdgeProperties": properties}
+
+    layout = {
+        "layoutId": "hall",
+        "nodes": [node("A", 0, pi / 2, pi / 2), node("B", 5), node("C", 9, 0, pi)],
+        "edges": [
+            edge("A", "B", vehicleOrientation=0.0),
+            edge("B", "A", vehicleOrientation=pi),
+            edge("B", "C", vehicleOrientation=1.0, orientationType="GLOBAL"),
+        ],
+        "stations": [
+            {
+                "stationId": "Press",
+                "interactionNodeIds": ["A", "B"],
+                "stationPosition": {"x": 5, "y": 1, "theta": -pi / 2},
+            }
+        ],
+    }
+    path = tmp_path / "hall.lif.json"
+    path.write_text(json.dumps({"layouts": [layout]}), "utf-8")
+    found = read_layout(path)
+    assert isinstance(found, Layout)
+    (level,) = found.levels
+    assert {vertex.name: vertex.heading for vertex in level.vertices} == {
+        "A": 90,
+        "B": -90,
+        "C": None,
+    }
+    assert level.orientations == {("A", "B"): 0, ("B", "A"): 180}
+    notes = tell_notes(found)
+    assert "theta has no effect on plans: C" in notes
+    assert "vehicleOrientation has no effect on plans: BC" in notes
+    text, left_out = format_layout(found, "lif")
+    assert not left_out
+    path.write_text(text, "utf-8")
+    again = read_layout(path)
+    assert isinstance(again, Layout)
+    assert again.levels[0].orientations == level.orientations
+    assert again.levels[0].vertices == level.vertices

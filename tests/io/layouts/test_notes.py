@@ -105,7 +105,7 @@ GRAPHML = (
 @pytest.mark.parametrize(
     ("text", "named"),
     [
-        (in_lif(put(*NODE, theta=0)), "theta: A"),
+        (in_lif(put(*NODE, theta=90)), "theta: A"),
         (in_lif(put(*NODE, actions=[{"actionType": "pick"}])), "action pick: A"),
         (in_lif(put("nodes", 1, region="wet")), "region: B"),
         (in_lif(put(*EDGE, rotationAllowed=False)), "rotationAllowed: AB"),
@@ -125,7 +125,7 @@ GRAPHML = (
         (in_lif(put(*EDGE, maxHeight=2)), "maxHeight: AB"),
         (in_lif(put("stations", 0, stationHeight=1)), "stationHeight: Press"),
         (
-            in_lif(put("stations", 0, stationPosition={"x": 5, "y": 1, "theta": 1.5})),
+            in_lif(put("stations", 0, stationPosition={"x": 5, "y": 1, "theta": 90})),
             "stationPosition.theta: Press",
         ),
         (in_nav2(put(9, operations=STOP)), "operations: 9"),
@@ -142,10 +142,6 @@ GRAPHML = (
             "orientation_constraint: a to b",
         ),
         (RMF.format("", "") + "\ndoors: {gate: {map: L1}}", "door: gate"),
-        (
-            PLANT.format('vehicleOrientationAngle="90.0"', "", "", "", ""),
-            "vehicleOrientationAngle: A",
-        ),
         (PLANT.format("", "<property/>", "", "", ""), "property: A"),
         (PLANT.format("", "", 'routingCost="5"', "", ""), "routingCost: A --- B"),
         (
@@ -179,6 +175,10 @@ def test_a_member_of_a_block_that_is_not_there_is_named(tmp_path: Path) -> None:
     [
         in_lif(put()),
         in_lif(put(*EDGE, vehicleOrientation=0, orientationType="TANGENTIAL")),
+        in_lif(put(*EDGE, vehicleOrientation=3.1416)),
+        in_lif(put(*NODE, theta=-1.57)),
+        in_lif(put("stations", 0, stationPosition={"x": 5, "y": 1, "theta": 1.5})),
+        PLANT.format('vehicleOrientationAngle="90.0"', "", "", "", ""),
         in_lif(put(*EDGE, rotationAtStartNodeAllowed="BOTH", reentryAllowed=True)),
         in_lif(put(*EDGE, loadRestriction={"loaded": True, "unloaded": True})),
         in_nav2(put()),

@@ -44,6 +44,8 @@ def known_to(level: Level, says: frozenset[str]) -> list[object]:
             edge.shape for edge in level.edges if edge.chord_error is not None
         ],
         "vehicle types": level.vehicle_types,
+        "headings at vertices": [vertex.heading for vertex in level.vertices],
+        "orientations along lanes": level.orientations,
         "zones": level.zones,
     }
     return [own[what] for what in sorted(says - {"levels"})]

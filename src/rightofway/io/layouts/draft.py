@@ -128,6 +128,7 @@ class LevelDraft:
     stations: list[Station] = field(default_factory=list)
     zones: list[NamedZone] = field(default_factory=list)
     picture: Picture | None = None
+    orientations: dict[tuple[str, str], Fraction] = field(default_factory=dict)
     unused: int = 0  # vertices that are drawn and on no lane, of a format that has other ones, too
 
     def add(self, vertex: LayoutVertex, source: Source) -> None:
@@ -282,6 +283,7 @@ class LayoutDraft:
             zones=tuple(self._list_usable_zones(level)),
             links=links,
             picture=level.picture,
+            orientations=level.orientations,
         )
 
     def _list_usable_stations(self, level: LevelDraft) -> list[Station]:

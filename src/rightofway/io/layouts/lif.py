@@ -12,8 +12,10 @@ VDMA, *Layout Interchange Format (LIF)*, version 1.0.0, 2024. The examples of th
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
+from math import degrees
 from typing import Any
 
 import numpy as np
@@ -135,10 +137,12 @@ def _add_node(level: LevelDraft, node: Source, draft: LayoutDraft) -> None:
     draft.note_unused(node, name, NODE_KEYS)
     for own in node.read_items_under(*NODE_PROPERTIES):
         _note_unused_properties(own, name, draft)
+    headings = [_read_angle(own, "theta") for own in node.read_items_under(*NODE_PROPERTIES)]
     level.add(
         LayoutVertex(
             name=name,
             at=read_both(lambda: at.need("x").number(), lambda: at.need("y").number()),
+            heading=_choose_common(headings, "theta", name, draft),
             is_charging=any(
                 action.value.get("actionType") == CHARGING[0]
                 for own in node.read_items_under(*NODE_PROPERTIES)
@@ -168,8 +172,39 @@ def _add_edge(level: LevelDraft, edge: Source, draft: LayoutDraft) -> None:
         limit = None if speed is None else speed.number()
         limit_and_curve = limit, _read_curve(properties, draft, name)
         ways.setdefault(limit_and_curve, set()).update(_list_types(properties))
+    orientations = [_read_orientation(properties) for properties in own]
+    orientation = _choose_common(orientations, "vehicleOrientation", name, draft)
+    if orientation is not None:
+        level.orientations[tail, head] = orientation
     for (limit, curve), types in ways.items():  # one lane for all types with one way
         level.connect(edge, tail, head, max_speed=limit, types=frozenset(types), curve=curve)
+
+
+def _read_angle(own: Source, key: str) -> Fraction | None:
+    """Return an angle [degrees]; None without one in radians."""
+    try:
+        angle = own.need(key).number() if own.value.get(key) is not None else None
+    except InputError:
+        return None  # no plan depends on it
+    if angle is None or abs(angle) > HALF_TURN:
+        return None
+    return Fraction(round(degrees(angle) * MICRO), MICRO)
+
+
+def _read_orientation(own: Source) -> Fraction | None:
+    """Return the orientation along an edge, if it is against the direction of driving [degrees]."""
+    is_along = own.value.get("orientationType") != "GLOBAL"
+    return _read_angle(own, "vehicleOrientation") if is_along else None
+
+
+def _choose_common(
+    angles: Sequence[Fraction | None], key: str, name: str, draft: LayoutDraft
+) -> Fraction | None:
+    """Return the angle of all types of robots that have one; None, with a note, if they differ."""
+    different = {angle for angle in angles if angle is not None}
+    if len(different) > 1:
+        draft.note_unused_key(key, name)
+    return different.pop() if len(different) == 1 else None
 
 
 def _list_types(own: Source) -> list[str]:
@@ -216,15 +251,18 @@ def _read_nurbs(trajectory: Source) -> Nurbs:
 
 
 def _note_unused_properties(own: Source, name: str, draft: LayoutDraft) -> None:
-    """Note the properties for one type of robots that have no effect on plans.
+    """Note the properties for one type of robots that have no effect on plans and orders.
 
     False and 0 have a meaning here. Defaults have an effect on no plan.
     """
     properties = own.read_mapping()
     is_along = properties.get("orientationType") != "GLOBAL"
+    used = {"theta"} if _read_angle(own, "theta") is not None else set[str]()
+    if _read_orientation(own) is not None:
+        used.add("vehicleOrientation")
     for key, value in properties.items():
         is_default = value in DEFAULTS.get(key, ()) and (is_along or key != "vehicleOrientation")
-        if key not in PROPERTY_KEYS and value is not None and not is_default:
+        if key not in PROPERTY_KEYS | used and value is not None and not is_default:
             draft.note_unused_key(key, name)
     for action in own.read_items_under(*ACTIONS):
         kind = action.value.get("actionType") if isinstance(action.value, dict) else None
@@ -252,8 +290,21 @@ def _add_station(level: LevelDraft, station: Source, draft: LayoutDraft) -> None
     level.stations.append(Station(name=name, vertices=tuple(nodes)))
     draft.note_unused(station, name, STATION_KEYS)
     if _get_theta(station) is not None:
-        draft.note_unused_key("stationPosition.theta", name)
-        _check_theta(station.need("stationPosition"), name, draft)
+        position = station.need("stationPosition")
+        heading = _read_angle(position, "theta")
+        if heading is None:
+            draft.note_unused_key("stationPosition.theta", name)
+        else:
+            _turn_at(level, nodes, heading)
+        _check_theta(position, name, draft)
+
+
+def _turn_at(level: LevelDraft, nodes: Sequence[str], heading: Fraction) -> None:
+    """Give the nodes of a station its heading, where they have none of their own."""
+    for node in nodes:
+        vertex = level.vertices.get(node)
+        if vertex is not None and vertex.heading is None:
+            level.vertices[node] = replace(vertex, heading=heading)
 
 
 def _get_theta(station: Source) -> Any:

@@ -27,7 +27,7 @@ X, Y = ("positionX", "xPosition"), ("positionY", "yPosition")
 
 USED = {
     *X, *Y, "destinationPoint", "id", "length", "link", "locked", "maxReverseVelocity",
-    "maxVelocity", "name", "outgoingPath", "sourcePoint", "type",
+    "maxVelocity", "name", "outgoingPath", "sourcePoint", "type", "vehicleOrientationAngle",
     # What concerns the drawing alone.
     "locationLayout", "pathLayout", "pointLayout", "positionZ", "zPosition",
 }  # fmt: skip
@@ -116,10 +116,17 @@ def _add_point(level: LevelDraft, point: Element, draft: LayoutDraft) -> None:
             at=(x * MILLIMETRE, y * MILLIMETRE),
             is_parking=point.value.get("type") == "PARK_POSITION",
             is_passed=point.value.get("type") == "REPORT_POSITION",  # no halt is allowed there
+            heading=_read_heading(point),
         ),
         point,
     )
     _note_unused(point, draft)
+
+
+def _read_heading(point: Element) -> Fraction | None:
+    """Return the angle of vehicles at a point [degrees]; None for NaN, which leaves it open."""
+    angle = point.value.get("vehicleOrientationAngle", "NaN")
+    return None if angle == "NaN" else point.need("vehicleOrientationAngle").number()
 
 
 def _add_path(

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import dist
+from math import dist, radians, remainder, tau
 from typing import Any
 
 from rightofway.errors import InputError
@@ -86,6 +86,10 @@ def list_losses(layout: Layout, says: frozenset[str]) -> Iterator[Fact]:
         "parking places": [vertex.name for vertex in vertices if vertex.is_parking],
         "charging places": [vertex.name for vertex in vertices if vertex.is_charging],
         PASSED_VERTICES: [vertex.name for vertex in vertices if vertex.is_passed],
+        "headings at vertices": [vertex.name for vertex in vertices if vertex.heading is not None],
+        "orientations along lanes": [
+            name for level in levels for name in name_lanes(level.orientations)
+        ],
         "lanes longer than the straight line": [
             name for level in levels for name in _name_curved(level)
         ],
@@ -167,7 +171,7 @@ def _make_lif_level(level: Level) -> dict[str, Any]:
         "layoutLevelId": level.name or "0",
         "nodes": [_make_lif_node(vertex, everybody) for vertex in level.vertices],
         "edges": [
-            _make_lif_edge(edge, number, sorted(edge.types or everybody), at)
+            _make_lif_edge(edge, number, sorted(edge.types or everybody), level, at)
             for number, edge in enumerate(level.edges)
         ],
         "stations": [
@@ -199,19 +203,27 @@ def _make_lif_node(vertex: LayoutVertex, types: Sequence[str]) -> dict[str, Any]
         for name in ("startCharging", "stopCharging")
         if vertex.is_charging
     ]
+    more: dict[str, Any] = {"actions": actions} if actions else {}
+    if vertex.heading is not None:
+        more["theta"] = _convert_to_radians(vertex.heading)
     return {
         "nodeId": vertex.name,
         "nodePosition": {"x": float(vertex.at[0]), "y": float(vertex.at[1])},
-        "vehicleTypeNodeProperties": [
-            {"vehicleTypeId": name, **({"actions": actions} if actions else {})} for name in types
-        ],
+        "vehicleTypeNodeProperties": [{"vehicleTypeId": name, **more} for name in types],
     }
 
 
+def _convert_to_radians(angle: Fraction) -> float:
+    """Return an angle in radians, from -pi to pi."""
+    return remainder(radians(angle), tau)
+
+
 def _make_lif_edge(
-    edge: LayoutEdge, number: int, types: Sequence[str], at: Mapping[str, Point]
+    edge: LayoutEdge, number: int, types: Sequence[str], level: Level, at: Mapping[str, Point]
 ) -> dict[str, Any]:
     more: dict[str, Any] = {}
+    if (edge.tail, edge.head) in level.orientations:
+        more["vehicleOrientation"] = _convert_to_radians(level.orientations[edge.tail, edge.head])
     if edge.max_speed is not None:
         more["maxSpeed"] = float(edge.max_speed)
     if edge.chord_error is not None:
@@ -376,7 +388,8 @@ LAYOUT_WRITERS: dict[str, LayoutWriter] = {
     "lif": LayoutWriter(
         summary="LIF 1.0.0", write=_write_lif,
         says=frozenset({"names of vertices", "levels", "stations", "charging places",
-                        "vehicle types", "curves that robots drive along"}),
+                        "vehicle types", "curves that robots drive along", "headings at vertices",
+                        "orientations along lanes"}),
     ),
     "nav2": LayoutWriter(
         summary="route graph of Nav2, GeoJSON", write=_write_nav2, says=frozenset({"drawn curves"}),

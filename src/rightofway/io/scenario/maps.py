@@ -302,7 +302,11 @@ def _map_of_roadmap(
         },
         passed=[name for name, vertex in document.vertices.items() if vertex.is_passed],
     )
-    drawing = replace(_read_places(document, roadmap), **_collect_bends(curves, roadmap))
+    drawing = replace(
+        _read_places(document, roadmap),
+        **_collect_bends(curves, roadmap),
+        **_collect_headings(document, roadmap),
+    )
     error = max(curve.error for curve in curves.values()) if is_cut else Fraction(0)
     return LoadedMap(
         roadmap=replace(roadmap, drawing=drawing),
@@ -343,6 +347,25 @@ def _collect_bends(curves: Mapping[tuple[str, str], LaneCurve], roadmap: Roadmap
     return {
         "curves": tuple((tail, head, curve.points) for tail, head, curve in whole),
         "controls": tuple((tail, head, curve.controls) for tail, head, curve in whole),
+    }
+
+
+def _collect_headings(document: RoadmapDocument, roadmap: Roadmap) -> dict[str, Any]:
+    """Return the headings of vertices, and the orientations along edges and pieces of lanes."""
+    at = roadmap.get_vertex
+    return {
+        "headings": tuple(
+            (at(name), vertex.heading)
+            for name, vertex in document.vertices.items()
+            if vertex.heading is not None
+        ),
+        "orientations": tuple(
+            (tail, head, edge.orientation)
+            for edge in document.edges
+            if edge.orientation is not None
+            for ends in ((edge.tail, edge.head), (edge.head, edge.tail))[: 1 + edge.both_ways]
+            for tail, head in roadmap.list_pieces((at(ends[0]), at(ends[1])))
+        ),
     }
 
 

@@ -107,6 +107,10 @@ class EdgeDocument(Document):
     surcharge: NotNegative = make_optional(
         "what makes it less liked, not slower [time unit]; 0 by default"
     )
+    orientation: Angle = make_optional(
+        "how robots are turned against the direction of driving, for orders, like 180 for backwards"
+        " [degrees]; both directions have their own"
+    )
 
     @model_validator(mode="before")
     @classmethod
@@ -145,6 +149,9 @@ class VertexDocument(Document):
         alias="pass",
         default=False,
         description="true or false: do robots only drive through, without a stop?",
+    )
+    heading: Angle = make_optional(
+        "heading of robots that work there, for orders: from x to y [degrees]; any by default"
     )
 
     @model_validator(mode="before")

@@ -200,6 +200,14 @@ def _write_roadmap(roadmap: Roadmap) -> dict[str, Any]:
     for vertex in passed:
         own = vertices[name(vertex)]
         vertices[name(vertex)] = (own if isinstance(own, dict) else {"at": own}) | {"pass": True}
+    for vertex, heading in roadmap.drawing.headings:
+        own = vertices[name(vertex)]
+        own = own if isinstance(own, dict) else {"at": own}
+        vertices[name(vertex)] = own | {"heading": format_number(heading)}
+    orientations = {
+        (int(tail), int(head)): {"orientation": format_number(orientation)}
+        for tail, head, orientation in roadmap.drawing.orientations
+    }
     curves = {
         (int(tail), int(head)): {
             "curve": [[format_number(part) for part in point] for point in points]
@@ -213,7 +221,9 @@ def _write_roadmap(roadmap: Roadmap) -> dict[str, Any]:
     tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
     columns = (tails.tolist(), roadmap.heads.tolist(), roadmap.class_of_edge.tolist())
     edges = [
-        {"from": names[tail], "to": names[head], **of_class[kind], **curves.get((tail, head), {})}
+        {"from": names[tail], "to": names[head], **of_class[kind]}
+        | curves.get((tail, head), {})
+        | orientations.get((tail, head), {})
         for tail, head, kind in zip(*columns, strict=True)
     ]
     zones = [
