@@ -66,6 +66,18 @@ def test_the_use_of_each_robot_is_a_bar(show: Opener) -> None:
     assert "State of charge" in viewer.text("#card")
 
 
+def test_late_jobs_and_those_not_served_are_counted_with_their_reasons(show: Opener) -> None:
+    # J3 is known at 30, due at 31, and 1 s late; nobody is at N3 by 2, as J4 wants it.
+    viewer = show(make_shift())
+    late = viewer.page.locator("#shift-figures .go").filter(has_text="J3 most")
+    assert late.inner_text().startswith("1\n")
+    viewer.page.locator("#shift-figures .go").filter(has_text="No robot would end it").click()
+    assert viewer.chosen == "J4"
+    late.click()
+    assert viewer.chosen == "J3"
+    assert viewer.complaints == []
+
+
 def test_rounds_lead_to_their_begin_and_tell_if_the_old_plan_stood(show: Opener) -> None:
     record = make_shift()
     first = replace(record.rounds[0], seconds=0.25, stands=True)

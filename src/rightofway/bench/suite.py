@@ -129,7 +129,11 @@ class Case:
     def __str__(self) -> str:
         labels = self.labels
         names = [labels[name] for name in ("map", "scen", "fleet") if labels[name]]
-        counts = [f"{self.robots} robots", f"seed {self.seed}", f"{float(self.limit):g} s"]
+        counts = [
+            f"{self.robots} robot{'s' * (self.robots != 1)}",
+            f"seed {self.seed}",
+            f"{float(self.limit):g} s",
+        ]
         return ", ".join([*names, *counts, " ".join([self.planner, labels["options"]]).strip()])
 
     def make_scenario(self) -> Scenario:

@@ -269,6 +269,8 @@ export interface PageTexts {
     waitsForNobody: string;
     bottlenecks: string;
     bottleneck: Text<"place" | "time">;
+    lateAndNotServed: string;
+    mostLate: Text<"name" | "time">;
     noWaits: string;
     happened: string;
     chart: string;

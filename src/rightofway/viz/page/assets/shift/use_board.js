@@ -39,7 +39,12 @@ export class UseBoard {
     this.words = words;
     root
       .part("shift-figures")
-      .append(...this.#fleet(), ...this.#places(choice), ...this.#events(clock));
+      .append(
+        ...this.#fleet(),
+        ...this.#left(clock, choice),
+        ...this.#places(choice),
+        ...this.#events(clock),
+      );
     this.list = new VirtualList(root.part("use-list"), {
       rowHeight: 52,
       className: "use",
@@ -75,6 +80,40 @@ export class UseBoard {
       shareBar(sums, whole),
       element("ul", { className: "use-legend" }, ...legend),
     ];
+  }
+
+  /**
+   * Late jobs, and those that are not served by their reasons; pressing a line chooses one of them.
+   *
+   * @param {Clock} clock
+   * @param {Choice} choice
+   */
+  #left(clock, choice) {
+    const { late, unserved } = this.shift;
+    const { jobs, phrases } = this.plan;
+    const lines = unserved.map(([reason, count]) => {
+      const text = phrases.said(reason);
+      const job = jobs.findIndex(
+        (each) =>
+          each.robot === undefined &&
+          (each.reason === undefined || phrases.said(each.reason) === text),
+      );
+      return goTo(String(count), upperFirst(text), () => choice.chooseJob(job));
+    });
+    if (late) {
+      const lateness = jobs.map(({ times }) => times?.[3] ?? 0);
+      const job = lateness.indexOf(lateness.reduce((most, ticks) => Math.max(most, ticks), 0));
+      const text = texts.shift.mostLate({
+        name: jobs[job].name,
+        time: this.words.time(lateness[job]),
+      });
+      const end = jobs[job].times?.[1] ?? 0;
+      const choose = () => chooseAt(clock, end, () => choice.chooseJob(job));
+      lines.unshift(goTo(String(late), text, choose));
+    }
+    return lines.length
+      ? [element("h3", {}, texts.shift.lateAndNotServed), element("ol", {}, ...lines)]
+      : [];
   }
 
   /** @param {Choice} choice */
