@@ -6,6 +6,7 @@ from fractions import Fraction
 from typing import Any
 
 from rightofway.check import check
+from rightofway.dispatch.figures import measure_shift
 from rightofway.facts import Fact
 from rightofway.model import Tick
 from tests.builders.shifts import hold_shift, make_scenario
@@ -82,6 +83,20 @@ def test_a_robot_whose_next_job_goes_to_another_one_charges_for_its_rest() -> No
     assert charge.begin == 15
     assert charge.end >= 37
     assert record.robots[0].vertices[-1] == 0
+    assert check(record.make_plan()).ok
+
+
+def test_a_charge_at_the_end_of_a_shift_counts_as_one() -> None:
+    robots = {"R1": {"home": "N0", "battery": "tank"}}
+    jobs = [{"name": "J1", "at": "N4"}]
+    record = hold_shift(
+        make_scenario(["....."], robots, jobs=jobs, batteries=BATTERY, charging=["N0"]),
+        until=Tick(10),
+    )
+    # Home at tick 8 with 2/10, as above; two ticks of a charge add 2/5.
+    (use,) = measure_shift(record).robots
+    assert (use.driving, use.charging, use.idle) == (8, 2, 0)
+    assert use.last_soc == Fraction(3, 5)
     assert check(record.make_plan()).ok
 
 

@@ -378,6 +378,17 @@ class SimulatedFloor:
         own.charging = None
         self._note_soc(robot, tick)
 
+    def end_charges(self, tick: int) -> None:
+        """End all charges at the end of a shift, so that the records have them.
+
+        Parameters
+        ----------
+        tick
+            The tick.
+        """
+        for robot, own in enumerate(self.robots):
+            self._end_charge(robot, own, tick)
+
     def _count_charge(self, robot: int, own: FloorRobot, until: int) -> None:
         """Count the state of charge until a tick: a charge only rises, all else takes `on`."""
         battery, ticks = self.states[robot].battery, until - own.counted

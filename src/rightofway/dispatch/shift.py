@@ -170,6 +170,7 @@ class _Shift:
     def make_record(self) -> ShiftRecord:
         """Return what has happened, at the last tick, too."""
         self._note_works()
+        self._floor.end_charges(self._now)
         return ShiftRecord(
             scenario=self._scenario,
             until=self._now,
