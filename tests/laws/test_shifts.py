@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from random import Random
+from typing import Any
 
 from hypothesis import strategies as st
 
 from rightofway.check import check
 from rightofway.io.scenario.reader import parse_scenario
+from rightofway.model import Scenario
 from tests.builders.laws import law
 from tests.builders.shifts import LONG, draw_shift, hold_shift
 from tests.builders.work_scenarios import draw_work_document
@@ -61,39 +63,61 @@ def test_all_jobs_without_windows_are_done_or_have_a_reason(seed: int) -> None:
 
 
 ROWS, COLUMNS = 4, 6
+ACROSS = ROWS + COLUMNS
+"""No way on the grid of the next law is longer, not even round some other homes [ticks]."""
 
 
-@law(SEEDS)
-def test_every_job_of_a_well_formed_fleet_is_begun_in_time(seed: int) -> None:
-    # Homes are in the last row with cells without homes between them, so that each robot comes
-    # home on a way without other homes. Jobs are in the other rows, and arrive faster than done.
+def draw_well_formed(seed: int, *, has_batteries: bool) -> Scenario:
+    """Return a fleet that can do its jobs one at a time, and jobs that arrive faster than done.
+
+    Homes are in the last row with cells without homes between them, so that each robot comes home
+    on a way without other homes. Jobs are in the other rows. A full battery lasts for a job.
+    """
     draw = Random(seed)  # noqa: S311
     cells = [f"N{cell}" for cell in range((ROWS - 1) * COLUMNS)]
     homes = [f"N{(ROWS - 1) * COLUMNS + column}" for column in range(0, COLUMNS, 2)]
-    patience = draw.choice([0, 15, 40])
-    scenario = parse_scenario(
-        {
-            "format": "rightofway-scenario/1",
-            "map": {"grid": ["." * COLUMNS] * ROWS},
-            "robots": [
-                {"name": home, "home": home} for home in homes[: draw.randint(1, len(homes))]
-            ],
-            "rules": {"turn": 0, "patience": patience},
-            "jobs": [
-                {
-                    "name": f"J{number}",
-                    "pickup": draw.choice(cells),
-                    "dropoff": draw.choice(cells),
-                    "weight": draw.choice([1, 1, 20]),
-                    "earliest": 2 * number,
-                }
-                for number in range(14)
-            ],
+    document: dict[str, Any] = {
+        "format": "rightofway-scenario/1",
+        "map": {"grid": ["." * COLUMNS] * ROWS},
+        "robots": [{"name": home, "home": home} for home in homes[: draw.randint(1, len(homes))]],
+        "rules": {"turn": 0, "patience": draw.choice([0, 15, 40])},
+        "jobs": [
+            {
+                "name": f"J{number}",
+                "pickup": draw.choice(cells),
+                "dropoff": draw.choice(cells),
+                "weight": draw.choice([1, 1, 20]),
+                "earliest": 2 * number,
+            }
+            for number in range(14)
+        ],
+    }
+    if has_batteries:
+        document["batteries"] = {
+            "tank": {
+                "drive": draw.choice(["1/40", "1/60"]),
+                "on": draw.choice([0, "1/1000"]),
+                "charge": f"1/{CHARGE}",
+                "reserve": "1/10",
+            }
         }
-    )
+        for robot in document["robots"]:
+            robot |= {"battery": "tank", "charging": [robot["home"]]}
+    return parse_scenario(document)
+
+
+CHARGE = 20
+"""How long a full charge takes [ticks]."""
+
+
+@law(SEEDS, st.booleans())
+def test_every_job_of_a_well_formed_fleet_is_begun_in_time(seed: int, has_batteries: bool) -> None:
+    scenario = draw_well_formed(seed, has_batteries=has_batteries)
     record = hold_shift(scenario, seed=seed)
-    # A robot alone ends a begun job, drives to the next one, ends it and drives home.
-    longest = 4 * (ROWS + COLUMNS)
+    patience = int(scenario.rules.patience or 0)
+    # A robot alone ends a begun job, drives home and charges, if it has to, and to the next job,
+    # ends it and drives home.
+    longest = 5 * ACROSS + CHARGE if has_batteries else 4 * ACROSS
     for number, own in enumerate(record.jobs.values()):
         assert own.begun is not None
         older = sum(
