@@ -44,6 +44,7 @@ from rightofway.model import (
     StopAction,
     TripEnd,
 )
+from rightofway.model.actions import merge_actions, read_drawn_actions
 from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.site import Roadmap, VertexId, make_grid_roadmap
 from rightofway.site.layout import Layout, LevelRoadmap, build_roadmap_of_level
@@ -160,6 +161,7 @@ class FleetBuilder:
         self._jobs: list[Job] = []
         self._batteries: list[tuple[str, Battery]] = []
         self._charging: list[VertexId] = []
+        self._drawn_actions: tuple[PlaceActions, ...] = ()  # of a layout
         self._actions: list[PlaceActions] = []
         self._robots: list[Robot] = []
         self._roadmap: Roadmap | None = None
@@ -660,7 +662,7 @@ class FleetBuilder:
             jobs=tuple(self._jobs) or None,
             batteries=tuple(self._batteries),
             charging=tuple(self._charging),
-            actions=tuple(self._actions),
+            actions=merge_actions(self._drawn_actions, self._actions),
         )
 
     def _refuse_robots_without_trip(self) -> None:
@@ -729,13 +731,15 @@ class FleetBuilder:
         metres, seconds = self._units.metres, self._units.seconds
         assert metres, "a unit of length has a length"
         assert seconds, "a unit of time has a length"
+        drawn = layout.get_level(level)
         self._level = partial(
             build_roadmap_of_level,
-            layout.get_level(level),
+            drawn,
             vehicle_type=vehicle_type,
             metre=1 / metres,
             second=1 / seconds,
             spacing=self._spacing,
         )
         self._roadmap = self._level().roadmap
+        self._drawn_actions = read_drawn_actions(drawn, self._roadmap)
         self._stations = dict(self._roadmap.drawing.stations)

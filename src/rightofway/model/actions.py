@@ -6,8 +6,9 @@ does its usual action. The fleet control translates actions to messages.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Literal, get_args
 
@@ -24,7 +25,8 @@ from rightofway.kinds.table import (
     make_class,
     make_words,
 )
-from rightofway.site import VertexId
+from rightofway.site import Roadmap, VertexId
+from rightofway.site.layout import Level
 
 Blocking = Literal["none", "soft", "single", "hard"]
 """Whether a robot may drive (``none``, ``single``) and do other actions (``none``, ``soft``)
@@ -224,6 +226,29 @@ class PlaceActions:
 
 
 PLACE_ACTIONS = list_of(make_class(PlaceActions), admits=list | tuple)
+
+
+def merge_actions(
+    others: Sequence[PlaceActions], own: Sequence[PlaceActions]
+) -> tuple[PlaceActions, ...]:
+    """Return actions of places; where both have some for a kind of stop, the second ones count."""
+    merged = {actions.at: actions for actions in others}
+    for actions in own:
+        uses = {use: given for use in get_args(ActionUse) if (given := getattr(actions, use))}
+        merged[actions.at] = replace(merged.get(actions.at, actions), **uses)
+    return tuple(merged.values())
+
+
+def read_drawn_actions(level: Level, roadmap: Roadmap) -> tuple[PlaceActions, ...]:
+    """Return the actions of the vertices of a layout that are on a roadmap."""
+    return tuple(
+        PlaceActions(
+            at=roadmap.get_vertex(vertex.name),
+            **{use: json.loads(text) for use, text in vertex.actions},
+        )
+        for vertex in level.vertices
+        if vertex.actions and vertex.name in (roadmap.labels or ())
+    )
 
 
 def find_use(load: int) -> ActionUse:

@@ -41,6 +41,8 @@ class LayoutVertex:
         Whether robots only drive through, without a stop.
     heading
         Heading of robots that work there: angle from the x axis to the y axis [degrees].
+    actions
+        What robots do where they pick and drop loads: ``pick`` or ``drop``, and the action as JSON.
     """
 
     name: str
@@ -49,6 +51,7 @@ class LayoutVertex:
     is_charging: bool = False
     is_passed: bool = False
     heading: Fraction | None = None
+    actions: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

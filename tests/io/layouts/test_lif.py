@@ -11,8 +11,11 @@ from typing import Any
 
 import pytest
 
-from rightofway.io import format_layout
+from rightofway import FleetBuilder
+from rightofway.io import format_layout, parse_scenario
 from rightofway.io.layouts import read_layout
+from rightofway.model import PlaceActions, StopAction
+from rightofway.site import VertexId
 from rightofway.site.layout import Layout, build_roadmap_of_level
 from tests.builders.sentences import tell_notes
 
@@ -178,3 +181,56 @@ def test_headings_and_orientations_are_read_and_written(tmp_path: Path) -> None:
     assert isinstance(again, Layout)
     assert again.levels[0].orientations == level.orientations
     assert again.levels[0].vertices == level.vertices
+
+
+PICK = {
+    "actionType": "pick",
+    "requirementType": "CONDITIONAL",
+    "blockingType": "SOFT",
+    "actionDescription": "from the belt",
+    "actionParameters": [{"key": "height", "value": 0.4}, {"key": "side", "value": "left"}],
+}
+
+
+def test_picks_and_drops_of_nodes_are_actions_of_places_that_a_scenario_replaces(
+    tmp_path: Path,
+) -> None:
+    drop = {"actionType": "drop", "blockingType": "HARD"}
+    other = {"actionType": "drop", "blockingType": "NONE"}
+    types = [properties("A", actions=[PICK, drop]), properties("B", actions=[PICK, other])]
+    nodes = [node("N", 0, *types), node("M", 6, properties("A", actions=[drop]))]
+    level = {"layoutId": "L", "nodes": nodes, "edges": [edge("N", "M"), edge("M", "N")]}
+    path = tmp_path / "hall.lif.json"
+    path.write_text(json.dumps({"layouts": [level]}))
+    layout = read_layout(path)
+    assert isinstance(layout, Layout)
+    assert "action drop has no effect on plans: N" in tell_notes(layout)
+    pick = StopAction(
+        action="pick",
+        parameters={"height": 0.4, "side": "left"},  # type: ignore[arg-type]
+        blocking="soft",
+        description="from the belt",
+    )
+    usual = StopAction(action="drop")
+    fleet = FleetBuilder(layout=layout).add_robot("R1", home="N")
+    fleet.add_job("J1", pickup="N", dropoff="M")
+    assert fleet.build_scenario().actions == (
+        PlaceActions(at=VertexId(0), pick=(pick,), drop=(usual,)),
+        PlaceActions(at=VertexId(1), drop=(usual,)),
+    )
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {"layout": path.name},
+        "robots": [{"name": "R1", "home": "N"}],
+        "actions": {"N": {"drop": "lower"}},
+        "jobs": [{"name": "J1", "pickup": "N", "dropoff": "M"}],
+    }
+    first = PlaceActions(at=VertexId(0), pick=(pick,), drop="lower")  # type: ignore[arg-type]
+    assert parse_scenario(document, tmp_path).actions[0] == first
+    text, _ = format_layout(layout, "lif")
+    path.write_text(text)
+    again = read_layout(path)
+    assert isinstance(again, Layout)
+    assert [vertex.actions for vertex in again.levels[0].vertices] == [
+        vertex.actions for vertex in layout.levels[0].vertices
+    ]

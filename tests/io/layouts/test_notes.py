@@ -106,7 +106,7 @@ GRAPHML = (
     ("text", "named"),
     [
         (in_lif(put(*NODE, theta=90)), "theta: A"),
-        (in_lif(put(*NODE, actions=[{"actionType": "pick"}])), "action pick: A"),
+        (in_lif(put(*NODE, actions=[{"actionType": "beep"}])), "action beep: A"),
         (in_lif(put("nodes", 1, region="wet")), "region: B"),
         (in_lif(put(*EDGE, rotationAllowed=False)), "rotationAllowed: AB"),
         (in_lif(put(*EDGE, vehicleOrientation=180)), "vehicleOrientation: AB"),

@@ -37,6 +37,7 @@ def known_to(level: Level, says: frozenset[str]) -> list[object]:
         "stations": level.stations,
         "parking places": [vertex.is_parking for vertex in level.vertices],
         "charging places": [vertex.is_charging for vertex in level.vertices],
+        "actions of vertices": [vertex.actions for vertex in level.vertices],
         PASSED_VERTICES: [vertex.is_passed for vertex in level.vertices],
         "lanes longer than the straight line": [edge.length for edge in level.edges],
         "drawn curves": [edge.shape for edge in level.edges],

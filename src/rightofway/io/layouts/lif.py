@@ -11,21 +11,25 @@ VDMA, *Layout Interchange Format (LIF)*, version 1.0.0, 2024. The examples of th
 
 from __future__ import annotations
 
+import json
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 from math import degrees
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 
-from rightofway.errors import InputError, Steps, format_path
+from rightofway.errors import InputError, Steps, format_path, is_printable
 from rightofway.facts import Fact
 from rightofway.io.faults import read_both
 from rightofway.io.layouts.draft import MICRO, Curve, LayoutDraft, LevelDraft, find_name, name_piece
 from rightofway.io.layouts.nurbs import CHORD_ERROR, Nurbs
 from rightofway.io.source import Source
+from rightofway.model import Blocking
+from rightofway.model.actions import freeze_value, thaw_value
 from rightofway.site.layout import Layout, LayoutVertex, Station
 
 NODE_PROPERTIES = ("vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties")
@@ -39,6 +43,9 @@ NUMBERS = {"x", "y", "theta", *SPEEDS, "maxRotationSpeed", "maximumRotationSpeed
 
 CHARGING = ("startCharging", "stopCharging")
 """The actions of a charging place."""
+
+LOADS = ("pick", "drop")
+"""The actions of nodes that robots do at stops of jobs."""
 
 NODE_KEYS = {"nodeId", "nodeName", "nodeDescription", "mapId", "nodePosition", *NODE_PROPERTIES}
 EDGE_KEYS = {"edgeId", "edgeName", "edgeDescription", "startNodeId", "endNodeId", *EDGE_PROPERTIES}
@@ -135,8 +142,9 @@ def _list_numbers_as_text(value: Any, is_number: bool = False) -> Iterator[Steps
 def _add_node(level: LevelDraft, node: Source, draft: LayoutDraft) -> None:
     name, at = node.need("nodeId").read_text(), node.need("nodePosition")
     draft.note_unused(node, name, NODE_KEYS)
+    actions = dict[str, str]()
     for own in node.read_items_under(*NODE_PROPERTIES):
-        _note_unused_properties(own, name, draft)
+        _note_unused_properties(own, name, draft, _take_actions(own, actions))
     headings = [_read_angle(own, "theta") for own in node.read_items_under(*NODE_PROPERTIES)]
     level.add(
         LayoutVertex(
@@ -149,9 +157,47 @@ def _add_node(level: LevelDraft, node: Source, draft: LayoutDraft) -> None:
                 for action in own.read_items_under(*ACTIONS)
                 if isinstance(action.value, dict)
             ),
+            actions=tuple(actions.items()),
         ),
         node,
     )
+
+
+def _take_actions(own: Source, actions: dict[str, str]) -> set[str]:
+    """Add what robots do where they pick and drop loads; return the types that have this action."""
+    used = set[str]()
+    for source in own.read_items_under(*ACTIONS):
+        kind = source.value.get("actionType") if isinstance(source.value, dict) else None
+        if kind not in LOADS:
+            continue
+        written = json.dumps(_read_action(source, kind))
+        if actions.setdefault(kind, written) == written:
+            used.add(kind)
+    return used
+
+
+def _read_action(source: Source, kind: str) -> dict[str, Any]:
+    """Return an action as scenarios have it; what cannot be read is left out."""
+    value = source.value
+    blocking = str(value.get("blockingType", "HARD")).lower()
+    description = value.get("actionDescription") or value.get("actionDescriptor")
+    is_shown = isinstance(description, str) and is_printable(description)
+    known = {
+        "parameters": _read_parameters(source),
+        "blocking": blocking if blocking in get_args(Blocking) else None,
+        "description": description if is_shown else None,
+    }
+    return {"action": kind, **{key: own for key, own in known.items() if own}}
+
+
+def _read_parameters(action: Source) -> dict[str, Any]:
+    """Return the parameters of an action that have a value."""
+    parameters = dict[str, Any]()
+    for own in action.read_items_under("actionParameters"):
+        if isinstance(own.value, dict) and isinstance(own.value.get("key"), str):
+            with suppress(ValueError):
+                parameters[own.value["key"]] = thaw_value(freeze_value(own.value.get("value")))
+    return parameters
 
 
 def _add_edge(level: LevelDraft, edge: Source, draft: LayoutDraft) -> None:
@@ -250,7 +296,9 @@ def _read_nurbs(trajectory: Source) -> Nurbs:
     )
 
 
-def _note_unused_properties(own: Source, name: str, draft: LayoutDraft) -> None:
+def _note_unused_properties(
+    own: Source, name: str, draft: LayoutDraft, taken: Collection[str] = ()
+) -> None:
     """Note the properties for one type of robots that have no effect on plans and orders.
 
     False and 0 have a meaning here. Defaults have an effect on no plan.
@@ -266,7 +314,7 @@ def _note_unused_properties(own: Source, name: str, draft: LayoutDraft) -> None:
             draft.note_unused_key(key, name)
     for action in own.read_items_under(*ACTIONS):
         kind = action.value.get("actionType") if isinstance(action.value, dict) else None
-        if kind not in CHARGING:
+        if kind not in CHARGING and kind not in taken:
             draft.note_unused_key(f"action {kind}", name)
     _check_theta(own, name, draft)
 

@@ -5,6 +5,7 @@ Reading a written layout gives the same one, apart from the losses of `list_loss
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -85,6 +86,7 @@ def list_losses(layout: Layout, says: frozenset[str]) -> Iterator[Fact]:
         "stations": [station.name for level in levels for station in level.stations],
         "parking places": [vertex.name for vertex in vertices if vertex.is_parking],
         "charging places": [vertex.name for vertex in vertices if vertex.is_charging],
+        "actions of vertices": [vertex.name for vertex in vertices if vertex.actions],
         PASSED_VERTICES: [vertex.name for vertex in vertices if vertex.is_passed],
         "headings at vertices": [vertex.name for vertex in vertices if vertex.heading is not None],
         "orientations along lanes": [
@@ -202,7 +204,7 @@ def _make_lif_node(vertex: LayoutVertex, types: Sequence[str]) -> dict[str, Any]
         {"actionType": name, "requirementType": "CONDITIONAL", "blockingType": "HARD"}
         for name in ("startCharging", "stopCharging")
         if vertex.is_charging
-    ]
+    ] + [_make_lif_action(json.loads(text)) for _, text in vertex.actions]
     more: dict[str, Any] = {"actions": actions} if actions else {}
     if vertex.heading is not None:
         more["theta"] = _convert_to_radians(vertex.heading)
@@ -216,6 +218,21 @@ def _make_lif_node(vertex: LayoutVertex, types: Sequence[str]) -> dict[str, Any]
 def _convert_to_radians(angle: Fraction) -> float:
     """Return an angle in radians, from -pi to pi."""
     return remainder(radians(angle), tau)
+
+
+def _make_lif_action(own: dict[str, Any]) -> dict[str, Any]:
+    """Return an action of a scenario as LIF has it."""
+    action = {
+        "actionType": own["action"],
+        "requirementType": "CONDITIONAL",
+        "blockingType": own.get("blocking", "hard").upper(),
+    }
+    if "description" in own:
+        action["actionDescription"] = own["description"]
+    if "parameters" in own:
+        pairs = own["parameters"].items()
+        action["actionParameters"] = [{"key": key, "value": value} for key, value in pairs]
+    return action
 
 
 def _make_lif_edge(
@@ -388,8 +405,8 @@ LAYOUT_WRITERS: dict[str, LayoutWriter] = {
     "lif": LayoutWriter(
         summary="LIF 1.0.0", write=_write_lif,
         says=frozenset({"names of vertices", "levels", "stations", "charging places",
-                        "vehicle types", "curves that robots drive along", "headings at vertices",
-                        "orientations along lanes"}),
+                        "actions of vertices", "vehicle types", "curves that robots drive along",
+                        "headings at vertices", "orientations along lanes"}),
     ),
     "nav2": LayoutWriter(
         summary="route graph of Nav2, GeoJSON", write=_write_nav2, says=frozenset({"drawn curves"}),

@@ -18,6 +18,7 @@ from rightofway.io.scenario.loaded_map import (
     note_on_curves,
     note_on_squares,
 )
+from rightofway.model.actions import read_drawn_actions
 from rightofway.site import make_grid_roadmap
 from rightofway.site.drawing import Drawing
 from rightofway.site.layout import Layout, build_roadmap_of_level
@@ -87,6 +88,7 @@ def make_map_of_layout(
             units=units,
             chord_error=level_map.chord_error,
             notes=notes,
+            actions=read_drawn_actions(level, roadmap),
         )
     _refuse(document, "a map in pixels", "level", "vehicle_type", "spacing")
     return _map_of_pixels(document, layout, units, metres, fleet.radius)

@@ -8,6 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from rightofway.facts import Fact, note_pieces
+from rightofway.model import PlaceActions
 from rightofway.site import Floor, Grid, Roadmap, VertexId
 from rightofway.site.places import as_place, find_vertex_at
 from rightofway.site.spacing import SplitLanes
@@ -57,6 +58,7 @@ class LoadedMap:
     blocked: str = ""  # what all blocked cells are; else what the grid's characters say
     keeps_clear: bool = False  # blocked cells have grown by what the largest radius is wider
     notes: tuple[Fact, ...] = ()  # of a layout's reader
+    actions: tuple[PlaceActions, ...] = ()  # of the places of a layout
 
     def find(self, written: object) -> VertexId:
         """Return the vertex at a place as written; an InputError names the obstacle there."""

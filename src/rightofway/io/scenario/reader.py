@@ -34,6 +34,7 @@ from rightofway.io.scenario.maps import map_of, map_of_file
 from rightofway.io.scenario.picture import add_picture
 from rightofway.io.scenario.work import ReadWork, read_jobs_in_table, read_work
 from rightofway.model import PlaceActions, Rules, Scenario
+from rightofway.model.actions import merge_actions
 from rightofway.model.closures import Closure, find_closure_faults
 from rightofway.model.units import MAX_TICKS_OF_SHORTEST
 from rightofway.site import Roadmap
@@ -147,7 +148,7 @@ def read_scenario(document: Any, base: Path | None, pictures: Path | None = None
         placed = faults.attempt("", _assign_homes, placed, loaded.roadmap, rules, notes) or ()
     if loaded and placed:
         others = {"rules": rules, "units": loaded.units, "closures": tuple(closures)}
-        others["actions"] = tuple(actions)
+        others["actions"] = merge_actions(loaded.actions, actions)
         scenario = build_scenario(loaded.roadmap, placed, others, faults, work)
     faults.stop(document)
     assert loaded is not None, "or there was a fault"
