@@ -342,3 +342,44 @@ def test_transport_orders_that_are_written_are_read_as_the_jobs_of_the_plan(tmp_
     ]
     stops = [[(stop.at, stop.load) for stop in job.stops] for job in plan.scenario.jobs or ()]
     assert [[(stop.at, stop.load) for stop in job.stops] for job in jobs] == stops
+
+
+def test_only_nodes_of_the_site_are_named() -> None:
+    """R1 follows R2 on a lane of 12 in five pieces, and waits there while R2 works at its end.
+
+    Names that are numbers stay numbers for Nav2. R3 has its target between two pieces.
+    """
+    at = {"1": [0, 0], "2": [12, 0], "3": [14, 0], "4": [0, 20], "5": [12, 20]}
+    plan = solve(
+        parse_scenario(
+            {
+                "format": "rightofway-scenario/1",
+                "map": {"roadmap": {"vertices": at, "edges": [["1", "2"], ["2", "3"], ["4", "5"]]}},
+                "robots": [
+                    {"name": "R1", "home": "1", "target": "2", "radius": 0.4},
+                    {
+                        "name": "R2",
+                        "home": "2",
+                        "stops": [{"at": "2", "work": 60}, {"at": "3"}],
+                        "radius": 0.4,
+                    },
+                    {"name": "R3", "home": "4", "target": "4-5/2", "radius": 0.4},
+                ],
+                "rules": {"return": "none"},
+            }
+        ),
+        time_limit=5,
+    )
+    text, _ = format_site_plan(plan, "nav2")
+    robots = json.loads(text)["robots"]
+    nodes = {name: [node for node in own["nodes"] if node is not None]
+             for name, own in robots.items()}  # fmt: skip
+    assert {name: list(dict.fromkeys(own)) for name, own in nodes.items()} == {
+        "R1": [1, 2],
+        "R2": [2, 3],
+        "R3": ["4", "4-5/2"],
+    }
+    assert all(len(own["nodes"]) == len(own["path"]["poses"]) for own in robots.values())
+    rows = list(csv.DictReader(io.StringIO(format_site_plan(plan, "events")[0])))
+    assert {row["place"] for row in rows} <= {*at, "4-5/2", ""}
+    assert {row["event"] for row in rows if not row["place"]} <= {"arrive", "wait", "depart"}

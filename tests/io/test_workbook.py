@@ -99,6 +99,25 @@ def test_a_scenario_written_as_a_workbook_is_read_back(tmp_path: Path, name: str
     assert rightofway.load(tmp_path / "copy.xlsx") == scenario
 
 
+def test_headings_and_orientations_are_kept(tmp_path: Path) -> None:
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {
+            "roadmap": {
+                "vertices": {"A": [0, 0], "B": {"at": [3, 0], "heading": 90}},
+                "edges": [{"from": "A", "to": "B", "orientation": 180}],
+            }
+        },
+        "robots": [{"name": "R1", "home": "A", "target": "B"}],
+    }
+    scenario = parse_scenario(document)
+    write_scenario(scenario, tmp_path / "turned.xlsx")
+    assert (
+        load_with_notes(tmp_path / "turned.xlsx").scenario.roadmap.drawing
+        == scenario.roadmap.drawing
+    )
+
+
 def test_several_stops_are_columns(tmp_path: Path) -> None:
     fleet = rightofway.FleetBuilder(grid=["...", "..."])
     fleet = fleet.add_robot("A", home="N0", stops=[("N1", 2), "N5"]).add_robot(

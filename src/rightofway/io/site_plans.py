@@ -24,7 +24,7 @@ from typing import Any
 from rightofway.io.json_text import format_json_line
 from rightofway.io.orders.writing import write_orders
 from rightofway.kinds.table import make_words
-from rightofway.metrics.events import list_events
+from rightofway.metrics.events import Event, list_events
 from rightofway.model import Plan, PlannedItem, Stays, Track
 
 FRAME = "map"
@@ -134,11 +134,31 @@ class _Site:
         self.second = (scenario.units.seconds or Fraction(1)) * scenario.problem.clock.tick
         self.down = -1 if y_up and not self.roadmap.frame.y_up else 1
         self.stays = plan.stays
+        joints = {int(joint) for lane in self.roadmap.lanes for joint in lane.joints}
+        self._joints = joints.difference(
+            *(track.vertices[[0, -1]].tolist() for track in plan.tracks)
+        )
+        self._joints.difference_update(
+            stage.vertex for robot in scenario.problem.itineraries for stage in robot.stages
+        )
+
+    def name_node(self, vertex: int) -> str | None:
+        """Return the name of a vertex; None between pieces of a lane, where the site has no node.
+
+        A vertex where a robot begins, works or ends has its name.
+        """
+        return None if vertex in self._joints else self.roadmap.name(vertex)
 
     def locate_vertex(self, vertex: int) -> tuple[Fraction, Fraction]:
         """Return where a vertex is [m]."""
         x, y = self.roadmap.get_point(vertex)
         return x * self.metre, y * self.metre * self.down
+
+    def list_events_to_write(self) -> Iterator[Event]:
+        """Yield the events at nodes, and where a robot waits between pieces of a lane."""
+        for event in list_events(self.plan):
+            if event.waits or self.name_node(event.vertex) is not None:
+                yield event
 
     def list_poses(self, robot: int) -> Iterator[Pose]:
         """Yield the poses of a robot in order of time, each at an instant of its own."""
@@ -191,12 +211,13 @@ def _round_number(number: Fraction | float) -> float:
 def _write_events(plan: Plan) -> str:
     """Return one event a line, by time and robot.
 
+    Between pieces of a lane there are events only where a robot waits, without a place.
+
     ``start``, ``arrive``, ``work`` (work and turning begin), ``wait``, ``depart``, ``done``. With
     jobs, ``work`` is for each stop, with the job, and there is ``charge``.
     """
     site = _Site(plan, y_up=False)
-    robots, name = plan.scenario.robots, plan.scenario.roadmap.name
-    came: dict[int, float] = {}
+    robots = plan.scenario.robots
     has_jobs, items = plan.tours is not None, defaultdict[tuple[int, int], list[PlannedItem]](list)
     for index, tour in enumerate(plan.tours or ()):
         for item in tour:
@@ -206,32 +227,33 @@ def _write_events(plan: Plan) -> str:
         {pose.visit: pose.heading for pose in site.list_poses(robot)}
         for robot in range(len(robots))
     ]
-    for event in list_events(plan):
+    for event in site.list_events_to_write():
         stays, robot, now = site.stays[event.robot], event.robot, int(event.enter)
         dwell, drive = int(stays.dwell[event.visit]), int(stays.drive[event.visit])
         goes = headings[robot][event.visit]
         is_last = event.leave is None
-        steps = [(now, "arrive" if event.visit else "start", came.get(robot, goes), "")]
+        came = headings[robot].get(event.visit - 1, goes)
+        steps = [(now, "arrive" if event.visit else "start", came, "")]
         if dwell and plan.tours is None:
-            steps.append((now, "work", came.get(robot, goes), ""))
+            steps.append((now, "work", came, ""))
         if event.waits:
             for_robot = "" if event.waits_for is None else robots[event.waits_for].name
-            steps.append((now + dwell, "wait", came.get(robot, goes), for_robot))
+            steps.append((now + dwell, "wait", came, for_robot))
         if event.leave is not None:
             steps.append((max(event.leave - drive, now), "depart", goes, ""))
         if is_last:
-            steps.append((int(stays.completion), "done", came.get(robot, goes), ""))
-        arrival, came[robot] = came.get(robot, goes), goes
+            steps.append((int(stays.completion), "done", came, ""))
         x, y = map(_round_number, site.locate_vertex(event.vertex))
         done: list[tuple[int, str, float, str, Any, Any]] = [
             (tick, doing, heading, for_robot, "", "") for tick, doing, heading, for_robot in steps
         ]
         for item in items.get((robot, event.visit), ()):
             doing = "charge" if item.job is None else "work"
-            done.append((item.begin, doing, arrival, "", *_name_stop(plan, item)))
+            done.append((item.begin, doing, came, "", *_name_stop(plan, item)))
         for tick, doing, heading, for_robot, *stop in sorted(done, key=lambda step: step[0]):
             row = (
-                _round_number(tick * site.second), robots[robot].name, doing, name(event.vertex),
+                _round_number(tick * site.second), robots[robot].name, doing,
+                site.name_node(event.vertex) or "",
                 x, y, _round_number(heading), event.purpose, for_robot, *stop[: 2 * has_jobs],
             )  # fmt: skip
             rows.append((tick, robot, row))
@@ -273,12 +295,15 @@ def _list_work(site: _Site, robot: int, unit: int = 1) -> list[dict[str, Any]]:
 
 
 def _write_nav2(plan: Plan) -> str:
-    """Return for each robot a path of ROS, and the node of each of its poses."""
-    site, names = _Site(plan, y_up=True), plan.scenario.roadmap.name
+    """Return for each robot a path of ROS, and the node of each of its poses.
+
+    A pose between pieces of a lane has no node.
+    """
+    site = _Site(plan, y_up=True)
     robots = {}
     for robot, track in enumerate(plan.tracks):
         poses = list(site.list_poses(robot))
-        nodes = [names(int(track.vertices[pose.visit])) for pose in poses]
+        nodes = [site.name_node(int(track.vertices[pose.visit])) for pose in poses]
         path = {
             "header": _make_header(Fraction(0)),
             "poses": [
@@ -286,10 +311,10 @@ def _write_nav2(plan: Plan) -> str:
                 for pose in poses
             ],
         }
-        are_ids = all(node.isascii() and node.isdecimal() for node in nodes)
+        are_ids = all(node is None or (node.isascii() and node.isdecimal()) for node in nodes)
         robots[plan.scenario.robots[robot].name] = {
             "path": path,
-            "nodes": list(map(int, nodes)) if are_ids else nodes,
+            "nodes": [node and int(node) for node in nodes] if are_ids else nodes,
             **({} if plan.tours is None else {"work": _list_work(site, robot)}),
         }
     return _write_spread({"frame_id": FRAME, "robots": robots}) + "\n"
