@@ -131,6 +131,33 @@ def test_alarms_begin_and_end(tmp_path: Path) -> None:
     reader.close()
 
 
+def test_a_person_has_seen_the_alarms_that_last(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A recording that begins again still knows who; an alarm that comes back is unseen."""
+    drive_demo(door(), journal=tmp_path / "demo.journal")
+    begin = make_notice(Fact("about robot", robot="R1", predicate=Fact("paused")), 0, "pause")
+    seen = make_notice(Fact("alarms seen", person="Anna"))
+    over = make_notice(None, 0, "pause", is_over=True)
+    journal = SqliteJournal(tmp_path / "demo.journal", lambda: 20.0)
+    journal.commit([begin, seen, seen])
+    recording = Recording(door(), JournalReader(tmp_path / "demo.journal"))
+    recording.read_on()
+    rows = [row[1:] for row in recording.take_frame()["rows"] if row[2] == "seen"]
+    assert rows == [(0, "seen", "pause", "Anna")]
+    monkeypatch.setattr(module, "MAX_ROWS", 10)
+    recording.read_on()
+    again = [row[1:4] for row in recording.take_frame()["rows"] if row[2] in {"alarm", "seen"}]
+    assert again == [(0, "alarm", "pause"), (0, "seen", "pause")]
+    number = recording.count
+    journal.commit([over, begin])
+    monkeypatch.setattr(module, "MAX_ROWS", 10_000)
+    recording.read_on()
+    later = [row[2:4] for row in recording.take_frame(number)["rows"] if row[2] != "says"]
+    assert later == [("alarm", "pause"), ("alarm", "pause")]
+    journal.close()
+
+
 def test_a_start_ends_the_alarms_that_notices_have_begun_and_no_others(tmp_path: Path) -> None:
     """A control that was killed cannot report their ends; a fault is known by the journal."""
     path = tmp_path / "run.journal"

@@ -377,6 +377,35 @@ def test_a_person_is_alarmed_and_says_what_has_become_of_a_robot_with_a_fault(
     assert viewer.complaints == []
 
 
+def test_alarms_are_acknowledged_by_name_and_all_screens_show_it(
+    browser: Browser, stack: ExitStack, tmp_path: Path
+) -> None:
+    """The control is this test. An alarm that begins later was seen by nobody."""
+    path = tmp_path / "demo.journal"
+    drive_demo(door(), journal=path)
+    journal = stack.enter_context(closing(SqliteJournal(path, lambda: 12.0)))
+    commands = stack.enter_context(closing(Commands(path)))
+    address = stack.enter_context(watched(door(), path))
+    viewers = [opened(browser, stack, address) for _ in range(2)]
+    notices = Notices(["R1", "R2"], lambda _: None, keep=lambda entry: journal.commit([entry]))
+    notices.report_on(1, Fact("not connected"), "lost")
+    page = viewers[0].page
+    page.get_by_label("Your name").fill("Anna")
+    page.get_by_role("button", name="I have seen the alarms").click()
+    is_asked(viewers[0], path)
+    ((number, asked),) = commands.list_unanswered()
+    assert json.loads(asked) == {"kind": "seen", "name": "Anna"}
+    seen = Fact("alarms seen", person="Anna")
+    notices.report(seen)
+    commands.answer(number, {"done": True, "fact": seen.as_dict()})
+    notices.report_on(0, Fact("not connected"), "lost")
+    for viewer in viewers:
+        alarms = viewer.page.get_by_role("region", name="Alarms")
+        expect(alarms).to_contain_text("R2 is not connected (seen by Anna)")
+        expect(alarms.get_by_text("R1 is not connected")).not_to_contain_text("seen by")
+        assert viewer.complaints == []
+
+
 @pytest.mark.parametrize("theme", ["light", "dark"])
 @pytest.mark.parametrize("width", [1280, 390])
 def test_the_page_has_no_serious_fault_and_fits(

@@ -43,6 +43,7 @@ NAMED: Mapping[str, str] = {
     "clear": "robot",
     "remove": "robot",
     "place": "robot",
+    "seen": "person",
 }
 """The kinds of commands that need a ``name``, each with the thing that it names."""
 

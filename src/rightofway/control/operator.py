@@ -38,7 +38,7 @@ from rightofway.control.names import (
 from rightofway.control.rest import explain_error
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import make_route_from
-from rightofway.errors import GaveUp, InputError, describe_defect, quote
+from rightofway.errors import GaveUp, InputError, describe_defect, escape_text, quote
 from rightofway.facts import Fact
 from rightofway.resume.rest_of_fleet import StopToMake
 from rightofway.search import Distances
@@ -58,6 +58,9 @@ OPERATIONS: Mapping[str, Entry] = {
 
 JOB_KINDS = frozenset({"list", "add", "change", "withdraw", "skip"})
 """Commands on jobs, which a plan with jobs keeps in a pool."""
+
+LONGEST_NAME = 40
+"""Characters of the name of a person."""
 
 UNREACHABLE = 10**12
 """More than any way [ticks]."""
@@ -145,6 +148,11 @@ class Operator:
         before = str(after[0] if isinstance(after, list) and after else after or "") or None
         if kind == "list":
             return [], {"done": True, "fact": None, "jobs": list_jobs(ledger)}
+        if kind == "seen":
+            person = escape_text(name.strip()[:LONGEST_NAME])
+            return self._note(fact=Fact("alarms seen", person=person)), {
+                "done": True, "fact": ledger.answer,
+            }  # fmt: skip
         changes: dict[str, Callable[[], list[Message]]] = {
             "add": lambda: self.add_job(at or "", int(ticks or 0), robot, before)[1],
             "change": lambda: self.change_job(name, at, ticks),

@@ -61,6 +61,7 @@ class _Shown:
     is_on_hold: bool = False
     is_off: bool = False
     alarms: dict[str, Any] = field(default_factory=dict)  # the sentence of each kind
+    seen: dict[str, str] = field(default_factory=dict)  # by whom, of each kind
     wait: SaysRow | None = None  # the last sentence on whom it waits for
 
 
@@ -246,21 +247,36 @@ class Recording:
             is_alarm = about and not entry["over"]
             self._rows.append((tick, robot, "says", "alarm" if is_alarm else "news", text, []))
             self._told[robot] = text
+        if fact is not None and fact["kind"] == "alarms seen":
+            self._mark_seen(fact["values"]["person"], tick)
         if about == EVERY_KIND:
-            for number, known in ((-1, self._general), *enumerate(self._shown)):
+            for number, known in self._list_shown():
                 for kind in known.alarms.keys() - OF_LEDGER:
                     self._update_alarm(number, kind, None, tick)
         elif about:
             self._update_alarm(robot, about, None if entry["over"] else text, tick)
 
+    def _list_shown(self) -> Iterable[tuple[int, _Shown]]:
+        """Return the values that pages show: those about no robot, and those of each robot."""
+        return ((-1, self._general), *enumerate(self._shown))
+
+    def _mark_seen(self, person: str, tick: float) -> None:
+        """Show that a person has seen all alarms that last, and that nobody had seen before."""
+        for robot, known in self._list_shown():
+            for kind in known.alarms.keys() - known.seen.keys():
+                known.seen[kind] = person
+                self._rows.append((tick, robot, "seen", kind, person))
+
     def _update_alarm(self, robot: int, kind: str, text: Any, tick: float) -> None:
         """Show that trouble of a kind begins, or with None that it ends."""
-        alarms = (self._shown[robot] if 0 <= robot < len(self._shown) else self._general).alarms
+        known = self._shown[robot] if 0 <= robot < len(self._shown) else self._general
+        alarms = known.alarms
         if text is None and kind not in alarms:
             return
         self._rows.append((tick, robot, "alarm", kind, text))
         if text is None:
             del alarms[kind]
+            known.seen.pop(kind, None)
         else:
             alarms[kind] = text
 
@@ -312,13 +328,18 @@ class Recording:
         self._rows = []
         for robot, known in enumerate(self._shown):
             own: RobotLedger = self._ledger.robots[robot]
-            wait, alarms = known.wait, known.alarms
-            self._shown[robot] = fresh = _Shown(alarms=alarms, wait=wait)
+            wait = known.wait
+            self._shown[robot] = fresh = _Shown(alarms=known.alarms, seen=known.seen, wait=wait)
             self._compare(robot, tick)
-            for kind, text in alarms.items():
-                self._rows.append((tick, robot, "alarm", kind, text))
+            self._show_alarms_again(robot, fresh, tick)
             if wait is not None and own.arrived == own.released:
                 self._rows.append((tick, *wait[1:]))
             fresh.done = own.arrived
-        for kind, text in self._general.alarms.items():
-            self._rows.append((tick, -1, "alarm", kind, text))
+        self._show_alarms_again(-1, self._general, tick)
+
+    def _show_alarms_again(self, robot: int, known: _Shown, tick: float) -> None:
+        """Show the alarms that last, and who has seen them."""
+        for kind, text in known.alarms.items():
+            self._rows.append((tick, robot, "alarm", kind, text))
+        for kind, person in known.seen.items():
+            self._rows.append((tick, robot, "seen", kind, person))

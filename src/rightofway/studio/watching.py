@@ -41,7 +41,7 @@ MAX_PAGES = 64
 PATIENCE = 10.0
 """How long a page waits for the answer to an order [s]."""
 
-ORDERS = ("hold", "stop", "go", "clear", "remove", "place", "close", "open")
+ORDERS = ("hold", "stop", "go", "clear", "remove", "place", "close", "open", "seen")
 """What pages may ask a control for."""
 
 

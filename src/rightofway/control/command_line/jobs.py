@@ -31,6 +31,7 @@ ACTIONS = {
     "hold": "release nothing more to the robot NAME, or to all",
     "stop": "hold, and have the robot NAME, or all, pause where they are (startPause)",
     "go": "release again to the robot NAME, or to all, and end their pause",
+    "seen": "note that the person NAME has seen the alarms that last",
     "cancel": "take back what is released to the robot NAME, as far as it can stop before",
     "clear": "confirm that the faulty robot NAME is where the journal has it",
     "remove": "confirm that the robot NAME is off the floor",

@@ -74,7 +74,10 @@ SaysRow = TypeAliasType(
 AlarmRow = TypeAliasType("AlarmRow", tuple[float, int, Literal["alarm"], str, PhraseData | None])
 """Tick, robot (-1 for none), kind, the kind of trouble, the sentence; null where it ends."""
 
-DrivenRow = TypeAliasType("DrivenRow", RouteRow | VisitRow | HoldRow | SaysRow | AlarmRow)
+SeenRow = TypeAliasType("SeenRow", tuple[float, int, Literal["seen"], str, str])
+"""Tick, robot (-1 for none), kind, the kind of trouble, the person who has seen the alarm."""
+
+DrivenRow = TypeAliasType("DrivenRow", RouteRow | VisitRow | HoldRow | SaysRow | AlarmRow | SeenRow)
 """Something that happened to a fleet that is driven."""
 
 

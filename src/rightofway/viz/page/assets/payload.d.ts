@@ -116,7 +116,7 @@ export interface DrivenFrame {
   rows: DrivenRow[];
 }
 
-export type DrivenRow = RouteRow | VisitRow | HoldRow | SaysRow | AlarmRow;
+export type DrivenRow = RouteRow | VisitRow | HoldRow | SaysRow | AlarmRow | SeenRow;
 
 /** A place where the plan breaks a rule, or a reason why there is no plan; texts by index. */
 export interface FaultData {
@@ -387,6 +387,8 @@ export type RoundRow = [number, number, number, number, number];
 export type RouteRow = [number, number, "route", number, number[]];
 
 export type SaysRow = [number, number, "says", "work" | "drive" | "wait" | "end" | "news" | "alarm", PhraseData, number[]];
+
+export type SeenRow = [number, number, "seen", string, string];
 
 /** A shift, whose plan is all that robots have done. ``known`` has for each job when it became known, ``waits`` for each robot the others that it waited for and ticks, the longest first; ``bottlenecks`` the same of vertices. ``service`` has median, 95th percentile and maximum. Texts of the reasons of jobs, of rounds, and of what happened are by index. */
 export interface ShiftData {

@@ -73,6 +73,8 @@ export interface PageTexts {
     holdUps: string;
     orders: string;
     holdAll: string;
+    seenName: string;
+    seenAll: string;
     stopAll: string;
     goAll: string;
     holdOne: string;
@@ -325,6 +327,7 @@ export interface PageTexts {
     goOne: Text<"name">;
     clearOne: Text<"name">;
     removeOne: Text<"name">;
+    seenBy: Text<"person">;
     goAllAsked: string;
     clearAsked: Text<"name">;
     removeAsked: Text<"name">;

@@ -6,7 +6,7 @@ import { DONE } from "../plan/phases.js";
 /** @import { Robot, Stage } from "../plan/robot.js" */
 
 /** @typedef {{ others: number[], text: PhraseData }} Wait For whom a robot waits, and why. */
-/** @typedef {{ kind: string, robot: number, from: number, to: number, text: PhraseData }} Alarm Trouble from when to when. */
+/** @typedef {{ kind: string, robot: number, from: number, to: number, text: PhraseData, person?: string }} Alarm Trouble from when to when, and who has seen it. */
 /** @typedef {{ tick: number, robot: number, kind: string, text: PhraseData }} Told A sentence of the story. */
 
 const NEAR = 0.9; // the share of a lane after which a robot that is late is shown to stand
@@ -386,6 +386,7 @@ export class Driven {
     const [tick, robot, kind] = row;
     if (row[2] === "says") this.story.push({ tick, robot, kind: row[3], text: row[4] });
     if (row[2] === "alarm") this.#alarm(tick, robot, row[3], row[4]);
+    else if (row[2] === "seen") this.#see(robot, row[3], row[4]);
     else if (robot >= 0 && kind !== "alarm") this.logs[robot].take(row);
   }
 
@@ -396,12 +397,30 @@ export class Driven {
    * @param {PhraseData | null} text
    */
   #alarm(tick, robot, kind, text) {
-    const open = this.alarms.findLast(
-      (alarm) => alarm.robot === robot && alarm.kind === kind && alarm.to === Infinity,
-    );
+    const open = this.#findOpen(robot, kind);
     if (text === null && open) open.to = tick;
     else if (text !== null && !open)
       this.alarms.push({ kind, robot, from: tick, to: Infinity, text });
+  }
+
+  /**
+   * @param {number} robot
+   * @param {string} kind
+   */
+  #findOpen(robot, kind) {
+    return this.alarms.findLast(
+      (alarm) => alarm.robot === robot && alarm.kind === kind && alarm.to === Infinity,
+    );
+  }
+
+  /**
+   * @param {number} robot
+   * @param {string} kind
+   * @param {string} person
+   */
+  #see(robot, kind, person) {
+    const open = this.#findOpen(robot, kind);
+    if (open) open.person = person;
   }
 
   /**

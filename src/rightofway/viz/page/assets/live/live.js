@@ -135,7 +135,9 @@ export class Live {
 
   #showAlarms() {
     const alarms = this.driven.alarmsAt(this.clock.tick);
-    const key = JSON.stringify(alarms.map(({ from, robot, kind }) => [from, robot, kind]));
+    const key = JSON.stringify(
+      alarms.map(({ from, robot, kind, person }) => [from, robot, kind, person]),
+    );
     if (key === this.#lit) return;
     this.#lit = key;
     this.box.hidden = !alarms.length;
@@ -144,8 +146,9 @@ export class Live {
       ...alarms
         .slice(-20)
         .reverse()
-        .map(({ from, robot, text }) => {
-          const line = goTo(this.words.time(from), said(text), () =>
+        .map(({ from, robot, text, person }) => {
+          const seen = person ? ` (${texts.driven.seenBy({ person })})` : "";
+          const line = goTo(this.words.time(from), said(text) + seen, () =>
             chooseAt(this.clock, from, () => this.choice.chooseRobot(robot)),
           );
           return line;

@@ -28,6 +28,12 @@ export class Orders {
     this.at = root.part("order-at", HTMLInputElement);
     const { driven: own } = texts;
     root.part("hold-all").addEventListener("click", () => this.#send("hold")); // safe: not asked first
+    this.seen = root.part("seen-form", HTMLFormElement);
+    const person = root.part("seen-name", HTMLInputElement);
+    this.seen.addEventListener("submit", (event) => {
+      event.preventDefault();
+      if (person.value.trim()) this.#send("seen", person.value.trim());
+    });
     root.part("stop-all").addEventListener("click", () => this.#send("stop"));
     root.part("go-all").addEventListener("click", () => this.#confirm(own.goAllAsked, "go"));
     this.one.addEventListener("click", () => this.#send(this.#isHeld ? "go" : "hold", this.#name));
@@ -63,6 +69,7 @@ export class Orders {
   refresh(tick, isConnected) {
     const { robot } = this.choice;
     this.box.hidden = !(this.address && this.driven.runs);
+    this.seen.hidden = this.box.hidden || !isConnected;
     for (const button of this.box.querySelectorAll("button")) button.disabled = !isConnected;
     this.one.hidden = !robot;
     const isFaulty =

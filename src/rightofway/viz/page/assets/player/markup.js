@@ -203,6 +203,10 @@ ${below(STATES, ["zoom-in", "zoom-out", "fit", "bottleneck", "corridor", "space"
   <section id="alarms" class="alarms" aria-live="polite" aria-labelledby="alarm-title" hidden>
     <h2 id="alarm-title" data-text="alarms"></h2>
     <ul id="alarm-list"></ul>
+    <form id="seen-form" class="seen" hidden>
+      <label><span data-text="seenName"></span> <input id="seen-name" maxlength="40" autocomplete="name"></label>
+      <button type="submit" class="quiet" data-text="seenAll"></button>
+    </form>
   </section>
   <section id="hold-ups" class="alarms calm" aria-labelledby="hold-up-title" hidden>
     <h2 id="hold-up-title" data-text="holdUps"></h2>
