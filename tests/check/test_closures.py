@@ -73,7 +73,7 @@ def test_a_fault_names_robot_place_and_times() -> None:
     closures = (closure(scenario, "C", until=8), closure(scenario, "B", "A", from_=1))
     first, second = check(plan(replace(scenario, closures=closures))).faults
     assert str(first) == (
-        "time 0: closed: R1 books the edge between A and B at time 0, which is closed for ever"
+        "time 0: closed: R1 books the edge between A and B at time 0, which is closed permanently"
         " (come after that, or leave before it begins)"
     )
     assert str(second) == (

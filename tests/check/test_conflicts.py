@@ -112,7 +112,7 @@ def test_home_is_booked_without_an_approach() -> None:
 def test_the_last_vertex_is_kept_for_ever() -> None:
     report = judged(([3, 4], [0, 1]), ([1, 4, 7], [0, 10**9, 10**9 + 1]))
     assert told(report) == [("vertex conflict", (0, 1), (4,), 10**9)]
-    assert "R1 books N4 from time 1 for ever" in report.faults[0].message
+    assert "R1 books N4 from time 1 permanently" in report.faults[0].message
 
 
 def test_two_robots_cannot_end_in_one_vertex() -> None:

@@ -113,7 +113,7 @@ def test_the_cases_of_the_paper_repeat_under_every_rule(cli: Cli, example: str, 
 def test_a_robot_that_never_gets_the_right_of_way_is_named(cli: Cli, slower: Path) -> None:
     """R1 is back at the door before R2 could be through it, lap after lap."""
     ended = cli("laps", slower, "--rule", "fixed-order", "--routes", "shortest")
-    assert "1 robot stands still for ever: R2 in N2 on its way to N1 (another" in ended.out
+    assert "1 robot stands still permanently: R2 in N2 on its way to N1 (another" in ended.out
 
 
 def test_a_standstill_ends_with_1_and_says_who(cli: Cli, tmp_path: Path) -> None:

@@ -49,7 +49,7 @@ def test_the_contract_for_programs_is_kept(cli: Cli, plan: Path) -> None:
 def test_a_broken_robot_is_counted_apart_from_those_that_wait_for_it(cli: Cli, plan: Path) -> None:
     ended = cli("simulate", plan, "--delays", "stop:R2@2", "--runs", 10)
     words = " ".join(ended.out.split())
-    assert "broken robots per run: 1 break down, 1 wait for them for ever" in words
+    assert "broken robots per run: 1 break down, 1 wait for them permanently" in words
     assert "R1 never completes" in words
 
 

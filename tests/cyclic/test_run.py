@@ -176,14 +176,14 @@ def test_whole_laps_are_a_plan_that_the_judge_accepts() -> None:
 
 
 def test_a_robot_that_is_home_for_good_in_the_way_of_others_makes_no_plan() -> None:
-    """R2 lives on R1's way: with one lap each it is home, for ever, before R1 is back."""
+    """R2 lives on R1's way: with one lap each it is home, permanently, before R1 is back."""
     scenario = grid_fleet(["....", "@.@@"], [("N0", "N3"), ("N2", "N5")], work=(9, 0))
     with pytest.raises(GaveUp, match="whole laps make no plan here"):
         plan_of_laps(run_laps(scenario, routes="shortest"), laps=1)
 
 
 def test_no_plan_is_made_of_a_robot_that_waits_for_ever() -> None:
-    with pytest.raises(GaveUp, match="R2 waits for ever"):
+    with pytest.raises(GaveUp, match="R2 waits permanently"):
         plan_of_laps(run_laps(CASES["door-2"], "fixed-order", routes="shortest"))
 
 

@@ -187,7 +187,7 @@ def test_a_full_ring_turns_only_where_rotations_are_allowed() -> None:
 
 
 def test_the_published_method_says_where_it_is_stuck() -> None:
-    """R2 stays at N2 for ever, where R1 has to pass on its way; the paper knows no other way."""
+    """R2 stays at N2 permanently, where R1 has to pass on its way; the paper knows no other way."""
     scenario = grid_fleet(["...."], [("N0", "N3"), ("N1", "N2")], rules=Rules(ends="none"))
     with pytest.raises(GaveUp, match="waiting cannot keep R1 and R2 apart at N2"):
         solve(scenario, swaps="leave")
@@ -200,7 +200,7 @@ def test_a_place_without_a_way_is_proven_impossible() -> None:
 
 def test_two_robots_cannot_end_at_one_place() -> None:
     scenario = grid_fleet(["..."], [("N0", "N1"), ("N2", "N1")], rules=Rules(ends="none"))
-    with pytest.raises(NoPlanExists, match="R1 and R2 would both have to stay at N1 for ever"):
+    with pytest.raises(NoPlanExists, match="R1 and R2 would both have to stay at N1 permanently"):
         solve(scenario)
 
 

@@ -56,7 +56,7 @@ def test_shared_ends_are_reported_beside_missing_ways() -> None:
     way, end = no_plan(fleet.build_scenario()).blockages
     assert way.robots == (2,)
     assert end.reason == Fact("shared end", robots=(0, 1, 2), place=2)
-    assert str(end.reason) == "R1, R2 and R3 would all have to stay at N2 for ever"
+    assert str(end.reason) == "R1, R2 and R3 would all have to stay at N2 permanently"
     assert str(end.remedy) == "let others end elsewhere"
     assert str(end) == f"{end.reason} ({end.remedy})"
 

@@ -55,8 +55,8 @@ def test_a_fact_has_a_template_for_each_number_of_things() -> None:
     assert remedies == ["let one of them end elsewhere", "let others end elsewhere"]
     ends = [Fact("shared end", ROW, robots=robots, place=0) for robots in ((0, 0), (0, 0, 0))]
     assert list(map(str, ends)) == [
-        "R1 and R1 would both have to stay at N0 for ever",
-        "R1, R1 and R1 would all have to stay at N0 for ever",
+        "R1 and R1 would both have to stay at N0 permanently",
+        "R1, R1 and R1 would all have to stay at N0 permanently",
     ]
 
 

@@ -92,7 +92,7 @@ def test_the_paper_lists_a_collision_for_each_tick() -> None:
         ("R2", "R3", 5, "N1 and N4", "swap"),
         ("R1", "R3", 6, "N4", "collision"),
     ]
-    assert "for ever" in tabulate_collisions(found, quantities).as_text()
+    assert "permanently" in tabulate_collisions(found, quantities).as_text()
 
 
 def test_the_swap_that_the_published_method_leaves_is_listed() -> None:

@@ -276,7 +276,9 @@ def take_out_closed_places(scenario: Scenario) -> Scenario:
     closed = scenario.problem.closures
     if closed is None:
         return scenario
-    once = "is at one time, and laps come again (take it out, or close the place for ever, from 0)"
+    once = (
+        "is at one time, and laps come again (take it out, or close the place permanently, from 0)"
+    )
     faults = [
         InputFault("", once).nest(("closures", index))
         for index, closure in enumerate(scenario.closures)

@@ -84,7 +84,7 @@ def find_closure_faults(closure: Closure, roadmap: Roadmap) -> Iterator[InputFau
         yield InputFault("", "closes not exactly one of a vertex and an edge (give at, or edge)")
     if closure.until is not None and closure.until <= closure.from_:
         message = f"{closure.until} is not after from, {closure.from_}"
-        yield InputFault("until", f"{message} (give a later time, or leave it out: for ever)")
+        yield InputFault("until", f"{message} (give a later time, or leave it out: permanently)")
     places = [("at", closure.at)] if closure.edge is None else [("edge", v) for v in closure.edge]
     unknown = [
         (key, place)

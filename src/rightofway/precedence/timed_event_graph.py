@@ -372,7 +372,7 @@ class TimedEventGraph:
         """
         circuit = self.find_critical_circuit_if_live(time_limit=time_limit)
         if circuit is None:
-            raise ValueError("timetable: robots wait for each other for ever in its orders")
+            raise ValueError("timetable: robots wait for each other permanently in its orders")
         return circuit
 
     def find_critical_circuit_if_live(self, *, time_limit: float | None = None) -> Circuit | None:

@@ -62,7 +62,7 @@ def _list_totals(outcome: SimulationResult, quantities: Quantities) -> Iterator[
     if outcome.broken:
         broken: str = (
             f"robots per run: {_write_mean(outcome.broken, runs)} break down, {stranded} wait"
-            " for them for ever"
+            " for them permanently"
         )
         if outcome.replans:
             cut_off = _write_mean(outcome.cut_off, runs)

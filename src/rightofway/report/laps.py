@@ -177,7 +177,7 @@ def _write_stuck_lines(scenario: Scenario, group: GroupResult) -> Iterator[Part]
         listed.append(f"{len(stuck) - MAX_LINES} more")
     if listed:
         yield (
-            "{stand} still for ever: {robots} (another --rule may help, for example timetable)"
+            "{stand} still permanently: {robots} (another --rule may help, for example timetable)"
         ).format(
             stand=say_count(len(stuck), "robot stands", "robots stand"),
             robots=chain_items(listed),
@@ -276,7 +276,7 @@ def _change(scenario: Scenario, effect: ParameterEffect) -> str:
 BASELINES = {
     "repeats": "first come first served",
     "open": "first come first served as measured within its time",
-    "starves": "first come first served, where a robot stands still for ever",
+    "starves": "first come first served, where a robot is permanently stuck",
 }
 """What a timetable is compared with, by how that ends."""
 

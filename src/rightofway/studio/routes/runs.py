@@ -120,7 +120,7 @@ async def stream_run_events(studio: InStudio, number: RunNumber) -> StreamingRes
 
 @router.get("/events", tags=["runs"], response_class=StreamingResponse)
 async def stream_all_events(studio: InStudio) -> StreamingResponse:
-    """Send the events of all runs, each with the ``number`` of its run, for ever.
+    """Send the events of all runs, each with the ``number`` of its run, permanently.
 
     First come ``runs``, the list; then ``run``, ``progress`` and ``plan`` as for one run, and
     ``deleted``. A page needs no other stream: browsers have six connections to a server.

@@ -164,7 +164,7 @@ class _Cells(Sequence[Value]):
 
 
 def _get_end(row: NamedCollision) -> Value:
-    return row.until if row.until is not None else "for ever"
+    return row.until if row.until is not None else "permanently"
 
 
 def _join_places(row: NamedCollision) -> str:
