@@ -88,6 +88,9 @@ def _add_job_options(command: Any) -> Any:
                          " open it."),
             click.option("--load", type=Whole(1), metavar="NUMBER",
                          help="How much is picked up; 1 by default."),
+            click.option("--load-id", metavar="NAME",
+                         help="The name of the load, for the actions that pick and drop it."),
+            click.option("--load-type", metavar="NAME", help="Its type, likewise."),
             click.option("--work", metavar="TIME", callback=_read_duration,
                          help="How long it lasts, at both places of a load [time unit, or with s,"
                          " min or h]."),
