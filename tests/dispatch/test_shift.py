@@ -121,6 +121,15 @@ def test_a_shift_in_which_nothing_moves_says_why() -> None:
     assert str(fact) == "nothing moves, and a job is known: no robot may do it and can carry it"
 
 
+def test_a_job_of_a_robot_that_is_lost_is_no_job_without_a_place() -> None:
+    """R1 has picked J1 up at N1 when it breaks down; J2 is done by R2."""
+    jobs = [transport("J1", "N1", "N3"), {"name": "J2", "at": "N6", "robot": "R2"}]
+    scenario = make_scenario(["....", "...."], {"R1": "N0", "R2": "N7"}, jobs=jobs)
+    record = hold_shift(scenario, delays="stop:R1@2", until=Tick(40))
+    (fact,) = {fact for _, fact in record.facts}
+    assert str(fact) == "nothing moves, and a job is known: R1 does not go on"
+
+
 def test_a_robot_enters_a_headway_after_another_one_has_left() -> None:
     jobs = [
         {"name": "J1", "at": "N4", "robot": "R1"},

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 
 from rightofway.dispatch.delays import DelayDraws
@@ -319,11 +319,20 @@ class _Shift:
         if self._has_told:
             return
         self._has_told = True
-        reasons = sorted({self._jobs[name].reason or "not found" for name in self._pool.jobs})
         last = self._rounds[-1].facts if self._rounds else ()
-        why = last or tuple(Fact(f"unserved {reason}") for reason in reasons)
+        why = last or tuple(self._explain_standstill())
         fact = Fact("nothing moves", self._scenario, jobs=len(self._pool.jobs), reasons=why)
         self._facts.append((self._now, fact))
+
+    def _explain_standstill(self) -> Iterator[Fact]:
+        """Yield why known jobs are not done: their robot is lost, or else the last reasons."""
+        lost = {k for k, own in enumerate(self._floor.robots) if own.lost is not None}
+        lost &= {own.robot for own in self._pool.jobs.values()}
+        for robot in sorted(lost):
+            yield Fact("robot does not go on", self._scenario, robot=robot)
+        left = (name for name, own in self._pool.jobs.items() if own.robot not in lost)
+        for reason in sorted({self._jobs[name].reason or "not found" for name in left}):
+            yield Fact(f"unserved {reason}")
 
 
 def _count_closed(closure: Closure, scenario: Scenario) -> tuple[int, int]:
