@@ -207,6 +207,10 @@ def test_headings_of_a_layout_are_sent_where_robots_work_and_along_edges(version
     edges = [["A", "B"], {"from": "B", "to": "C", "orientation": 180, "both_ways": False}]
     scenario = site(roadmap={"vertices": vertices, "edges": edges}, spacing=200)
     assert parse_scenario(dump_scenario(scenario)).roadmap.drawing == scenario.roadmap.drawing
+    fleet = FleetBuilder(spacing=200, y="up").add_vertex("A", 100, 200).add_vertex("B", 300, 200)
+    fleet.add_vertex("C", 300, 600, heading=90).add_edge("A", "B")
+    fleet.add_edge("B", "C", orientation=180, both_ways=False)
+    assert fleet.build_roadmap().drawing == scenario.roadmap.drawing
     order_map = map_of(scenario, frame=Frame(yaw=Fraction(math.pi / 2)))
     order = order_over("A", "B", "B-C/1", "C")
     passing = write_message(OrderMessage.of(order, order_map), header(version))

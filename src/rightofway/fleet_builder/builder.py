@@ -197,6 +197,7 @@ class FleetBuilder:
         barred: Iterable[str] = (),
         surcharge: Number = 0,
         is_passed: bool = False,
+        heading: Number | None = None,
     ) -> Self:
         """Add a vertex to the roadmap.
 
@@ -212,6 +213,8 @@ class FleetBuilder:
             A cost that makes each edge into it less liked, not slower [time unit].
         is_passed
             Whether robots only drive through, without a stop.
+        heading
+            Heading of robots that work there, for orders: from x to y [degrees]; None for any.
 
         Raises
         ------
@@ -220,7 +223,9 @@ class FleetBuilder:
             grid or robots were added already.
         """
         self._refuse_fixed_map(f"vertex {quote(name)}")
-        self._drawn.add_vertex(name, x, y, barred=barred, surcharge=surcharge, is_passed=is_passed)
+        self._drawn.add_vertex(
+            name, x, y, barred=barred, surcharge=surcharge, is_passed=is_passed, heading=heading
+        )
         return self
 
     def add_edge(
@@ -234,6 +239,7 @@ class FleetBuilder:
         max_speed_by_type: Mapping[str, Number] | None = None,
         barred: Iterable[str] = (),
         surcharge: Number = 0,
+        orientation: Number | None = None,
     ) -> Self:
         """Add an edge between two vertices.
 
@@ -255,6 +261,9 @@ class FleetBuilder:
             Types of robots that may not use it.
         surcharge
             A cost that makes it less liked, not slower [time unit].
+        orientation
+            How robots are turned against the direction of driving, for orders, like 180 for
+            backwards [degrees]; None for any. Both directions have the same.
 
         Raises
         ------
@@ -273,6 +282,7 @@ class FleetBuilder:
             max_speed_by_type={} if max_speed_by_type is None else max_speed_by_type,
             barred=barred,
             surcharge=surcharge,
+            orientation=orientation,
         )
         return self
 

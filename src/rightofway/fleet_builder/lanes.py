@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any
 
@@ -13,6 +13,7 @@ from rightofway.kinds.table import (
     COORDINATE,
     NAMES,
     NOT_NEGATIVE,
+    NUMBER,
     POSITIVE,
     TRUTH,
     TYPE_SPEEDS,
@@ -26,6 +27,7 @@ from rightofway.site import (
     measure_squared_distance,
     measure_straight_length,
 )
+from rightofway.site.drawing import Drawing
 from rightofway.site.edges import make_roadmap_of_table
 from rightofway.site.spacing import split_lanes
 from rightofway.site.zones import NamedZone
@@ -43,6 +45,8 @@ class DrawnLanes:
         Tail, head, length if it is given, and the other attributes of each directed edge.
     barred, surcharges, passed
         Properties given for vertices.
+    headings, orientations
+        Headings at vertices, and orientations along edges by tail and head [degrees].
     zones
         Zones by the names of their vertices and edges.
     is_drawn
@@ -54,6 +58,8 @@ class DrawnLanes:
     barred: dict[str, frozenset[str]] = field(default_factory=dict)
     surcharges: dict[str, Fraction] = field(default_factory=dict)
     passed: list[str] = field(default_factory=list)
+    headings: dict[str, Fraction] = field(default_factory=dict)
+    orientations: dict[tuple[str, str], Fraction] = field(default_factory=dict)
     zones: list[NamedZone] = field(default_factory=list)
     is_drawn: bool = True
 
@@ -66,6 +72,7 @@ class DrawnLanes:
         barred: Iterable[str],
         surcharge: Number,
         is_passed: bool,
+        heading: Number | None = None,
     ) -> None:
         """Add a vertex, as `FleetBuilder.add_vertex`."""
         place = f"vertex {quote(name)}"
@@ -80,6 +87,8 @@ class DrawnLanes:
             self.surcharges[name] = more
         if TRUTH.read_at((place, "is_passed"), is_passed):
             self.passed.append(name)
+        if (angle := allow_none(NUMBER).read_at((place, "heading"), heading)) is not None:
+            self.headings[name] = angle
 
     def add_edge(
         self,
@@ -92,6 +101,7 @@ class DrawnLanes:
         max_speed_by_type: Mapping[str, Number],
         barred: Iterable[str],
         surcharge: Number,
+        orientation: Number | None = None,
     ) -> None:
         """Add an edge, as `FleetBuilder.add_edge`."""
         place = f"edge {quote(tail)} to {quote(head)}"
@@ -113,6 +123,10 @@ class DrawnLanes:
             "barred": NAMES.read_at((place, "barred"), barred),
             "surcharge": NOT_NEGATIVE.read_at((place, "surcharge"), surcharge),
         }
+        angle = allow_none(NUMBER).read_at((place, "orientation"), orientation)
+        if angle is not None:
+            self.orientations[tail, head] = angle
+            self.orientations |= {(head, tail): angle} if both_ways else {}
         self.edges.append((tail, head, given, more))
         if both_ways:
             self.edges.append((head, tail, given, more))
@@ -152,7 +166,7 @@ class DrawnLanes:
             has_sizes=has_sizes,
             is_drawn=self.is_drawn,
         )
-        return make_roadmap_of_table(
+        roadmap = make_roadmap_of_table(
             split.positions,
             split.edges,
             y_up=y_up,
@@ -162,6 +176,16 @@ class DrawnLanes:
             surcharges=self.surcharges,
             passed=self.passed,
         )
+        at = roadmap.get_vertex
+        drawing = Drawing(
+            headings=tuple((at(name), heading) for name, heading in self.headings.items()),
+            orientations=tuple(
+                (*ends, orientation)
+                for (tail, head), orientation in self.orientations.items()
+                for ends in roadmap.list_pieces((at(tail), at(head)))
+            ),
+        )
+        return replace(roadmap, drawing=drawing)
 
     def _measure_square(self, tail: str, head: str) -> Fraction:
         return measure_squared_distance(self.positions[tail], self.positions[head])

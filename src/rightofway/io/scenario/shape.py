@@ -109,7 +109,7 @@ class EdgeDocument(Document):
     )
     orientation: Angle = make_optional(
         "how robots are turned against the direction of driving, for orders, like 180 for backwards"
-        " [degrees]; both directions have their own"
+        " [degrees]; the same in both directions"
     )
 
     @model_validator(mode="before")
