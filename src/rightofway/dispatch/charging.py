@@ -14,6 +14,9 @@ from rightofway.model import Assignment, Tick, TourItem, Work
 
 __all__ = ["charge_for_rest"]
 
+MARGIN = 10
+"""A robot rests with one part in so many of a battery more than it needs to reach a charge."""
+
 Ends = Sequence[tuple[Tick, ...]]
 """When the items of each tour end [ticks]."""
 
@@ -23,8 +26,9 @@ def charge_for_rest(
 ) -> tuple[Assignment, list[tuple[Tick, ...]]]:
     """Return tours in which robots without stops charge before they go home, where they must.
 
-    A robot may rest at home if its battery lasts from there to a charging place. Where it would
-    not, the robot charges first as much as is missing, at the place that it leaves soonest.
+    A robot may rest at home if its battery lasts from there to a charging place, and a tenth of a
+    battery longer. Where it would not, the robot charges first as much as is missing, at the place
+    that it leaves soonest.
 
     Parameters
     ----------
@@ -55,18 +59,21 @@ def _list_charges(robot: int, work: Work, travel: Travel) -> list[tuple[Tick, To
     def drain(origin: int, target: int) -> int:
         return int(own.drives[origin, target]) + battery.on * int(ticks[origin, target])
 
+    # At home the battery should last for the way to a charge, and for making room before that; at
+    # least as far as a full battery does, or the robot would go to and fro.
+    ways = {place: drain(place, home) for place in own.charging if ticks[place, home] >= 0}
     needed = battery.reserve + int(own.to_charging[home])
+    most = battery.full - min(ways.values(), default=battery.full)
+    wanted = min(needed + battery.full // MARGIN, most)
+    if wanted < needed or level - drain(start, home) >= wanted:
+        return []
     # Only a robot that begins below its reserve may use it on the way to a charge.
     least = 0 if level < battery.reserve else battery.reserve
-    if level - drain(start, home) >= needed:
-        return []
     charges = []
-    for place in own.charging:
+    for place, way in ways.items():
         arrived = level - drain(start, place)
-        missing = needed + drain(place, home) - arrived
-        fits = arrived >= least and needed + drain(place, home) <= battery.full
-        if fits and ticks[start, place] >= 0 and ticks[place, home] >= 0:
-            duration = Tick(max(1, -(-missing // battery.charge)))
+        if arrived >= least and wanted + way <= battery.full and ticks[start, place] >= 0:
+            duration = Tick(max(1, -(-(wanted + way - arrived) // battery.charge)))
             item = TourItem(job=None, stop=None, vertex=travel.vertices[place], duration=duration)
             charges.append((Tick(bound.ready + int(ticks[start, place]) + duration), item))
     return charges
