@@ -126,6 +126,7 @@ GOOD: dict[str, Callable[[], tuple[Callable[..., Any], dict[str, Any]]]] = {
     "Roadmap.is_drawn": lambda: (DOOR.roadmap.is_drawn, {"tail": 0, "head": 1}),
     "Roadmap.is_passed": lambda: (DOOR.roadmap.is_passed, {"vertex": 0}),
     "Roadmap.list_edges": lambda: (DOOR.roadmap.list_edges, {"tail": 0, "head": 1}),
+    "Roadmap.list_pieces": lambda: (DOOR.roadmap.list_pieces, {"ends": (0, 1)}),
     "Roadmap.unfold_route": lambda: (DOOR.roadmap.unfold_route, {"vertices": [0, 1]}),
     "Roadmap.name": lambda: (DOOR.roadmap.name, {"vertex": 0}),
     "Roadmap.get_point": lambda: (DOOR.roadmap.get_point, {"vertex": 0}),

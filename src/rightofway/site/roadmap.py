@@ -321,6 +321,7 @@ class Roadmap:
                 drawn.setdefault(frozenset(lane.vertices), lane.vertices)
         return [*ways, *drawn.values()]
 
+    @checks_arguments
     def list_pieces(self, ends: tuple[VertexId, VertexId]) -> tuple[tuple[VertexId, VertexId], ...]:
         """Return tail and head of an edge, or of the pieces of a split lane in one direction.
 
