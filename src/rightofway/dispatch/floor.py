@@ -229,11 +229,6 @@ class SimulatedFloor:
         self._front: deque[int] = deque()
         self._waiting: dict[Pair | str, list[int]] = {}
 
-    @property
-    def is_on_time(self) -> bool:
-        """Whether all robots have last arrived when the plan has them arrive."""
-        return all(own.recent[-1][1] == own.visits[0].planned for own in self.robots)
-
     def fork(self, now: int, ahead: int | None = AHEAD) -> SimulatedFloor:
         """Return a floor to forecast with: without delays, as far as they are not known.
 

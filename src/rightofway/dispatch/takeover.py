@@ -77,7 +77,7 @@ def look_at_floor(
         _look_at_robot(floor, ahead, robot, (now, takeover), begun[robot])
         for robot in range(len(floor.robots))
     ]
-    if not floor.is_on_time:
+    if any(_is_late(floor, robot, seen) for robot, seen in enumerate(robots)):
         robots = list(_expect_times(floor, robots, now, takeover))
     if later:
         rows = zip(robots, later, strict=True)
@@ -149,6 +149,15 @@ def forecast_free(ahead: SimulatedFloor, robot: int, takeover: int) -> tuple[Tic
     left = count_soc(battery, own.soc, ticks, is_charging=is_charging)
     left -= battery.on * (free - max(until, own.counted))
     return Tick(free), Fraction(max(left, 0), battery.full)
+
+
+def _is_late(floor: SimulatedFloor, robot: int, seen: RobotView) -> bool:
+    """Return whether a robot cannot begin its old track as early as planned, or has not yet."""
+    own, track = floor.robots[robot], seen.track
+    if track is None or len(track) == 1:
+        return False
+    coming = own.visits[seen.last - own.first + 1]
+    return int(track.enter[1]) < seen.free + coming.turn + coming.drive
 
 
 def _expect_times(
