@@ -10,7 +10,7 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from rightofway.errors import quote
 from rightofway.kinds.numbers import read_number
@@ -26,7 +26,9 @@ from rightofway.kinds.table import (
     make_words,
 )
 from rightofway.site import Roadmap, VertexId
-from rightofway.site.layout import Level
+
+if TYPE_CHECKING:
+    from rightofway.site.layout import Level
 
 Blocking = Literal["none", "soft", "single", "hard"]
 """Whether a robot may drive (``none``, ``single``) and do other actions (``none``, ``soft``)
