@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -19,6 +20,7 @@ from rightofway.facts import Fact, read_fact
 from rightofway.model import Plan
 from rightofway.report.facts import FactWriter
 from rightofway.report.phrases import to_parts
+from tests.builders.floor_jobs import floor_plan
 from tests.builders.languages import say
 from tests.builders.pages import ROOT
 from tests.builders.plans import door
@@ -66,6 +68,23 @@ def test_a_recording_says_where_robots_are_what_they_hold_and_whom_they_wait_for
     assert [row for row in recording.take_frame(frame["number"])["rows"] if row[2] != "says"] == [
         (1.0, 1, "arrived", 1), (2.0, 0, "released", 1), (2.0, 1, "arrived", 2),
     ]  # fmt: skip
+
+
+def test_a_recording_says_which_job_a_robot_does_and_how_full_it_is(tmp_path: Path) -> None:
+    """R2 begins with a fifth and charges first; R1 picks at N10, and drops at N2 in no time."""
+    source = Journalled(recorded(floor_plan(), tmp_path))
+    source.until = 60.0
+    recording = Recording(floor_plan(), source)
+    recording.read_on()
+    rows = recording.take_frame()["rows"]
+    tasks = [say(row[3]) if row[3] else "" for row in rows if row[1:3] == (0, "task")]
+    assert tasks == [
+        "drives to stop 1 of J1", "works at stop 1 of J1", "drives to stop 2 of J1", "", "charges",
+    ]  # fmt: skip
+    assert next(say(row[3]) for row in rows if row[1:3] == (1, "task")) == "charges"
+    percents = [row[3] for row in rows if row[1:3] == (1, "charge")]
+    assert percents[0] == 20
+    assert all(abs(a - b) >= 5 or b in {0, 100} for a, b in pairwise(percents))
 
 
 def test_read_bit_by_bit_or_at_once_a_journal_says_the_same(tmp_path: Path) -> None:

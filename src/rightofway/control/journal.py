@@ -27,7 +27,7 @@ VERSION, OLDEST = 3, 2
 """The version of the file, its ``user_version``, and the oldest one that is read: its entries are
 read as before, and what is written makes the file one of the new version."""
 
-UNFOLDED = ("notice", "pace")
+UNFOLDED = ("charge", "notice", "pace")
 """Kinds of entries that are for people only: no snapshot has them, and no control reads them."""
 
 

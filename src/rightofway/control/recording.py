@@ -17,6 +17,7 @@ from rightofway.control.notices import EVERY_KIND
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive
 from rightofway.control.story import Story
+from rightofway.control.work_items import find_charge_step, find_stop
 from rightofway.errors import InputError, quote
 from rightofway.facts import Fact, read_fact
 from rightofway.model import Plan
@@ -60,6 +61,8 @@ class _Shown:
     done: int = -1  # the last visit whose work is done
     is_on_hold: bool = False
     is_off: bool = False
+    percent: int | None = None
+    task: Fact | None = None
     alarms: dict[str, Any] = field(default_factory=dict)  # the sentence of each kind
     seen: dict[str, str] = field(default_factory=dict)  # by whom, of each kind
     wait: SaysRow | None = None  # the last sentence on whom it waits for
@@ -200,6 +203,9 @@ class Recording:
             except Exception as error:
                 raise refuse_entry(row.number, entry, error) from error
             return ()
+        if kind == "charge":
+            self._show_charge(int(entry["robot"]), int(entry["percent"]), tick)
+            return ()
         if kind == "pace":
             self._pace, self._is_simulated = entry["seconds"], True
             return ()
@@ -267,6 +273,12 @@ class Recording:
                 known.seen[kind] = person
                 self._rows.append((tick, robot, "seen", kind, person))
 
+    def _show_charge(self, robot: int, percent: int, tick: float) -> None:
+        """Show the state of charge of a robot."""
+        if 0 <= robot < len(self._shown):
+            self._shown[robot].percent = percent
+            self._rows.append((tick, robot, "charge", percent))
+
     def _update_alarm(self, robot: int, kind: str, text: Any, tick: float) -> None:
         """Show that trouble of a kind begins, or with None that it ends."""
         known = self._shown[robot] if 0 <= robot < len(self._shown) else self._general
@@ -301,6 +313,9 @@ class Recording:
         if own.is_off != known.is_off:
             known.is_off = own.is_off
             self._rows.append((tick, robot, "off", own.is_off))
+        if (task := _find_task(own)) != known.task:
+            known.task = task
+            self._rows.append((tick, robot, "task", "" if task is None else self._write(task)))
         if own.fault is None or own.is_off:  # a person has looked after it
             self._update_alarm(robot, "fault", None, tick)
         if not own.failed:
@@ -331,6 +346,8 @@ class Recording:
             wait = known.wait
             self._shown[robot] = fresh = _Shown(alarms=known.alarms, seen=known.seen, wait=wait)
             self._compare(robot, tick)
+            if known.percent is not None:
+                self._show_charge(robot, known.percent, tick)
             self._show_alarms_again(robot, fresh, tick)
             if wait is not None and own.arrived == own.released:
                 self._rows.append((tick, *wait[1:]))
@@ -343,3 +360,20 @@ class Recording:
             self._rows.append((tick, robot, "alarm", kind, text))
         for kind, person in known.seen.items():
             self._rows.append((tick, robot, "seen", kind, person))
+
+
+def _find_task(own: RobotLedger) -> Fact | None:
+    """Return what a robot does for a job of a pool, or that it charges; None for neither."""
+    if own.is_off:
+        return None
+    items = own.route.get_jobs(own.arrived)
+    charges = [item for item in items if find_charge_step(item) == "begin"]
+    if any(item in own.finished and f"{item} end" not in own.finished for item in charges):
+        return Fact("task charges")
+    for visit in range(own.arrived, own.route.end):
+        for item in own.route.get_jobs(visit):
+            if item not in own.finished and (stop := find_stop(item)):
+                is_at_work = visit == own.arrived and own.is_asked_for(item)
+                kind = "task at work" if is_at_work else "task ahead"
+                return Fact(kind, job=stop[0], number=stop[1] + 1)
+    return None

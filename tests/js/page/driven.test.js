@@ -88,3 +88,19 @@ test("of robots that wait for each other none is at the head", () => {
   fleet.take({ number: 1, now: 9, runs: true, begins: true, rows });
   assert.deepEqual(fleet.holdUpsAt(5), []);
 });
+
+test("a robot has the job and the charge of the moment shown", () => {
+  const fleet = new Driven(payload.robots, planned);
+  /** @type {DrivenRow[]} */
+  const rows = [
+    [0, 0, "arrived", 0],
+    [0, 0, "route", 0, Array.from(vertices)],
+    [2, 0, "task", "drives to stop 1 of J1"],
+    [3, 0, "charge", 57],
+    [5, 0, "task", ""],
+  ];
+  fleet.take({ number: 1, now: 6, runs: true, begins: true, rows });
+  assert.deepEqual(fleet.workAt(0, 1), { task: "", percent: null });
+  assert.deepEqual(fleet.workAt(0, 4), { task: "drives to stop 1 of J1", percent: 57 });
+  assert.deepEqual(fleet.workAt(0, 6), { task: "", percent: 57 });
+});

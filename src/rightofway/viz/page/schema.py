@@ -71,13 +71,21 @@ SaysRow = TypeAliasType(
 )
 """Tick, robot (-1 for none), kind, what it is about, sentence, robots that are waited for."""
 
+TaskRow = TypeAliasType("TaskRow", tuple[float, int, Literal["task"], PhraseData])
+"""Tick, robot, kind, what it does for a job or that it charges; empty for neither."""
+
+ChargeRow = TypeAliasType("ChargeRow", tuple[float, int, Literal["charge"], int])
+"""Tick, robot, kind, state of charge [%]."""
+
 AlarmRow = TypeAliasType("AlarmRow", tuple[float, int, Literal["alarm"], str, PhraseData | None])
 """Tick, robot (-1 for none), kind, the kind of trouble, the sentence; null where it ends."""
 
 SeenRow = TypeAliasType("SeenRow", tuple[float, int, Literal["seen"], str, str])
 """Tick, robot (-1 for none), kind, the kind of trouble, the person who has seen the alarm."""
 
-DrivenRow = TypeAliasType("DrivenRow", RouteRow | VisitRow | HoldRow | SaysRow | AlarmRow | SeenRow)
+DrivenRow = TypeAliasType(
+    "DrivenRow", RouteRow | VisitRow | HoldRow | TaskRow | ChargeRow | SaysRow | AlarmRow | SeenRow
+)
 """Something that happened to a fleet that is driven."""
 
 

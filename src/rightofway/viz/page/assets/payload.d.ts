@@ -32,6 +32,8 @@ export interface ChangeData {
   text: string;
 }
 
+export type ChargeRow = [number, number, "charge", number];
+
 /** Places that are too near: pairs of lanes, a vertex and a lane, pairs of vertices. */
 export interface CloseData {
   crossings?: [number, number, number, number][];
@@ -116,7 +118,7 @@ export interface DrivenFrame {
   rows: DrivenRow[];
 }
 
-export type DrivenRow = RouteRow | VisitRow | HoldRow | SaysRow | AlarmRow | SeenRow;
+export type DrivenRow = RouteRow | VisitRow | HoldRow | TaskRow | ChargeRow | SaysRow | AlarmRow | SeenRow;
 
 /** A place where the plan breaks a rule, or a reason why there is no plan; texts by index. */
 export interface FaultData {
@@ -421,6 +423,8 @@ export interface SteadyData {
   critical: [number, number][];
   bottleneck?: [number, number];
 }
+
+export type TaskRow = [number, number, "task", PhraseData];
 
 /** What a robot does for jobs; ``load`` is that at its begin. ``charges`` has ticks and states of charge, which change evenly between them. */
 export interface TourData {

@@ -312,6 +312,9 @@ export interface PageTexts {
     holdsUp: Text<"name" | "names" | "robots">;
     held: string;
     off: string;
+    task: string;
+    battery: string;
+    percent: Text<"percent">;
     waiting: string;
     since: string;
     releasedTerm: string;

@@ -75,6 +75,10 @@ class DrivenLog {
     this.holds = new Course();
     /** @type {Course<boolean>} */
     this.off = new Course(); // whether it is off the floor
+    /** @type {Course<PhraseData>} */
+    this.tasks = new Course(); // what it does for a job
+    /** @type {Course<number>} */
+    this.charges = new Course(); // percents
     this.isStale = true; // whether another robot is to be made of it
     this.#usual = usualDrives(planned);
   }
@@ -108,6 +112,12 @@ class DrivenLog {
         break;
       case "off":
         this.off.add(tick, row[3]);
+        break;
+      case "task":
+        this.tasks.add(tick, row[3]);
+        break;
+      case "charge":
+        this.charges.add(tick, row[3]);
         break;
       case "says":
         if (row[3] === "wait") this.waits.add(tick, { others: row[5], text: row[4] });
@@ -430,6 +440,17 @@ export class Driven {
    */
   alarmsAt(tick) {
     return this.alarms.filter(({ from, to }) => from <= tick && (tick < to || to === Infinity));
+  }
+
+  /**
+   * What a robot does for a job at a tick, and its state of charge; empty where that is not known.
+   *
+   * @param {number} robot
+   * @param {number} tick
+   */
+  workAt(robot, tick) {
+    const { tasks, charges } = this.logs[robot];
+    return { task: tasks.at(tick)?.value || "", percent: charges.at(tick)?.value ?? null };
   }
 
   /**

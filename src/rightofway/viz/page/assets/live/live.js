@@ -211,7 +211,8 @@ export class Live {
   }
 
   /**
-   * What a robot does, where that is more than what it does by itself: it is in trouble, waits for others, is held, is off.
+   * What a robot does, where that is more than what it does by itself: it is in trouble, waits for others, is held, is off,
+   * works for a job, or charges.
    *
    * @param {number} robot
    */
@@ -226,7 +227,22 @@ export class Live {
     const wait = driven.waitAt(robot, tick);
     const names = wait?.others.map((other) => words.robot(other)).join(", ");
     if (names) return texts.driven.waitsFor({ names });
-    return driven.isHeld(robot, tick) ? texts.driven.held : "";
+    if (driven.isHeld(robot, tick)) return texts.driven.held;
+    const { task, percent } = this.#work(robot);
+    return task ? [task, percent].filter(Boolean).join(", ") : "";
+  }
+
+  /**
+   * What a robot does for a job, and its state of charge, as words.
+   *
+   * @param {number} robot
+   */
+  #work(robot) {
+    const { task, percent } = this.driven.workAt(robot, this.clock.tick);
+    return {
+      task: said(task),
+      percent: percent === null ? "" : texts.driven.percent({ percent }),
+    };
   }
 
   /**
@@ -256,6 +272,7 @@ export class Live {
     const { base, horizon } = driven.way(robot, clock.tick);
     const { driven: own } = texts;
     const wait = driven.waitAt(robot, clock.tick);
+    const { task, percent } = this.#work(robot);
     /** @param {number[]} vertices */
     const places = (vertices) => {
       const shown = vertices.slice(0, 6).map((vertex) => words.short(vertex));
@@ -263,6 +280,8 @@ export class Live {
     };
     /** @type {[string, string | Node][]} */
     const terms = [
+      [own.task, task],
+      [own.battery, percent],
       [own.waiting, wait ? said(wait.text) : ""],
       [own.since, wait ? words.moment(wait.since) : ""],
       [own.releasedTerm, base.length > 1 ? places(base.slice(1)) : own.nothing],
