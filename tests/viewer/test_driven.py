@@ -406,6 +406,28 @@ def test_alarms_are_acknowledged_by_name_and_all_screens_show_it(
         assert viewer.complaints == []
 
 
+def test_a_screen_on_a_wall_has_large_type(
+    browser: Browser, stack: ExitStack, tmp_path: Path
+) -> None:
+    """By the button, and by the address; a row of the list is 1.6 times as high."""
+    journal = tmp_path / "demo.journal"
+    drive_demo(door(), journal=journal)
+    address = stack.enter_context(watched(door(), journal))
+    viewer = opened(browser, stack, address)
+    usual = viewer.box("#robot-list-0")["height"]
+    viewer.page.get_by_role("button", name="Large type").click()
+    large = viewer.box("#robot-list-0")["height"]
+    assert round(large / usual, 1) == 1.6
+    assert viewer.is_as_wide_as(1280)
+    assert serious(viewer) == []
+    viewer.page.get_by_role("button", name="Large type").click()
+    assert viewer.box("#robot-list-0")["height"] == usual
+    mark = "&" if "?" in address else "?"
+    again = opened(browser, stack, f"{address}{mark}wall")
+    assert again.box("#robot-list-0")["height"] == large
+    assert viewer.complaints == again.complaints == []
+
+
 @pytest.mark.parametrize("theme", ["light", "dark"])
 @pytest.mark.parametrize("width", [1280, 390])
 def test_the_page_has_no_serious_fault_and_fits(

@@ -68,6 +68,8 @@ export interface PageTexts {
     findCompared: string;
     live: string;
     liveAtLength: string;
+    wall: string;
+    wallAtLength: string;
     lost: string;
     alarms: string;
     holdUps: string;

@@ -56,6 +56,10 @@ export class Live {
     root.part("live-box").hidden = false;
     this.button.hidden = !this.feed.stream;
     this.button.addEventListener("click", () => clock.follow());
+    const wall = root.part("wall");
+    wall.hidden = !this.feed.stream;
+    wall.addEventListener("click", () => setWall(wall, !isOnWall()));
+    setWall(wall, isOnWall() || new URLSearchParams(location.search).has("wall"));
     clock.on("playing", () => this.refresh());
     choice.on("choice", () => this.refresh());
     this.#lengthen();
@@ -293,4 +297,18 @@ export class Live {
         terms.push([own.alarm, element("span", { className: "wrong" }, said(text))]);
     return terms;
   }
+}
+
+/** Whether the page has large type, for a screen on a wall. */
+function isOnWall() {
+  return document.documentElement.classList.contains("wall");
+}
+
+/**
+ * @param {HTMLElement} button
+ * @param {boolean} isOn
+ */
+function setWall(button, isOn) {
+  document.documentElement.classList.toggle("wall", isOn);
+  button.setAttribute("aria-pressed", String(isOn));
 }

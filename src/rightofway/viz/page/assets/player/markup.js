@@ -186,6 +186,7 @@ ${below(STATES, ["zoom-in", "zoom-out", "fit", "bottleneck", "corridor", "space"
     <div id="live-box" class="live-box" hidden>
       <button type="button" id="live" class="quiet live" aria-pressed="false" data-text="live" data-title="liveAtLength"></button>
       <output id="live-state" class="live-state"></output>
+      <button type="button" id="wall" class="quiet" aria-pressed="false" data-text="wall" data-title="wallAtLength"></button>
     </div>
     <button type="button" id="loop" class="quiet loop" aria-pressed="false" hidden><svg viewBox="0 0 20 20"><path d="M15.5 7A6.2 6.2 0 1 0 16 11.5M15.8 3.5V7.2H12"/></svg><span data-text="loop"></span></button>
     ${READOUT}
