@@ -87,3 +87,17 @@ def test_a_job_that_another_robot_takes_leaves_the_old_tour() -> None:
     planned = RoundPlanner(SCENARIO).plan(view, jobs, over={}, time_limit=None)
     assert [[step.job for step in steps] for steps in planned.steps] == [[], ["J1"]]
     assert planned.later == ((("J2", 0),), ())
+
+
+@pytest.mark.parametrize(("is_idle", "taker"), [(True, 1), (False, 0)])
+def test_a_job_changes_robots_on_the_way_only_while_a_robot_has_nothing_to_do(
+    is_idle: bool, taker: int
+) -> None:
+    # R1 drives from N0 to J1 at N3; R2 is at N4, and may have a job there.
+    jobs = {"J1": make_job("J1", 3), "J2": make_job("J2", 4, "R2")}
+    if is_idle:
+        del jobs["J2"]
+    robots = (look([0, 1, 2, 3], "J1"), look([4], None if is_idle else "J2"))
+    view = FleetView(now=Tick(0), takeover=Tick(0), robots=robots)
+    planned = RoundPlanner(SCENARIO).plan(view, jobs, over={}, time_limit=None)
+    assert "J1" in [step.job for step in planned.steps[taker]]

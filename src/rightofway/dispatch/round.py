@@ -15,7 +15,7 @@ warehouses*, AAAI 2021: a rolling horizon of plans.
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
@@ -284,17 +284,22 @@ class RoundPlanner:
         travel = measure_travel(scenario.problem, self._distances)
         weights = scenario.problem.weights
         old_tours = Assignment(tours=tuple((*ahead, *behind) for ahead, behind in old))
-        hurried = deadline.shorten(SHARE_OF_TOURS)
         if given.overdue:
             first = deadline.shorten(SHARE_OF_TOURS / 2)
             work, old_tours = assign_overdue(
                 work, travel, old_tours, given.overdue, weights=weights, deadline=first
             )
-        search = AssignmentSearch(work, travel, weights=weights, seed=seed)
-        search.start(old_tours)
-        search.construct(hurried.measure_seconds_left())
-        if has_choice(work):
-            search.improve(STEPS_PER_JOB * len(work.jobs), hurried.measure_seconds_left())
+        stable = _keep_next_jobs(work, old, given.overdue)
+        for worked in (stable, work):
+            hurried = deadline.shorten(SHARE_OF_TOURS)
+            search = AssignmentSearch(worked, travel, weights=weights, seed=seed)
+            search.start(old_tours)
+            search.construct(hurried.measure_seconds_left())
+            if has_choice(worked):
+                search.improve(STEPS_PER_JOB * len(work.jobs), hurried.measure_seconds_left())
+            unserved = (job for job, _ in search.assignment.unserved)
+            if all(stable.jobs[job] is work.jobs[job] for job in unserved):
+                break
         if search.cost.missing:
             raise GaveUp(Fact("begun jobs without a tour"))
         assignment, ends = charge_for_rest(search.assignment, search.list_ends(), work, travel)
@@ -515,6 +520,25 @@ def _list_later(given: _Given, later: Sequence[Tour], n_robots: int) -> tuple[St
         )
         for robot in range(n_robots)
     )
+
+
+def _keep_next_jobs(work: Work, old: Sequence[tuple[Tour, Tour]], overdue: Collection[int]) -> Work:
+    """Return work in which only its robot may do the job that a robot is on its way to.
+
+    Else such jobs would change robots in most rounds, for little gain: each change needs a new
+    route, and in a dense fleet there may be none. Overdue jobs may always change robots, and so may
+    all jobs while a robot has nothing to do.
+    """
+    jobs = list(work.jobs)
+    if not all(ahead or behind for ahead, behind in old):
+        return work
+    for robot, (ahead, _) in enumerate(old):
+        job = ahead[0].job if ahead else None
+        if job is None or job in overdue or len(jobs[job].robots) == 1:
+            continue
+        if robot in jobs[job].robots:
+            jobs[job] = replace(jobs[job], robots=(robot,))
+    return replace(work, jobs=tuple(jobs))
 
 
 def _find_routes(
