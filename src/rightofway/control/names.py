@@ -42,13 +42,13 @@ def list_jobs(ledger: Ledger) -> list[dict[str, Any]]:
     return rows
 
 
-def find_robot(ledger: Ledger, name: str) -> int:
+def find_robot(names: Sequence[str], name: str) -> int:
     """Return the number of a robot.
 
     Parameters
     ----------
-    ledger
-        The state that the journal describes.
+    names
+        Of all robots.
     name
         Its name.
 
@@ -57,7 +57,6 @@ def find_robot(ledger: Ledger, name: str) -> int:
     InputError
         If no robot has it.
     """
-    names = ledger.names
     if name not in names:
         meant = find_nearest(name, names) or names[0]
         raise InputError.at("robot", f"{quote(name)} is no robot (for example {meant})")
@@ -73,7 +72,7 @@ def find_failed_job(ledger: Ledger, name: str) -> Entry:
     if name in ledger.pool.jobs:
         raise InputError.at("job", f"{quote(name)} has not failed (see rightofway jobs list)")
     robot, _, job = name.rpartition("/")
-    number = find_robot(ledger, robot)
+    number = find_robot(ledger.names, robot)
     if job not in ledger.robots[number].failed:
         raise InputError.at("job", f"{quote(name)} has not failed (see rightofway jobs list)")
     return {"robot": number, "job": job}
@@ -99,7 +98,7 @@ def find_job(
         If there is no such job.
     """
     robot, _, job = name.rpartition("/")
-    number = find_robot(ledger, robot)
+    number = find_robot(ledger.names, robot)
     for index, stop in enumerate(stops[number]):
         if stop.job == job:
             return number, index

@@ -221,7 +221,7 @@ class Operator:
         if entry is None:
             raise InputError.at("command", f"{quote(kind)} is no command (see rightofway jobs)")
         refuse_nameless({"kind": kind, "name": name})
-        robots = range(len(ledger.names)) if name is None else [find_robot(ledger, name)]
+        robots = range(len(ledger.names)) if name is None else [find_robot(ledger.names, name)]
         fact = Fact("all operated", operation=kind)
         if name is not None:
             fact = Fact("operated", robot=name, operation=kind)
@@ -262,7 +262,7 @@ class Operator:
         GaveUp
             If no plan from there was found, as where another robot is in the way.
         """
-        robot = find_robot(self._ledger, name)
+        robot = find_robot(self._ledger.names, name)
         own, said = self._ledger.robots[robot], self._dispatcher.control.places.get(robot, "")
         if not own.is_off:
             remedy = f"confirm first that it is off the floor: rightofway jobs … remove {name}"
@@ -315,7 +315,9 @@ class Operator:
         """
         at = self._name_stop(at)
         robots, stops = self._ledger.robots, self._dispatcher.list_stops()
-        candidates = range(len(robots)) if robot is None else [find_robot(self._ledger, robot)]
+        candidates = (
+            range(len(robots)) if robot is None else [find_robot(self._ledger.names, robot)]
+        )
         if after is not None:
             owner, place_of_job = find_job(self._ledger, stops, after)
             if owner not in candidates:

@@ -172,10 +172,13 @@ def drive(
         or not (replay or login.broker is not None),
     )
     from rightofway.control.identities import load_identities
+    from rightofway.control.names import find_robot
 
     opened = read_plan(plan)
     names = [robot.name for robot in opened.scenario.robots]
     known = load_identities(identities, names) if identities else []
+    for name in off:
+        find_robot(names, name)  # or refuse it now
     journal_file = Path(journal) if journal else Path(plan).with_suffix(".journal")
 
     shown = WatchPage(plan=opened, title=make_title(plan), host=host, port=port)

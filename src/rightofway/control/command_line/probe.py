@@ -16,7 +16,7 @@ from rightofway.control.command_line.broker_options import (
     add_identities_option,
     add_login_options,
 )
-from rightofway.errors import InputError, find_nearest, quote
+from rightofway.errors import InputError, quote
 
 if TYPE_CHECKING:
     from rightofway.control.plan_fit import PlanFit
@@ -91,16 +91,13 @@ def _choose_robot(plan: str | None, identities: str | None, robot: str | None) -
     if plan is None or identities is None or robot is None:
         raise click.UsageError("--plan, --identities and --robot belong together (give all three)")
     from rightofway.control.identities import load_identities
+    from rightofway.control.names import find_robot
     from rightofway.control.plan_fit import PlanFit
 
     opened = read_plan(plan)
     names = [known.name for known in opened.scenario.robots]
-    if robot not in names:
-        near = find_nearest(robot, names)
-        remedy = f"did you mean {near!r}?" if near else f"the first one is {names[0]!r}"
-        raise InputError.at("robot", f"the plan has no robot {quote(robot)} ({remedy})")
     fleet = load_identities(identities, names)
-    return PlanFit(plan=opened, identities=fleet, robot=names.index(robot))
+    return PlanFit(plan=opened, identities=fleet, robot=find_robot(names, robot))
 
 
 def _read_identity(identity: str | None, fit: PlanFit | None) -> tuple[str, str]:
