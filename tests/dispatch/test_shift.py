@@ -36,6 +36,14 @@ def test_a_plan_takes_over_after_its_lead_and_robots_keep_what_they_have_begun()
     assert record.jobs["J2"].ended == 9
 
 
+def test_robots_go_on_with_the_old_plan_for_as_long_as_a_round_takes() -> None:
+    jobs = [{"name": "J1", "at": "N190"}, {"name": "J2", "at": "N0", "earliest": 101}]
+    record = hold_shift(make_scenario(["." * 191], {"R1": "N0"}, jobs=jobs), lead=100)
+    # The first plan takes over at tick 100. The second round begins at tick 200, and R1 ends J1
+    # before it takes over.
+    assert record.jobs["J1"].ended == 290
+
+
 def test_four_robots_rotate_in_one_instant() -> None:
     homes = {"R1": "N0", "R2": "N1", "R3": "N3", "R4": "N2"}
     jobs = [

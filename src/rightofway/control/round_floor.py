@@ -234,7 +234,7 @@ def forecast_kept_parts(
     """
     for robot, cap in caps.items():
         floor.robots[robot].cap = cap
-    ahead = floor.fork(now, None)
+    ahead = floor.fork(now)
     ahead.advance(NEVER - 1)
     ends, at_ends = dict(ahead.ends), dict[int, tuple[Tick | None, Fraction, Fraction | None]]()
     for robot, (last, _) in caps.items():

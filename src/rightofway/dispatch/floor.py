@@ -17,7 +17,6 @@ from collections.abc import Iterator, Sequence
 from copy import copy
 from dataclasses import dataclass, field
 from fractions import Fraction
-from itertools import islice
 from typing import NamedTuple
 
 from rightofway.dispatch.delays import DelayDraws
@@ -31,9 +30,6 @@ from rightofway.site import Roadmap
 __all__ = ["FloorEvent", "FloorRobot", "SimulatedFloor", "StepToDo", "VisitToCome"]
 
 Pair = tuple[int, int]
-
-AHEAD = 64
-"""The visits of each robot that a forecast looks at."""
 
 
 class FloorEvent(NamedTuple):
@@ -156,10 +152,10 @@ class FloorRobot:
         for number in [number for number in self.enters if number < least]:
             del self.enters[number]
 
-    def fork(self, now: int, ahead: int | None) -> FloorRobot:
+    def fork(self, now: int) -> FloorRobot:
         """Return the robot as a forecast sees it: it is free when it is expected to be."""
         twin = copy(self)
-        twin.visits = deque(islice(self.visits, ahead))
+        twin.visits = deque(self.visits)
         twin.recent, twin.enters = deque(self.recent), dict(self.enters)
         if self.lost is not None and self.lost <= now:
             return twin
@@ -229,20 +225,18 @@ class SimulatedFloor:
         self._front: deque[int] = deque()
         self._waiting: dict[Pair | str, list[int]] = {}
 
-    def fork(self, now: int, ahead: int | None = AHEAD) -> SimulatedFloor:
+    def fork(self, now: int) -> SimulatedFloor:
         """Return a floor to forecast with: without delays, as far as they are not known.
 
         Parameters
         ----------
         now
             The tick. An action that is overdue by n ticks is expected to last n more.
-        ahead
-            The visits of each robot that are looked at; None for all.
         """
         twin = copy(self)
         twin.delays = DelayDraws(DelayModel.none(len(self.robots)), 0, 0)
         twin.events, twin.records = [], [RobotRecord() for _ in self.robots]
-        twin.robots = [own.fork(now, ahead) for own in self.robots]
+        twin.robots = [own.fork(now) for own in self.robots]
         twin.ends = dict(self.ends)
         for own in twin.robots:
             step = own.visits[0].steps[own.n_begun - 1] if own.n_begun else None

@@ -105,7 +105,7 @@ def make_outlook(
     planned
         As in `Outlook`; None where it is not known: then as it is expected now.
     """
-    ahead = floor.fork(now, None)
+    ahead = floor.fork(now)
     ahead.advance(NEVER - 1)
     driving = [k for k, own in enumerate(floor.robots) if own.lost is None]
     ends = {

@@ -164,7 +164,12 @@ def _expect_times(
     floor: SimulatedFloor, robots: Sequence[RobotView], now: int, takeover: int
 ) -> Iterator[RobotView]:
     """Yield views whose old tracks have the times that are expected now."""
-    expected = floor.fork(now, None)
+    expected = floor.fork(now)
+    for own, seen in zip(expected.robots, robots, strict=True):
+        own.cap = seen.last, seen.n_steps
+    expected.advance(takeover)
+    for own in expected.robots:
+        own.cap, own.since = None, max(own.since, takeover)
     expected.advance(NEVER - 1)
     for own, seen in zip(expected.robots, robots, strict=True):
         assert seen.track is not None, "robots on a floor have a route"
