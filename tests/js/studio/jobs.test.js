@@ -101,3 +101,23 @@ test("the start of a robot is there as long as something of it is", () => {
   assert.deepEqual(start.set(soc.set(begun, ""), ""), { name: "R1" });
   assert.equal(columnOf({ path: ["robots", 0, "start", "soc"] }), "soc");
 });
+
+test("cells keep times of day, and the actions of stops", () => {
+  const job = { name: "J", stops: [{ at: "N0", work: 1, actions: ["pick"] }, { at: "N1" }] };
+  assert.deepEqual(column("stops").set(job, "N2 (3); N1"), {
+    name: "J",
+    stops: [{ at: "N2", work: 3, actions: ["pick"] }, { at: "N1" }],
+  });
+  assert.deepEqual(column("due").set({ name: "J", due: 3 }, "10:30"), { name: "J", due: "10:30" });
+  assert.equal(column("due").text({ name: "J", due: "10:30" }), "10:30");
+  const [stops, work] = ["stops", "work"].map((key) => COLUMNS.find((each) => each.key === key));
+  assert.ok(stops && work);
+  const robot = { name: "R1", home: "N0", target: "N1", actions: "wash" };
+  assert.deepEqual(work.set(robot, "5"), { ...robot, work: 5 });
+  assert.deepEqual(stops.set(robot, "N2"), { ...robot, target: "N2" });
+  assert.deepEqual(stops.set(robot, "N2; N0"), {
+    name: "R1",
+    home: "N0",
+    stops: [{ at: "N2", actions: "wash" }, { at: "N0" }],
+  });
+});

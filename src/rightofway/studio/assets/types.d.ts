@@ -68,6 +68,7 @@ export type Place = string | number | Pair | { x: Numeral; y: Numeral };
 export interface Stop {
   at?: Place;
   work?: Numeral;
+  actions?: unknown;
 }
 
 /** What a robot has beside its name and its trip. */
@@ -126,6 +127,7 @@ export interface RobotData extends Attributes {
   home?: Place;
   target?: Place;
   work?: Numeral;
+  actions?: unknown;
   stops?: Stop[];
 }
 

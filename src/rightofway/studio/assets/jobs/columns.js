@@ -106,27 +106,28 @@ export const JOB_COLUMNS = [
       text: (job) => text(/** @type {JobData} */ (job)[key]),
       value: isNumber ? (job) => numberOf(/** @type {any} */ (job)[key], -1) : undefined,
       set: (job, given) =>
-        withKey(/** @type {JobData} */ (job), key, keepTimes(job, key, read(given))),
+        withKey(/** @type {JobData} */ (job), key, keepOthers(job, key, read(given))),
     };
     return column;
   }),
 ];
 
 /**
- * Stops that were written anew keep the times that a cell does not show.
+ * Stops that were written anew keep the times and actions that a cell does not show.
  * @param {RowData} job
  * @param {string} key
  * @param {any} value
  */
-function keepTimes(job, key, value) {
+function keepOthers(job, key, value) {
   if (key !== "stops" || !value) return value;
   const { stops = [] } = /** @type {JobData} */ (job);
   return /** @type {JobStop[]} */ (value).map((stop, i) => {
-    const { earliest, latest } = stops[i] ?? {};
+    const { earliest, latest, actions } = stops[i] ?? {};
     return {
       ...stop,
       ...(earliest === undefined ? {} : { earliest }),
       ...(latest === undefined ? {} : { latest }),
+      ...(actions === undefined ? {} : { actions }),
     };
   });
 }

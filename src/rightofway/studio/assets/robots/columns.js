@@ -91,12 +91,15 @@ export const COLUMNS = [
             .map(({ at }) => textOfPlace(at))
             .join("; "),
     set: (robot, text) => {
-      const usual = stopsOf(robot)[0]?.work;
+      const before = stopsOf(robot);
+      const usual = before[0]?.work;
       return withStops(
         robot,
-        stopsOfText(text).map((stop) =>
-          "work" in stop || usual === undefined ? stop : { ...stop, work: usual },
-        ),
+        stopsOfText(text).map((stop, i) => ({
+          ...("work" in stop || usual === undefined ? {} : { work: usual }),
+          ...stop,
+          ...(before[i]?.actions === undefined ? {} : { actions: before[i].actions }),
+        })),
       );
     },
   },
@@ -108,8 +111,8 @@ export const COLUMNS = [
     set: (robot, text) =>
       withStops(
         robot,
-        stopsOf(robot).map(({ at }) =>
-          written(text) === undefined ? { at } : { at, work: written(text) },
+        stopsOf(robot).map(({ work, ...stop }) =>
+          written(text) === undefined ? stop : { ...stop, work: written(text) },
         ),
       ),
   },

@@ -20,14 +20,22 @@ export const robotsOf = (document) => rowsOf(document, "robots");
 export const writtenIn = (document) => rowsIn(document, "robots");
 
 /**
- * The stops of a robot: `{ at, work }`, however they are written.
+ * The stops of a robot: `{ at, work, actions }`, however they are written.
  * @param {RobotData} robot
  * @returns {Stop[]}
  */
-export function stopsOf({ target, work, stops }) {
+export function stopsOf({ target, work, actions, stops }) {
   if (stops) return stops;
-  return target === undefined ? [] : [work === undefined ? { at: target } : { at: target, work }];
+  return target === undefined ? [] : [withoutMissing({ at: target, work, actions })];
 }
+
+/**
+ * A stop without the keys that have no value.
+ * @param {Stop} stop
+ * @returns {Stop}
+ */
+const withoutMissing = (stop) =>
+  Object.fromEntries(Object.entries(stop).filter(([, value]) => value !== undefined));
 
 /**
  * A robot with other stops; one is written as target and work.
@@ -36,11 +44,11 @@ export function stopsOf({ target, work, stops }) {
  * @returns {RobotData}
  */
 export function withStops(robot, stops) {
-  const { target, work, stops: before, ...rest } = robot;
+  const { target, work, actions, stops: before, ...rest } = robot;
   if (!stops.length) return rest;
   if (stops.length > 1) return { ...rest, stops };
-  const [{ at, work: only }] = stops;
-  return only === undefined ? { ...rest, target: at } : { ...rest, target: at, work: only };
+  const [{ at, ...own }] = stops;
+  return { ...rest, target: at, ...withoutMissing(own) };
 }
 
 /**
