@@ -49,7 +49,7 @@ def robot_attributes() -> str:
     return (
         "// Generated from model/robot.py and texts/en.json: change it there, then run "
         "`just types-refresh`.\n\n"
-        "/** What a robot has beside its name and its trip, by its key in files. */\n"
+        "/** Attributes of a robot other than its name and its trip, by key. */\n"
         f"export const ATTRIBUTES = /** @type {{const}} */ ({{\n{''.join(rows)}}});\n"
     )
 

@@ -30,7 +30,7 @@ OPTIONS: Mapping[str, Kind[Any]] = {
 """The options of a shift in a suite, as those of the command ``shift``."""
 
 USES = ("driving", "waiting", "working", "charging", "idle")
-"""What robots do with their time."""
+"""Time use of robots."""
 
 
 def read_shift_options(given: Mapping[str, Any]) -> dict[str, Any]:

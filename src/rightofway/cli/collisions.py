@@ -39,7 +39,7 @@ LEGEND = (
     "before, left: conflicts of the whole fleet before and after the decision, counted tick by"
     " tick\nif i, if j: conflicts left if robot i waits, and if robot j waits"
 )
-"""What the columns of decisions hold."""
+"""Contents of the columns of decisions."""
 
 
 @click.command(epilog=EXAMPLES, short_help="List where robots would meet if none of them waited.")

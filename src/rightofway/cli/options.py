@@ -21,7 +21,7 @@ else:
     NumberType = click.ParamType  # takes no parameter in older versions of click
 
 Callback = Callable[[click.Context, click.Parameter, Any], Any]
-"""What click calls to check the value of an option."""
+"""A function that click calls to check the value of an option."""
 
 
 def require_writable(

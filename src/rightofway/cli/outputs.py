@@ -48,7 +48,7 @@ INSTEAD = {
     ".gif": "for a film: rightofway show PLAN -o {}",
     ".csv": "for a table: rightofway table PLAN -o {}",
 }
-"""What to do for an ending that -o does not take where the result is a plan."""
+"""The remedy for an ending that -o does not accept if the result is a plan."""
 
 
 def make_output_option(

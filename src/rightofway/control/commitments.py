@@ -1,4 +1,4 @@
-"""What a robot keeps where the rest is replanned, and the stops that it has still to make."""
+"""Kept parts of routes when remaining routes are replanned, and remaining stops."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def find_last_open(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RobotCommitment:
-    """What a robot keeps, from the visit on at which it has arrived."""
+    """The kept part of a robot's route, from the visit on at which it has arrived."""
 
     route: RouteToDrive  # up to the last released part
     part: KeptPart

@@ -108,7 +108,7 @@ FACTSHEET: dict[str, dict[str, Any]] = {
     "agvGeometry": {},
     "loadSpecification": {},
 }
-"""What a simulated robot is: small, and faster than any plan."""
+"""The factsheet of a simulated robot: small, and faster than any plan."""
 
 
 _AnyBody = TypeVar("_AnyBody", bound=vda5050.Body)

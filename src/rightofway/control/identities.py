@@ -1,4 +1,4 @@
-"""Who the robots of a plan are: the file of identities, and topics.
+"""Identities of the robots of a plan: their file, and topics.
 
 A file names each robot of the plan as messages do. Keys beside ``robots`` hold for all robots that
 do not have them themselves.

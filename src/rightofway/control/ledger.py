@@ -17,7 +17,7 @@ from rightofway.precedence import Arrival, Part, ReleaseGraph
 from rightofway.site import Roadmap
 
 Names = tuple[str, ...]
-"""What a person closes: a vertex, or the two ends of a lane."""
+"""An object that a person closes: a vertex, or the two ends of a lane."""
 
 JOB_EVENTS = frozenset(get_args(EventKind))
 """Kinds of entries on jobs; stops that robots begin and end follow from orders and actions."""

@@ -54,7 +54,7 @@ OPERATIONS: Mapping[str, Entry] = {
     "clear": {"kind": "cleared"},  # a person confirms that it is where the journal has it
     "remove": {"kind": "taken off"},  # a person confirms that it is off the floor
 }
-"""What an operator does to robots: the entry of each command, without its robot."""
+"""Commands of an operator for robots: the entry of each, without its robot."""
 
 JOB_KINDS = frozenset({"list", "add", "change", "withdraw", "skip"})
 """Commands on jobs, which a plan with jobs keeps in a pool."""

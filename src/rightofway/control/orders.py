@@ -19,7 +19,7 @@ Actions = list[tuple[str, str, int]]
 """The id, item and attempt of actions."""
 
 Tasks = dict[str, ActionToDo]
-"""What actions are to do, by id."""
+"""Actions, by id."""
 
 
 def make_order(

@@ -45,7 +45,7 @@ GONE = 2**62
 
 
 class FloorReports:
-    """What robots have reported since the start, as far as forecasts need it.
+    """Reports of robots since the start, as far as forecasts need them.
 
     Parameters
     ----------
@@ -195,7 +195,7 @@ def mirror_floor(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ForecastRobot:
-    """What is expected of a robot that keeps a part of its route.
+    """The forecast of a robot that keeps a part of its route.
 
     Attributes
     ----------

@@ -33,7 +33,7 @@ __all__ = ["ViewOfRound", "find_kept_parts", "make_routes_of_round", "map_later"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ViewOfRound:
-    """What a round is planned from.
+    """The input of a round.
 
     Attributes
     ----------

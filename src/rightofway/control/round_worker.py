@@ -21,7 +21,7 @@ GRACE = 20.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RoundRequest:
-    """What a round is planned from.
+    """The input of a round.
 
     Attributes
     ----------

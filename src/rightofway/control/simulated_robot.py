@@ -21,7 +21,7 @@ from rightofway.control.messages import (
 )
 
 Step = Literal["begin to drive", "arrive", "begin work", "end work"]
-"""What a robot does next."""
+"""The next step of a robot."""
 
 AS_USUAL = Condition()
 """The condition of a robot that is fit."""

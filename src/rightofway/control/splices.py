@@ -1,4 +1,4 @@
-"""What a splice must keep (rule 10): what is released, each job, lanes, an order of no cycle."""
+"""Conditions of a splice (rule 10): released parts, jobs, lanes, and an order without a cycle."""
 
 from __future__ import annotations
 

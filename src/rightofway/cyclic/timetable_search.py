@@ -42,7 +42,7 @@ from rightofway.repair.routing import ROUTING
 from rightofway.search import Distances, RoundTrip
 
 CLOSING = Fact("closing a stretch")
-"""What may take the time, for messages."""
+"""A step that may take the time, for messages."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

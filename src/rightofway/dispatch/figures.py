@@ -44,7 +44,7 @@ class ShiftSlice:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RobotUse:
-    """What one robot has done with its time [ticks].
+    """The time use of one robot [ticks].
 
     Attributes
     ----------

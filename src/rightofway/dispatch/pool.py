@@ -23,7 +23,7 @@ __all__ = ["EventKind", "Pool", "PoolEvent", "PooledJob"]
 EventKind = Literal[
     "job known", "job changed", "job withdrawn", "stop begun", "stop done", "job unserved"
 ]
-"""What may happen to a job: `job unserved` is for good."""
+"""Kinds of events of a job; `job unserved` is final."""
 
 KEYS: dict[EventKind, tuple[str, ...]] = {
     "job known": ("job",),

@@ -39,7 +39,7 @@ class DoneStep(NamedTuple):
 
 @dataclass(slots=True, kw_only=True)
 class RobotRecord:
-    """What one robot has done.
+    """The record of one robot.
 
     Attributes
     ----------
@@ -77,7 +77,7 @@ class RobotRecord:
 
 @dataclass(slots=True, kw_only=True)
 class JobRecord:
-    """What has become of a job.
+    """The record of a job.
 
     Attributes
     ----------

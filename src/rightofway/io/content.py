@@ -28,7 +28,7 @@ PICTURES = (b"P5", b"P2", b"P6", b"\x89PNG", b"BM", b"\xff\xd8", b"GIF8")
 _FORMAT_KEY = re.compile(r"""^[ \t{]*["']?format["']?[ \t]*:""", re.MULTILINE)
 
 PIECE = 2**20
-"""What is read from a file at once [bytes]."""
+"""Size of one read from a file [bytes]."""
 
 
 def read_text(path: Path) -> str:
@@ -71,10 +71,10 @@ def read_content(path: Path, most: int | None = None) -> bytes | bytearray:
 
 
 _STREAMS: WeakKeyDictionary[BinaryIO, bytearray] = WeakKeyDictionary()
-"""What was read of each standard input."""
+"""Content of each standard input."""
 
 _PIPES: dict[tuple[int, int], bytearray] = {}
-"""What was read of each pipe, by device and number."""
+"""Content of each pipe, by device and number."""
 
 
 def _read_file_content(path: Path, most: int) -> bytearray:

@@ -25,7 +25,7 @@ ROUNDED = 10**6
 """Distances in sentences are rounded to this part of a length unit."""
 
 TAKE_TURNS = Fact("wait at lanes")
-"""What to do where lanes cross or are near: nothing is drawn in a wrong place."""
+"""The remedy for lanes that cross or are near; the drawing is not wrong."""
 
 MOST_NAMED = 200
 """The most vertices that a finding names."""

@@ -22,7 +22,7 @@ Kind = Literal[
     "trip", "trap", "unreachable", "cut off", "too near", "crossing", "through way", "corridor",
     "bottleneck", "scale", "job",
 ]  # fmt: skip
-"""What a finding is about."""
+"""Kinds of findings."""
 
 SEVERITIES: tuple[Severity, ...] = ("error", "warning", "note")
 """The severities, the worst first."""

@@ -1,4 +1,4 @@
-"""What robots carry and what is in their batteries on their tours, over time."""
+"""Loads and states of charge of robots on their tours, over time."""
 
 from __future__ import annotations
 

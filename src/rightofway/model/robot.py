@@ -327,7 +327,7 @@ class Rules:
 
 
 ROBOT_ATTRIBUTES = list_attributes(Robot)
-"""What a robot has beside its name and its trip."""
+"""Attributes of a robot other than its name and its trip."""
 
 RULE_ATTRIBUTES = list_attributes(Rules)
-"""What holds for the whole fleet."""
+"""Rules of the whole fleet."""

@@ -23,10 +23,10 @@ ANYWHERE = VertexId(-1)
 """The vertex of the last stage of a robot that ends anywhere."""
 
 LARGEST_SLOPE = 2**18
-"""What a tick costs that delays all stages of a robot; search keys have 37 bits for costs."""
+"""Cost of a tick that delays all stages of a robot; search keys have 37 bits for costs."""
 
 LARGEST_COST = 10**6
-"""What a tick of one stage costs at most."""
+"""The largest cost of a tick of one stage."""
 
 _BOUND: WeakKeyDictionary[Problem, _core.Problem] = WeakKeyDictionary()
 atexit.register(_BOUND.clear)  # a problem that lives to the end takes no native object along

@@ -278,7 +278,7 @@ BASELINES = {
     "open": "first come first served as measured within its time",
     "starves": "first come first served, where a robot is permanently stuck",
 }
-"""What a timetable is compared with, by how that ends."""
+"""Baselines of a timetable, by their end."""
 
 
 def report_comparison(comparison: BaselineComparison) -> Iterator[str]:

@@ -142,7 +142,7 @@ class PhraseBook:
 
 
 FIGURE = re.compile(r"\d[.%]")
-"""What languages write differently in a number: the decimal point, and the space before ``%``."""
+"""Differences of languages in numbers: the decimal point, and the space before ``%``."""
 
 
 def mark_figure(text: str) -> str:

@@ -1,4 +1,4 @@
-"""What people call the vertices of a scenario: by name, or where cells are, as on the page."""
+"""Names of the vertices of a scenario for people: names, or positions of cells."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ class PlaceNames:
 
     @cached_property
     def of_robots(self) -> dict[int, str]:
-        """What cells are called after robots: homes, and only stops where no other robot stops."""
+        """Names of cells by robots: homes, and stops of a single robot."""
         robots = self.scenario.robots
         stops = [{int(stop.at) for stop in robot.stops} - {int(robot.home)} for robot in robots]
         count = Counter(at for vertices in stops for at in vertices)

@@ -18,7 +18,7 @@ Stages = tuple[Stage, ...]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Commitment:
-    """What one robot keeps of its route, and what is left for it to do."""
+    """The kept part of a robot's route, and its remaining work."""
 
     visit: int  # the last one that it has booked; index in its route
     vertex: VertexId  # of that visit

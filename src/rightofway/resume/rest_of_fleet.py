@@ -36,7 +36,7 @@ class StopToMake(NamedTuple):
 
 
 class KeptPart(NamedTuple):
-    """What a robot keeps of its route, from the vertex on at which it has arrived."""
+    """The kept part of a robot's route, from the vertex on at which it has arrived."""
 
     vertices: tuple[int, ...]
     work: int  # that is not done yet [ticks]

@@ -21,7 +21,7 @@ from rightofway.site.drawing import Picture
 from rightofway.site.geometry import Point
 
 FREE, UNKNOWN, OCCUPIED = 0, 1, 2
-"""What a pixel shows."""
+"""The state of a pixel."""
 
 FAR = 60_000
 """Distances beyond this are treated as equal [pixels]."""

@@ -66,7 +66,7 @@ POLICY = (
     "connect-src 'self'; font-src 'self'; frame-src 'self'; base-uri 'none'; form-action 'none'; "
     "frame-ancestors 'self'"
 )
-"""What pages of the studio may load, unless a route has a policy of its own."""
+"""The content policy of the studio's pages, unless a route has its own."""
 
 HEADERS = (
     (b"x-content-type-options", b"nosniff"),
@@ -85,7 +85,7 @@ App = Callable[[Scope, Receive, Send], Awaitable[None]]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Access:
-    """Who may send requests.
+    """The permitted senders of requests.
 
     Attributes
     ----------

@@ -42,7 +42,7 @@ PATIENCE = 10.0
 """How long a page waits for the answer to an order [s]."""
 
 ORDERS = ("hold", "stop", "go", "clear", "remove", "place", "close", "open", "seen")
-"""What pages may ask a control for."""
+"""Commands that pages may send to a control."""
 
 
 class Watched:

@@ -23,7 +23,7 @@ SHARE_OF_MEMORY = 0.5
 """The part of the machine's memory that a worker may take."""
 
 LEAST_MEMORY = 2**30
-"""What a worker may take in any case [bytes]."""
+"""Memory that a worker may always use [bytes]."""
 
 LARGE = 2**29
 """A worker that had more memory at once is not used again [bytes]."""

@@ -27,7 +27,7 @@ MAX_FILE = 20_000_000
 """The largest file that is opened or uploaded [bytes]."""
 
 CLIMBS = re.compile(rb"(^|[/\\])\.\.?($|[/\\])|[\x00-\x1f\\]")
-"""What no path in an address has, once it is decoded; files with such names are not listed."""
+"""Characters that no decoded path contains; files with such names are not listed."""
 
 LONGEST_NAME = 200
 """Characters of a file's or a folder's name."""

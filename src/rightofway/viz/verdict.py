@@ -15,7 +15,7 @@ LISTED_FAULTS = 1000
 """The most faults that a page lists; all are counted."""
 
 UNDONE = ("stop missed", "wrong end")
-"""What the judge finds in the track of a robot that stands still for ever in an excerpt of laps."""
+"""Faults in the track of a robot that is permanently stuck in an excerpt of laps."""
 
 
 def give_verdict(plan: Plan) -> Report:

@@ -22,7 +22,7 @@ FASTEST = 10
 NODE_KEYS = {"id", "frame", "metadata"}
 EDGE_KEYS = {"id", "startid", "endid", "overridable", "metadata"}
 METADATA_KEYS = {"speed_limit"}
-"""What is read; `overridable` says only whether scorers of Nav2 may change the cost."""
+"""Keys that are read; `overridable` only permits scorers of Nav2 to change the cost."""
 
 LINES = ("LineString", "MultiLineString")
 

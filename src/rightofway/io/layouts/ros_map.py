@@ -47,7 +47,7 @@ BROKEN = (
     struct.error,
     zlib.error,
 )
-"""What the picture library raises for a picture that is cut or spoilt."""
+"""Exceptions of the picture library for a truncated or damaged picture."""
 
 OPAQUE = 255
 FULL = 100

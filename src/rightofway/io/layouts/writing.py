@@ -24,7 +24,7 @@ LISTS = {"layouts", "nodes", "edges", "stations", "features"}
 """Keys of lists that are spread over lines."""
 
 PASSED_VERTICES = "vertices that robots only drive through"
-"""What formats without a place for `LayoutVertex.is_passed` leave out."""
+"""The note of formats that cannot contain `LayoutVertex.is_passed`."""
 
 FREE_FOR_ALL = "any"
 """The vehicle type of a LIF lane with a speed limit that is open to all, where no type is named."""

@@ -25,7 +25,7 @@ UNSERVED_REASON = make_words(*get_args(UnservedReason))
 
 
 class DecisionDocument(Document):
-    """Who got the right of way where two robots would have met, and why."""
+    """The right of way between two robots that would have met, with its reason."""
 
     tick: Ticks = Field(description="when they would have met, a whole number of ticks")
     kind: Literal["vertex", "head-on", "following", "crossing"] = Field(

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from rightofway.io.scenario.shape import PictureDocument
 
 KINDS = ("PNG", "JPEG", "WEBP", "BMP", "PPM", "GIF", "TIFF")
-"""What pictures may be; PGM is a kind of PPM."""
+"""Formats of pictures; PGM is a kind of PPM."""
 
 MOST_PIXELS = 50_000_000
 """Pixels of the largest picture that is read; a floor plan of 7000 x 7000."""

@@ -356,7 +356,7 @@ class StopDocument(Document):
 
 @add_attributes(Robot)
 class RobotAttributes(Document):
-    """What a robot has beside its name and its trip."""
+    """Attributes of a robot other than its name and its trip."""
 
 
 OF_TRIPS = ("target", "work", "actions", "stops")
@@ -427,7 +427,7 @@ class RobotDocument(Document):
 
 
 class PlaceActionsDocument(Document):
-    """What robots do at stops at a place, where a stop has no actions of its own."""
+    """Actions of robots at a place, for stops without actions of their own."""
 
     work: Actions = make_optional("at stops where the load stays as it is, as for stops")
     pick: Actions = make_optional("at stops where the load grows, as for stops")
@@ -458,7 +458,7 @@ class RobotTableDocument(Document):
 
 @add_attributes(Rules)
 class RuleAttributes(Document):
-    """What holds for a fleet, with or without jobs."""
+    """Rules of a fleet, with or without jobs."""
 
 
 class RulesDocument(RuleAttributes):
@@ -505,7 +505,7 @@ class ClosureDocument(Document):
 
 
 class UnitsDocument(Document):
-    """What numbers are measured in, for people who read reports; none by default."""
+    """Units of the numbers in reports; none by default."""
 
     length: LengthUnit = make_optional("mm, cm or m")
     time: TimeUnit = make_optional("ms, s, min or h")

@@ -28,10 +28,10 @@ from rightofway.studio.routes.models import (
 from rightofway.studio.runs import Kind, State
 
 Payload = Annotated[dict[str, Any], "SitePayload"]
-"""What the viewer draws."""
+"""Data that the viewer draws."""
 
 Comparison = Annotated[dict[str, Any], "ComparisonPayload"]
-"""What the viewer compares."""
+"""Data that the viewer compares."""
 
 Phrase = Annotated[list[str | dict[str, Any]], "PhraseData"]
 """A sentence with places for values, and the values."""
@@ -747,7 +747,7 @@ ANSWERS: dict[tuple[str, str], Any] = {
     ("GET", "/drives/{number}"): DriveData,
     ("POST", "/drives/{number}/stop"): DriveData,
 }
-"""What each route answers that the page asks; `RefusalData` where it refuses."""
+"""Answers of the routes of the page; `RefusalData` for refusals."""
 
 BODIES: dict[tuple[str, str], Any] = {
     ("PUT", "/documents/{path}"): Save,
@@ -763,7 +763,7 @@ BODIES: dict[tuple[str, str], Any] = {
     ("POST", "/runs/{number}/flip"): Flip,
     ("POST", "/runs/{number}/drives"): NewDrive,
 }
-"""What each of these takes."""
+"""Bodies of these routes."""
 
 EVENTS: dict[str, type] = {
     "runs": RunList,
@@ -772,4 +772,4 @@ EVENTS: dict[str, type] = {
     "plan": PlanFound,
     "deleted": RunNumber,
 }
-"""What the events of `/events` hold."""
+"""Data of the events of `/events`."""

@@ -16,7 +16,7 @@ router = APIRouter(include_in_schema=False)
 """The pages of drives."""
 
 api = APIRouter(tags=["drives"])
-"""What is asked of the drives of a studio."""
+"""Requests for the drives of a studio."""
 
 DriveNumber = Annotated[int, Path(ge=1, le=2**53, description="number of a drive")]
 

@@ -33,7 +33,7 @@ Name = Annotated[
 ]
 MAX_SECONDS = 3600
 GZIP = b"\x1f\x8b"
-"""What compressed bytes begin with."""
+"""First bytes of compressed data."""
 
 
 def answer_zipped(

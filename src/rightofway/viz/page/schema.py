@@ -442,7 +442,7 @@ class JobData(TypedDict):
 
 
 class TourData(TypedDict):
-    """What a robot does for jobs; ``load`` is that at its begin.
+    """An item of a robot's tour; ``load`` is that at its begin.
 
     ``charges`` has ticks and states of charge, which change evenly between them.
     """

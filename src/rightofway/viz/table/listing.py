@@ -15,7 +15,7 @@ MAX_CELL = 40
 """Columns of a terminal that a cell of text may take."""
 
 Value = str | int | float | None
-"""What a cell holds; None leaves it empty."""
+"""The content of a cell; None leaves it empty."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

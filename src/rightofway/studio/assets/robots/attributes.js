@@ -1,6 +1,6 @@
 // Generated from model/robot.py and texts/en.json: change it there, then run `just types-refresh`.
 
-/** What a robot has beside its name and its trip, by its key in files. */
+/** Attributes of a robot other than its name and its trip, by key. */
 export const ATTRIBUTES = /** @type {const} */ ({
   speed: {
     isText: false,

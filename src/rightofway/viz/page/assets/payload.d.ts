@@ -426,7 +426,7 @@ export interface SteadyData {
 
 export type TaskRow = [number, number, "task", PhraseData];
 
-/** What a robot does for jobs; ``load`` is that at its begin. ``charges`` has ticks and states of charge, which change evenly between them. */
+/** An item of a robot's tour; ``load`` is that at its begin. ``charges`` has ticks and states of charge, which change evenly between them. */
 export interface TourData {
   items: TourRow[];
   load: number;
