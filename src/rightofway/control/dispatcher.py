@@ -21,17 +21,17 @@ from rightofway.control.journal import Entry
 from rightofway.control.laps import LapsToDrive, build_graph_behind_released
 from rightofway.control.ledger import Edge, Ledger
 from rightofway.control.messages import Message
-from rightofway.control.releases import list_strayed_to
 from rightofway.control.rest import RestPlanner, explain_error
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.round_driver import RoundDriver
 from rightofway.control.round_worker import Rounds, RoundsAtOnce
 from rightofway.control.routes import RouteToDrive, make_routes_to_drive
 from rightofway.control.stop_actions import StopActions
+from rightofway.control.stuck import StuckRobots
 from rightofway.errors import GaveUp, InputError
 from rightofway.facts import Fact
 from rightofway.model import Plan
-from rightofway.precedence import Part, ReleaseGraph
+from rightofway.precedence import ReleaseGraph
 from rightofway.resume.rest_of_fleet import StopToMake
 
 __all__ = ["Dispatcher"]
@@ -91,9 +91,7 @@ class Dispatcher:
         self.report: Report = lambda *_: None
         self.control, self.plan, self._laps = control, plan, laps
         self._rest = RestPlanner(plan.scenario, planner, time_limit)
-        self._stuck_for: dict[int, int] = {}  # calls of `pass_stuck` in a row, by robot
-        self._passed = frozenset[int]()  # robots that the rest is planned round
-        self._held: list[tuple[str, ...]] = []  # what robots held when that was planned
+        self._stuck = StuckRobots(control, patience)
         self._has_failed = False  # no plan of the rest was found, and that was reported
         self._tries_in = self._patience  # calls of `pass_stuck` until the next try
         self._is_new = True  # `pass_stuck` was not called since the start
@@ -189,7 +187,7 @@ class Dispatcher:
         ]
         closed = self._list_closed_edges()
         return self.control.splice(
-            *self._rest.plan(robots, committed, stops, closed, [*self._passed])
+            *self._rest.plan(robots, committed, stops, closed, [*self._stuck.passed])
         )
 
     def _build_graph(self, routes: Sequence[RouteToDrive]) -> ReleaseGraph:
@@ -208,7 +206,7 @@ class Dispatcher:
         robots = [self._rest.begin_at_stop(own) for own in robots]
         ends = [
             own.released
-            if robot in self._passed
+            if robot in self._stuck.passed
             else find_last_open(own, last, closed, self._rest.may_stop)
             for robot, (own, last) in enumerate(zip(robots, planned, strict=True))
         ]
@@ -217,7 +215,7 @@ class Dispatcher:
             for own, last in zip(robots, ends, strict=True)
         ]
         stops = [list_stops_to_make(own, own.released) for own in at_ends]
-        more, _ = self._rest.plan(at_ends, ends, stops, closed, [*self._passed])
+        more, _ = self._rest.plan(at_ends, ends, stops, closed, [*self._stuck.passed])
         routes = [own.route.cut_before(own.arrived) for own in robots]
         later = 1 + max(
             route.enter[last - route.first] for route, last in zip(routes, ends, strict=True)
@@ -284,7 +282,7 @@ class Dispatcher:
         released = self.control.list_committed()
         for robot, own in placed.items():
             released[robot] = own.released
-        stuck = [robot for robot in self._passed if robot not in placed]
+        stuck = [robot for robot in self._stuck.passed if robot not in placed]
         closed = self._list_closed_edges()
         routes, graph = self._rest.plan(robots, released, stops, closed, stuck)
         return self.control.splice(
@@ -376,27 +374,21 @@ class Dispatcher:
             self.report(None, True)  # what had failed before a start is not known
             if self._is_led_over(self.ledger.closed_edges):
                 return self.replan_if_possible() or []
-        self._stuck_for = {k: self._stuck_for.get(k, 0) + 1 for k in self.control.list_stuck()}
-        self._stuck_for |= dict.fromkeys(self.control.stranded, self._patience)  # nothing helps it
-        long = frozenset(k for k, times in self._stuck_for.items() if times >= self._patience)
-        robots = self.ledger.robots
-        has_moved = any(robots[k].held != self._held[k] for k in long & self._passed)
+        stuck = self._stuck.look()
         if self._has_failed and self.rounds is None:
             self._tries_in -= 1
             is_due = self._tries_in <= 0
         else:
-            is_due = has_moved or not long >= self._passed
-            is_due |= self.rounds is not None and long > self._passed
-            is_due |= long > self._passed and not long.isdisjoint(self._list_awaited())
+            is_due = self._stuck.is_changed(stuck, at_once=self.rounds is not None)
         if not is_due:
             return []
-        before, self._passed = self._passed, long
-        self._held = [own.held for own in robots]
+        before = self._stuck.passed
+        self._stuck.pass_round(stuck)
         if self.rounds is not None:
-            self.rounds.watch.unable = long
+            self.rounds.watch.unable = stuck
         messages = self.replan_if_possible()
         if messages is None:
-            self._passed = before & long
+            self._stuck.passed = before & stuck
         return messages or []
 
     def replan_if_possible(self) -> list[Message] | None:
@@ -411,18 +403,6 @@ class Dispatcher:
             not set(closed).isdisjoint(pairwise(own.route.stretch(own.released, own.route.end)))
             for own in self.ledger.robots
         )
-
-    def _list_awaited(self) -> set[int]:
-        """Return the robots that must leave a place before others that are not stuck go on."""
-        ledger, awaited = self.ledger, set[int]()
-        for robot, own in enumerate(ledger.robots):
-            part = own.released + 1
-            if robot in self._stuck_for or part >= own.route.end:
-                continue
-            missing = ledger.graph.list_missing(Part(robot, part), ledger.arrived)
-            awaited |= {arrival.robot for arrival in missing}
-            awaited.update(list_strayed_to(ledger, own.route.get_place(part)))
-        return awaited
 
     def _report_round(self, fact: Fact | None, is_over: bool) -> None:
         """Report once that a round has found no plan, and that one has found one again."""
