@@ -70,10 +70,10 @@ def _list_charges(robot: int, work: Work, travel: Travel) -> list[tuple[Tick, To
     # Only a robot that begins below its reserve may use it on the way to a charge.
     least = 0 if level < battery.reserve else battery.reserve
     charges = []
-    for place, way in ways.items():
+    for place, homeward in ways.items():
         arrived = level - drain(start, place)
-        if arrived >= least and wanted + way <= battery.full and ticks[start, place] >= 0:
-            duration = Tick(max(1, -(-(wanted + way - arrived) // battery.charge)))
+        if arrived >= least and wanted + homeward <= battery.full and ticks[start, place] >= 0:
+            duration = Tick(max(1, -(-(wanted + homeward - arrived) // battery.charge)))
             item = TourItem(job=None, stop=None, vertex=travel.vertices[place], duration=duration)
             charges.append((Tick(bound.ready + int(ticks[start, place]) + duration), item))
     return charges
