@@ -400,6 +400,25 @@ def test_rounds_begin_by_the_triggers_of_simulated_shifts() -> None:
     assert "jobs became known" in kinds
 
 
+def test_rounds_for_which_only_time_is_a_reason_become_rare() -> None:
+    """Robots stand still, and a job that nobody can carry waits: pauses double from 16 looks on.
+
+    The first forecast after the begin is that of the tenth look.
+    """
+    rounds = SlowRounds()
+    rounds.is_ready = True
+    shift = Shift(rounds=rounds)
+    shift.ask("add", name="A1", pickup="N2", dropoff="N0", load=5)
+    begins = list[int]()
+    for _ in range(190):
+        before = len(rounds.requests)
+        shift.now += 1
+        shift.rounds.look()
+        shift.floor.send(shift.rounds.go_on())
+        begins += [shift.now] * (len(rounds.requests) - before)
+    assert begins == [10, 26, 58, 122]
+
+
 def test_a_plan_with_jobs_is_not_repeated_in_laps() -> None:
     with pytest.raises(InputError, match="jobs are done once"):
         LapsToDrive(floor_plan())
