@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -87,6 +88,37 @@ def test_a_job_that_another_robot_takes_leaves_the_old_tour() -> None:
     planned = RoundPlanner(SCENARIO).plan(view, jobs, over={}, time_limit=None)
     assert [[step.job for step in steps] for steps in planned.steps] == [[], ["J1"]]
     assert planned.later == ((("J2", 0),), ())
+
+
+@pytest.mark.usefixtures("no_repair")
+def test_the_fleet_is_planned_from_nothing_where_nobody_would_move() -> None:
+    # R2 stands in the way of R1 and has nothing to do: it makes room.
+    jobs = {"J1": make_job("J1", 2, "R1")}
+    view = FleetView(now=Tick(0), takeover=Tick(0), robots=(look([0]), look([2])))
+    planned = RoundPlanner(SCENARIO).plan(view, jobs, over={}, time_limit=None)
+    assert [[step.job for step in steps] for steps in planned.steps] == [["J1"], []]
+    assert planned.facts == ()
+
+
+def test_a_robot_whose_battery_would_not_last_waits_and_others_work() -> None:
+    # R2 works for 90 ticks more at the stop of R1, whose battery lasts for 90 ticks.
+    battery = {"tank": {"drive": "1/1000", "on": "1/100", "charge": "1/5", "reserve": "1/10"}}
+    scenario = make_scenario(
+        ["....."],
+        {"R1": {"home": "N0", "battery": "tank"}, "R2": {"home": "N2"}},
+        jobs=[],
+        rules={"return": "none", "rotations": False},
+        batteries=battery,
+        charging=["N0"],
+    )
+    jobs = {"J1": make_job("J1", 2, "R1"), "J2": make_job("J2", 4, "R2")}
+    works = replace(look([2]), free=Tick(90))
+    view = FleetView(now=Tick(0), takeover=Tick(0), robots=(look([0]), works))
+    planned = RoundPlanner(scenario).plan(view, jobs, over={}, time_limit=None)
+    assert not planned.stands
+    assert [[step.job for step in steps] for steps in planned.steps] == [[], ["J2"]]
+    assert planned.later == ((("J1", 0),), ())
+    assert "batteries" in str(planned.facts[0])
 
 
 @pytest.mark.parametrize(("is_idle", "taker"), [(True, 1), (False, 0)])

@@ -119,6 +119,11 @@ class _RoundPlan:
     keeping: tuple[int, ...] = ()
     reasons: tuple[Fact, ...] = ()
 
+    @property
+    def is_still(self) -> bool:
+        """Whether no robot has anything to do: then waiting helps nobody."""
+        return not any(self.plan.scenario.tours or ())
+
 
 class RoundPlanner:
     """Planner of rounds of one fleet; it keeps travel times and distances between rounds.
@@ -261,7 +266,7 @@ class RoundPlanner:
             cut = cut_tours(given.scenario, assignment, ends, n_stops, lead)
             start = list_same_tracks(cut.toured, old)
             planned = _find_routes(cut, assignment, start, items, routing)
-            if planned is not None:
+            if planned is not None and not (planned.keeping and planned.is_still):
                 return planned
         left = deadline.measure_seconds_left()
         if left == 0:
