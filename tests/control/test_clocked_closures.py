@@ -120,7 +120,9 @@ def test_a_run_of_a_scenario_with_a_start_keeps_closures_by_the_wall_clock(tmp_p
     driver._flush()
     closed, opened = map(Quantities.of(plan.scenario).format_moment, (5, 20))  # ticks of 4 s
     line = f"R1 waits at B: the way to C is closed from {closed} to {opened}"
-    assert (robot.robot.place, said) == ("B", [line])
+    clock = f"the clock of the run counts from {start:%Y-%m-%dT%H:%M:%S}Z, and it is "
+    assert said[0].startswith(clock.replace(":00Z", "Z"))
+    assert (robot.robot.place, said[1:]) == ("B", [line])
     assert journal.read_begin() == start.timestamp()
     # The next start has the begin from the journal.
     driver, said = driver_of(plan, journal, None, robot)

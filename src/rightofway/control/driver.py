@@ -13,6 +13,7 @@ import secrets
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
+from datetime import datetime
 from typing import TYPE_CHECKING
 
 from rightofway.control.broker import Broker, check_cancellation
@@ -34,6 +35,7 @@ from rightofway.execution.drive_result import DriveResult
 from rightofway.facts import Fact
 from rightofway.io import format_plan
 from rightofway.model import Plan, Tick
+from rightofway.units import write_start
 
 if TYPE_CHECKING:
     import aiomqtt
@@ -137,6 +139,9 @@ class Driver:
         ledger, digest = self.control.ledger, _compute_digest(plan, maps)
         if not ledger.run:
             dispatcher.begin(f"{digest}-{secrets.token_hex(4)}", begin)
+            if start is not None:
+                now = datetime.now(start.tzinfo).replace(microsecond=0)
+                report(Fact("clock of run", start=write_start(start), now=write_start(now)))
             self._journal.flush()
         elif not ledger.run.startswith(f"{digest}-"):
             message = "is of another plan, or of other identities (give those, or another journal)"
