@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from dataclasses import replace
 from fractions import Fraction
@@ -21,6 +22,7 @@ from rightofway.control import (
     SimulatedRobot,
     StateReport,
 )
+from rightofway.control.endpoints import LetterWriter, RobotEnd
 from rightofway.control.identities import VERSIONS, Identity
 from rightofway.control.operator import OPERATIONS
 from rightofway.control.order_map import OrderMap, make_order_maps
@@ -225,6 +227,26 @@ def test_headings_of_a_layout_are_sent_where_robots_work_and_along_edges(version
     *before, last = works["nodes"]
     assert not any("theta" in node["nodePosition"] for node in before)
     assert last["nodePosition"]["theta"] == pytest.approx(0)
+
+
+def test_a_simulated_robot_reports_the_heading_of_its_orders() -> None:
+    """It drives east, backwards: it heads west until it works at B in the heading north."""
+    vertices = {"A": [100, 200], "B": {"at": [300, 200], "heading": 90}, "C": [300, 600]}
+    edges = [{"from": "A", "to": "B", "orientation": 180}, ["B", "C"]]
+    order_map = map_of(site(roadmap={"vertices": vertices, "edges": edges}))
+    identity, thetas = order_map.identity, []
+    for actions in ((), ("work",)):
+        end = RobotEnd(SimulatedRobot("A"), 0, identity, lambda: "2026-01-31T12:00:00.000Z")
+        order = order_over("A", "B")
+        order = replace(order, nodes=(order.nodes[0], replace(order.nodes[1], actions=actions)))
+        writer = LetterWriter(lambda: "2026-01-31T12:00:00.000Z")
+        end.receive(writer.make_letter(identity, "order", OrderMessage.of(order, order_map)))
+        end.report_state()
+        while end.robot.step():
+            pass
+        state = json.loads(end.report_state().payload)
+        thetas.append(abs(state["agvPosition"]["theta"]))
+    assert thetas == pytest.approx([math.pi, math.pi / 2])
 
 
 def test_a_site_whose_y_grows_downwards_is_mirrored() -> None:

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
 from functools import cached_property, partial
-from math import atan2, hypot
+from math import atan2, hypot, remainder, tau
 from typing import Any, TypeVar
 
 from rightofway.control import vda5050
@@ -512,13 +512,17 @@ class RobotEnd:
         for node in message.nodes:
             if node.nodePosition is not None:
                 at = node.nodePosition
-                self._places[node.nodeId] = Place(point=(at.x, at.y), map_id=at.mapId)
+                point = at.x, at.y
+                place = Place(point=point, map_id=at.mapId, theta=at.theta)
+                self._places[node.nodeId] = place
         for edge in message.edges:
             tail, head = names.get(edge.sequenceId - 1), names.get(edge.sequenceId + 1)
             is_known = edge.length is not None and edge.maxSpeed is not None
             if is_known and tail is not None and head is not None:
                 length, speed = edge.length or 0.0, edge.maxSpeed or 1.0
-                self.lanes[tail, head] = OrderLane(length=length, max_speed=speed)
+                self.lanes[tail, head] = OrderLane(
+                    length=length, max_speed=speed, orientation=edge.orientation
+                )
 
     def report_state(self) -> Letter:
         """Return its state as it is sent."""
@@ -536,12 +540,19 @@ class RobotEnd:
         return self._writer.make_letter(self._identity, "state", body)
 
     def _find_theta(self) -> float:
-        """Return where the robot heads: along the straight line of its last drive [rad]."""
+        """Return the heading of the robot [rad]: that of its place, where it works in a heading.
+
+        Else it is that of the straight line of its last drive, turned by its orientation there.
+        """
         before, at = self._places.get(self._came), self._places.get(self.robot.place)
+        lane = self.lanes.get((self._came, self.robot.place))
+        turn = 0.0 if lane is None or lane.orientation is None else lane.orientation
         self._came = self.robot.place
         if before and at and before.point != at.point:
             (x, y), (x_before, y_before) = at.point, before.point
-            self._theta = atan2(y - y_before, x - x_before)
+            self._theta = remainder(atan2(y - y_before, x - x_before) + turn, tau)
+        if at and at.theta is not None:
+            self._theta = at.theta
         return self._theta
 
     def report_connection(self, state: str) -> Letter:
