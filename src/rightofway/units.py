@@ -31,10 +31,10 @@ SECONDS: dict[str, Fraction] = {
     "min": Fraction(60),
     "h": Fraction(3600),
 }
-"""How long each unit of time is [s]."""
+"""The length of each unit of time [s]."""
 
 METRES: dict[str, Fraction] = {"mm": Fraction(1, 1000), "cm": Fraction(1, 100), "m": Fraction(1)}
-"""How long each unit of length is [m]."""
+"""The length of each unit of length [m]."""
 
 DAY = 86400
 """Seconds of a day."""

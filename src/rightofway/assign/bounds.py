@@ -36,7 +36,7 @@ Label = tuple[int, int]
 """The time of a robot, and the cost of the jobs that it has ended."""
 
 Progress = tuple[tuple[int, ...], int]
-"""How many stops of each job a robot has served, and its place."""
+"""Numbers of served stops of each job, and the place of the robot."""
 
 
 class Alone(NamedTuple):

@@ -15,7 +15,7 @@ from rightofway.errors import InputError
 from rightofway.extras import load_library
 
 PATIENCE = 30
-"""How long a scheduler has to answer [s]."""
+"""Time limit for the answer of a scheduler [s]."""
 
 LONGEST = 200
 """Characters of a worker's error that a message shows."""

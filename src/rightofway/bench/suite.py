@@ -36,7 +36,7 @@ LAPS = "laps"
 """In place of a planner: the fleet repeats its work under a rule."""
 
 SHIFT_LIMIT, LIMIT = Fraction(1), Fraction(10)
-"""How long a round of a shift, and a planner, may take by default [s]."""
+"""Default time limit of a round of a shift, and of a planner [s]."""
 
 
 _Planner = tuple[str, Mapping[str, Any]]

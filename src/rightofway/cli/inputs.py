@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from rightofway.model import Plan, Scenario
 
 FILES = "rightofway.files."
-"""Where a command keeps the files that belong to a plan of another program."""
+"""Key of the files that belong to a plan of another program, in the context of a command."""
 
 count_option = click.option(
     "-k",

@@ -1,4 +1,4 @@
-"""Where results go: ``-o FILE`` by its ending, ``-`` for standard output, ``--page FILE``."""
+"""Outputs of commands: ``-o FILE`` by its ending, ``-`` for standard output, ``--page FILE``."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from rightofway.report.lines import Part
 
 QUIET, VERBOSE = "rightofway.quiet", "rightofway.verbose"
-"""Where a command keeps whether the user wants no messages, or those on each step."""
+"""Keys of the options for no messages and for those on each step, in the context of a command."""
 
 CLEAR = "\r\x1b[2K"
 """Empties the line that the cursor is in."""

@@ -146,7 +146,7 @@ class Broker:
 
     @property
     def address(self) -> str:
-        """Where it is, in short."""
+        """Its address, in short."""
         return f"{self.host}:{self.port}"
 
     @asynccontextmanager

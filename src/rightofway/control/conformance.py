@@ -46,7 +46,7 @@ TIMESTAMP = re.compile(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(\.\d+)?Z")
 """A time of a header: ISO 8601, UTC."""
 
 MOST_SECONDS = 30.0
-"""How far the clock of a robot may be from that of this machine [s]."""
+"""The largest difference of the clock of a robot from that of this machine [s]."""
 
 STEP = 60
 """The difference of clocks is rounded to this, so that it is one finding [s]."""

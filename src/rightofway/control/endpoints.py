@@ -52,7 +52,7 @@ LOST = "lost"
 """The kind of trouble of a robot that no message reaches."""
 
 OWN_DEVIATION = 1.0
-"""How far from a node a robot may call itself arrived that is given no deviation [m]."""
+"""The distance from a node at which a robot without a deviation may report its arrival [m]."""
 
 LONGEST_MESSAGE = 1_000_000
 """Bytes of a message that is read: to refuse a longer one field by field takes seconds."""

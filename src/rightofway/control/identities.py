@@ -150,7 +150,7 @@ TopicPart = Annotated[str, AfterValidator(_check_topic_part)]
 
 
 class _FrameDocument(Document):
-    """Where the frame of a robot's map lies in the site's frame."""
+    """The position of the frame of a robot's map in the frame of the site."""
 
     x: Angle = make_optional("its origin in the site's frame [m]")
     y: Angle = make_optional("its origin in the site's frame, upwards [m]")

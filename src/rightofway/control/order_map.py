@@ -18,7 +18,7 @@ __all__ = ["OrderLane", "OrderMap", "Place", "make_order_maps"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Place:
-    """Where a vertex is.
+    """The position of a vertex.
 
     Attributes
     ----------
@@ -93,7 +93,7 @@ class _LookedUp:
 
 @dataclass(slots=True)
 class OrderMap:
-    """Where places and lanes lie for a robot of a scenario.
+    """Positions of places and lanes for a robot of a scenario.
 
     A site whose y grows downwards is mirrored, because frames of robots are right-handed. A place
     that the scenario does not have has no position.

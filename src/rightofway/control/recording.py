@@ -41,7 +41,7 @@ EVERYBODY = ("plan", "splice", "snapshot")
 
 
 class RowSource(Protocol):
-    """Where rows of a journal come from, see `JournalReader`."""
+    """A source of rows of a journal, see `JournalReader`."""
 
     @property
     def is_written(self) -> bool:
@@ -111,7 +111,7 @@ class Recording:
 
     @property
     def count(self) -> int:
-        """How many rows there have been."""
+        """Number of rows until now."""
         return self._first + len(self._rows)
 
     def read_on(self) -> None:

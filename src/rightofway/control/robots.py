@@ -40,7 +40,7 @@ TROUBLES = {
 """Kinds of trouble that simulated robots can have."""
 
 WHILE = 10.0
-"""How long trouble lasts, on average [s of robot time]."""
+"""Mean duration of trouble [s of robot time]."""
 
 STATES = 1.0
 """Seconds between two states of a robot in which nothing happens."""

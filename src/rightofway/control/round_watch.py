@@ -25,7 +25,7 @@ LOOKS_PER_FORECAST = 10
 """Calls of `look` for a forecast: it takes about 0.2 s for 8 000 parts."""
 
 MOST_DOUBLED = 6
-"""How often a pause between rounds is doubled at most."""
+"""The largest number of doublings of a pause between rounds."""
 
 TOLERANCE = Fraction(1, 100)
 """By how much a forecast may be below the reserve: robots report whole percents."""

@@ -45,10 +45,10 @@ class RoundRequest:
 
 
 class Rounds(Protocol):
-    """Where rounds are planned, one at a time."""
+    """A process that plans rounds, one at a time."""
 
     time_limit: float | None
-    """How long a round may take [s]; None for no limit but that of steps."""
+    """The time limit of a round [s]; None for no limit but that of steps."""
 
     def begin(self, request: RoundRequest) -> None:
         """Begin to plan a round."""

@@ -32,7 +32,7 @@ MOVED = 0.1
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Stand:
-    """Where a robot was seen first since it moved last.
+    """The place of a robot since its last move.
 
     Attributes
     ----------

@@ -22,7 +22,7 @@ __all__ = ["Durations", "TimedRobot"]
 
 
 class Durations:
-    """How long actions of robots take: as planned, and longer by delays of a seed.
+    """Durations of actions of robots: as planned, and longer by delays of a seed.
 
     Each time that robots come to the end of the plan, the next run of the seed has the delays.
     """

@@ -129,7 +129,7 @@ class FloorRobot:
 
     @property
     def n_steps_left(self) -> int:
-        """How many works and charges of its route have not begun."""
+        """Number of works and charges of its route that have not begun."""
         return sum(len(visit.steps) for visit in self.visits) - self.n_begun
 
     def estimate(self, now: int) -> int:

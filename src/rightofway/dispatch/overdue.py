@@ -24,7 +24,7 @@ MOST_OVERDUE = 10
 """Overdue jobs of a round that are assigned one after another; the others follow together."""
 
 FIRST = 1000
-"""How much a tick of the job that has its turn counts, compared with one of another job."""
+"""The weight of a tick of the job in turn, compared with one of another job."""
 
 STEPS = 20
 """Steps of the search for tours, for each job that has its turn or had it before."""

@@ -99,7 +99,7 @@ def _list_assumed(plan: Plan, name: str) -> Iterator[str]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pose:
-    """Where a robot is at an instant.
+    """The place of a robot at an instant.
 
     Attributes
     ----------

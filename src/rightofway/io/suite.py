@@ -88,7 +88,7 @@ MAPS = ("file", "random", "scenario")
 
 
 class MapCasesDocument(Document):
-    """Where fleets drive: exactly one of file (with scens), random, scenario."""
+    """The map of fleets: exactly one of file (with scens), random, scenario."""
 
     model_config = ConfigDict(
         json_schema_extra=finish_schema(

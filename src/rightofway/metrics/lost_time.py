@@ -1,4 +1,4 @@
-"""Where each completion time goes: alone + detours + making room + waiting = completion.
+"""Parts of completion times: alone + detours + making room + waiting = completion.
 
 Waits have a cause: the next visit on the route that a right of way binds, which begins as soon as
 the visit of another robot that goes first is over. Were the wait shorter, the robot would wait
@@ -39,7 +39,7 @@ from rightofway.model.turning import Turning
 from rightofway.site import VertexId
 
 MOST_AHEAD = 32
-"""How many vertices a robot with a size may keep behind the one that it follows."""
+"""The largest distance of a robot with a size behind the one that it follows [vertices]."""
 
 Bound = tuple[int, int, int]
 """Visits: one in which a robot waits, the next of its visits that another robot's leaving makes

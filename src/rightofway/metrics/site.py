@@ -161,7 +161,7 @@ class Site:
 
     @cached_property
     def trips(self) -> Counter[tuple[int, int]]:
-        """How many drives of the fleet lead from a place to another."""
+        """Numbers of drives of the fleet from one place to another."""
         counts = Counter[tuple[int, int]]()
         for robot in self.robots:
             counts.update(pairwise(list_trip(robot, self.rules)))

@@ -193,7 +193,7 @@ def book_closures(
 
 
 class _Plane:
-    """Where the vertices and edges of a roadmap lie, computed when a closure has a radius."""
+    """Positions of the vertices and edges of a roadmap, computed when a closure has a radius."""
 
     def __init__(self, roadmap: Roadmap) -> None:
         self.roadmap = roadmap

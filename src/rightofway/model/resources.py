@@ -299,7 +299,7 @@ class _Drawing:
 
     @property
     def n_parts(self) -> int:
-        """How many parts `candidates` yields: some vertices at a time, then some lanes."""
+        """Number of parts that `candidates` yields: some vertices at a time, then some lanes."""
         return sum(-(-len(all_) // LANES_AT_ONCE) for all_ in (self.x, self.a))
 
     def find_candidates(self, reach: Fraction) -> Iterator[Candidates]:

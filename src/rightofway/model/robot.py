@@ -32,7 +32,7 @@ Turn = Literal["cell"] | Fraction
 """Turning time at a stop: one cell's crossing time of the robot, or a time [time unit]."""
 
 TripEnd = Literal["home", "none"]
-"""Where a trip ends: at ``home``, or (``none``) at the last stop."""
+"""The end of a trip: at ``home``, or (``none``) at the last stop."""
 
 Occupancy = Literal["one", "both"]
 """The bookings of a moving robot: the vertex it leaves (``one``), or the next one as well."""

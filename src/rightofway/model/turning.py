@@ -50,7 +50,7 @@ class Angles:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Turning:
-    """How long a robot turns between edges that follow each other.
+    """The times in which a robot turns between consecutive edges.
 
     Attributes
     ----------

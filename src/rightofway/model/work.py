@@ -34,10 +34,10 @@ OBJECTIVE: WorkObjective = "service"
 """The objective by default."""
 
 LATE = Fraction(10)
-"""How much a time unit after `Job.due` costs by default, compared with one of service time."""
+"""Default cost of a time unit after `Job.due`, compared with one of service time."""
 
 PATIENCE = Fraction(1800)
-"""How long after `Job.earliest` a job without `Job.due` is overdue by default [time unit]."""
+"""Default time from `Job.earliest` until a job without `Job.due` is overdue [time unit]."""
 
 CAPACITY = 1
 """The largest load of a robot by default."""

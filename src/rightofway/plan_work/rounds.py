@@ -32,7 +32,7 @@ from rightofway.progress import log_progress
 from rightofway.search import Distances
 
 ROUNDS = 8
-"""How many assignments are planned, at most."""
+"""The largest number of assignments that are planned."""
 
 STEPS_PER_JOB = 200
 """Steps of the search for tours in each round, for each job."""

@@ -51,7 +51,7 @@ SHARE = 0.25
 """The part of the time for the first plan."""
 
 ITERATIONS_PER_ROBOT = 200
-"""How many neighbourhoods of the first plan are replanned for each robot."""
+"""Number of neighbourhoods of the first plan that are replanned for each robot."""
 
 NODES_PER_TURN, SHARE_OF_TURN = 5, 0.1
 """Nodes from one look at the first plan to the next, and the part of its time that they may take.

@@ -33,7 +33,7 @@ SHARE, SHARE_WITH_SIZES = 0.9, 0.2
 """The part of the time for LaCAM, which makes a first plan: for points, and for sizes."""
 
 EFFORT = 2000
-"""How many choices LaCAM has for each robot before robots are planned one after another.
+"""Number of choices of LaCAM for each robot before robots are planned one after another.
 
 Where it finds a plan, it does so with a few hundred choices for each, as a rule.
 """

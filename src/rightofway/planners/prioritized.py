@@ -34,7 +34,7 @@ SHARE_WITH_FALLBACK = 0.5
 """The part of the time left for planning at own speeds where the greedy attempt has a plan."""
 
 SEARCHES, SEARCHES_AT_ONE_PACE = 3, 20
-"""How often robots are planned at most, per robot of the fleet: at own speeds, and at one pace.
+"""The largest number of planned robots, per robot of the fleet: at own speeds, and at one pace.
 
 Fleets that find a plan at their own speeds need fewer than two searches per robot, as a rule; one
 pace is quicker where more are needed, and finds a plan for more fleets.

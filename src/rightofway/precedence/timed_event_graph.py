@@ -190,7 +190,7 @@ class TimedEventGraph:
 
     @cached_property
     def wraps(self) -> NDArray[np.int32]:
-        """How many periods later the visit that follows each one is counted: 0 or 1; int32."""
+        """Number of periods to the visit that follows each one: 0 or 1; int32."""
         wraps = np.zeros(len(self), np.int32)
         wraps[self.first[1:] - 1] = 1
         return wraps

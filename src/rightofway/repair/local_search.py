@@ -36,10 +36,10 @@ from rightofway.repair.plan_request import PlanRequest
 REVERSING = Fact("reversing rights of way")
 
 MOST_FAVOURS = 3
-"""How many robots are favoured or disfavoured in a round, at most."""
+"""The largest number of robots that are favoured or disfavoured in a round."""
 
 MOST_MEETINGS = 100
-"""How many conflicts one change may lead to, per robot of the fleet, before it is undone."""
+"""The number of conflicts of one change, per robot of the fleet, above which it is undone."""
 
 
 Value = tuple[int, int]

@@ -52,7 +52,7 @@ BETWEEN_CHECKS = 500
 
 
 class State(NamedTuple):
-    """Where each robot stands, and the stage that it serves next."""
+    """The place of each robot, and the stage that it serves next."""
 
     places: tuple[int, ...]
     stages: tuple[int, ...]

@@ -15,10 +15,10 @@ from rightofway.search import Booking, Bookings, Distances, find_earliest_track
 REROUTING = Fact("rerouting")
 
 TRIES_PER_ROBOT = 10
-"""How often robots are rerouted at most, per robot of the fleet."""
+"""The largest number of rerouted robots, per robot of the fleet."""
 
 START_HOLD = 4
-"""How long the home of a robot without a track is kept free, in drives of its slowest edge."""
+"""Time for which the home of a robot without a track stays free, in drives of its slowest edge."""
 
 
 class _Reservations:

@@ -1,4 +1,4 @@
-"""Where each robot goes, chosen one robot at a time."""
+"""Routes of robots, chosen one robot at a time."""
 
 from __future__ import annotations
 

@@ -91,7 +91,7 @@ def _is_in_time(scenario: Scenario, tracks: Sequence[Track]) -> bool:
 
 
 class _Waves:
-    """How far robots have come with their tours after some waves."""
+    """The progress of robots on their tours after some waves."""
 
     def __init__(self, scenario: Scenario) -> None:
         self._scenario, itineraries = scenario, scenario.problem.itineraries

@@ -18,7 +18,7 @@ from rightofway.search.fleet import list_visits
 FOUND, PROVEN = 0, 1
 
 MOST_BYTES = 2 * 2**30
-"""How much memory nodes and tracks may take [bytes]."""
+"""Memory for nodes and tracks [bytes]."""
 
 UNLIMITED = 2**62
 

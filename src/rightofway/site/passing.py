@@ -52,7 +52,7 @@ class Passing:
 
     @property
     def n_drawn(self) -> int:
-        """How many vertices are drawn; the vertices of chains have larger numbers."""
+        """Number of drawn vertices; the vertices of chains have larger numbers."""
         return len(self.indptr) - 1
 
     def is_equal(self, other: Passing | None) -> bool:

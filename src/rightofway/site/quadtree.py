@@ -31,7 +31,7 @@ MAX_SMALLEST = 32_000_000
 """The most smallest cells, free and blocked."""
 
 LARGEST = 4
-"""How many smallest cells the largest square is wide where nothing else is said."""
+"""Default width of the largest square in smallest cells."""
 
 OBLIQUE = Fraction(19, 12)
 """Length of an edge between two squares of different size, in sides of the smaller one.

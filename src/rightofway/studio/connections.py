@@ -27,7 +27,7 @@ SHARE = 0.25
 and twice `AT_ONCE` connections that are closed as soon as the server comes to it."""
 
 PATIENCE = 10.0
-"""How long the head of a request may take from the connection, or from its first byte, on [s]."""
+"""The time limit of the head of a request, from the connection or from its first byte [s]."""
 
 
 class Connection(H11Protocol):

@@ -50,7 +50,7 @@ HTTP = 80
 """The port that an address does not name."""
 
 COOKIE = "rightofway-token"
-"""Where a browser keeps the token."""
+"""Name of the cookie of the token."""
 
 TOO_SLOW = 408
 """The status of a request whose body does not come; its connection is closed."""
@@ -139,7 +139,7 @@ class _Request:
 
     @property
     def length_of_head(self) -> int:
-        """How long its headers are [bytes]."""
+        """Length of its headers [bytes]."""
         return sum(len(name) + len(value) for name, value in self.scope["headers"])
 
     def get_header(self, name: str) -> str:

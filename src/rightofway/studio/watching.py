@@ -39,7 +39,7 @@ MAX_PAGES = 64
 """Pages that may watch a fleet at once."""
 
 PATIENCE = 10.0
-"""How long a page waits for the answer to an order [s]."""
+"""Time for which a page waits for the answer to an order [s]."""
 
 ORDERS = ("hold", "stop", "go", "clear", "remove", "place", "close", "open", "seen")
 """Commands that pages may send to a control."""

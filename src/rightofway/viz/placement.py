@@ -1,4 +1,4 @@
-"""Where vertices are drawn: in the plane of the map, and in one line beside a time axis."""
+"""Positions of drawn vertices: in the plane of the map, and in one line next to a time axis."""
 
 from __future__ import annotations
 

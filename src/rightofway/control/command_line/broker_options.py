@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Login:
-    """Where the broker is, and how to log in, as a user has given it."""
+    """Address of the broker and login, as given by the user."""
 
     broker: str | None
     password_file: str | None

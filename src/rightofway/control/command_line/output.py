@@ -1,4 +1,4 @@
-"""Where the report of a drive goes, and its page."""
+"""Outputs of a drive: its report and its page."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Output:
-    """Where the report of a run goes, and its page."""
+    """Outputs of a run: its report and its page."""
 
     page: str | None
     shown: WatchPage

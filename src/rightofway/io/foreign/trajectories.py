@@ -40,7 +40,7 @@ MAX_CELLS = 50_000_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Trajectory:
-    """Where one agent is, when.
+    """The cells of one agent over time.
 
     Attributes
     ----------

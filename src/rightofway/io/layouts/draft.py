@@ -47,7 +47,7 @@ MICRO = 1_000_000
 """Positions are kept to a micrometre: floats hold those of a whole country exactly."""
 
 NEAR = Fraction(1, 100)
-"""How far the ends of a trajectory may be from its vertices [m]."""
+"""The largest distance of the ends of a trajectory from its vertices [m]."""
 
 SHORTEST = BILLION // 1000
 """Length of a lane between two vertices at one position [billionths of a metre]."""

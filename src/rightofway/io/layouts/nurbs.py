@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 CHORD_ERROR = 0.005
-"""How far the pieces may be from their curve [m]."""
+"""The largest distance of the pieces from their curve [m]."""
 
 MARGIN = 0.8
 """Part of the chord error that the samples may have: the curve goes on between them."""

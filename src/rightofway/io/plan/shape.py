@@ -62,7 +62,7 @@ class RerouteDocument(Document):
 
 
 class StartDocument(Document):
-    """How much was kept of the plan of another scenario from which the plan was made."""
+    """Numbers of kept routes and tracks of the plan of another scenario."""
 
     routes: int = Field(ge=0, description="how many robots have the same route")
     tracks: int = Field(ge=0, description="how many of these have it at the same times")
@@ -176,7 +176,7 @@ class UnservedDocument(Document):
 
 
 class TrackDocument(Document):
-    """Where one robot is, when. A visit's leave is the next one's enter."""
+    """The visits of one robot. Each visit ends when the next one begins."""
 
     name: Name = Field(description="the name of a robot of the scenario")
     vertices: list[str] = Field(min_length=1, description="names of vertices, at least one")

@@ -22,7 +22,7 @@ from rightofway.site import Point
 from rightofway.site.spacing import measure_lengths_along
 
 ERROR = Fraction(1, 2000)
-"""How far the pieces may be from their curve, in parts of the way along its control points."""
+"""The largest distance of pieces from their curve, relative to the way along its control points."""
 
 
 class LaneCurve(NamedTuple):

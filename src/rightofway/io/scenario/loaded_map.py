@@ -40,7 +40,7 @@ class FleetTraits:
 
     @property
     def distance(self) -> Fraction:
-        """How far the middles of the two largest robots are apart at least; 0 for points."""
+        """The least distance of the middles of the two largest robots; 0 for points."""
         return 2 * self.radius + self.clearance if self.radius > 0 else Fraction(0)
 
 

@@ -240,7 +240,7 @@ MAPS = ("grid", "file", "floor", "roadmap", "layout")
 
 
 class MapDocument(Document):
-    """Where the fleet drives: exactly one of grid, file, floor, roadmap, layout."""
+    """The map of the fleet: exactly one of grid, file, floor, roadmap, layout."""
 
     model_config = ConfigDict(
         json_schema_extra=finish_schema(

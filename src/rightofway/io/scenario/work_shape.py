@@ -157,7 +157,7 @@ class BatteryDocument(Document):
 
 
 class StateDocument(Document):
-    """Where a robot begins, and what it has done."""
+    """The place where a robot begins, and the work that it has done."""
 
     at: Place = make_optional(f"the place where it begins: {PLACES}; its home by default")
     ready: NotNegative = make_optional("until then it stays there [time unit]; 0 by default")

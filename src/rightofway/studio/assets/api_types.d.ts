@@ -296,7 +296,7 @@ export interface Glance {
   picture: string;
 }
 
-/** Where a robot is at each time of a table, and its marks there. */
+/** The place of a robot at each time of a table, and its marks there. */
 export interface GroupRow {
   robot: string;
   kind: "planned" | "list 1" | "list 2";
@@ -309,7 +309,7 @@ export interface Inlined {
   document: ScenarioDocument;
 }
 
-/** How many robots a plan has kept of the plan that it was made from. */
+/** Number of robots that a plan has kept from the plan that it was made from. */
 export interface Kept {
   routes: number;
   tracks: number;
@@ -699,7 +699,7 @@ export interface SiteFinding {
   phrases: FactAndRemedy;
 }
 
-/** How many runs have which flowtime [ticks]. */
+/** Numbers of runs by flowtime [ticks]. */
 export interface SpreadData {
   counts: Array<number>;
   planned: number;

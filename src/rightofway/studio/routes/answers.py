@@ -206,7 +206,7 @@ class FigureTexts(TypedDict):
 
 
 class Kept(TypedDict):
-    """How many robots a plan has kept of the plan that it was made from."""
+    """Number of robots that a plan has kept from the plan that it was made from."""
 
     routes: int
     tracks: int
@@ -473,7 +473,7 @@ class LossList(TypedDict):
 
 
 class GroupRow(TypedDict):
-    """Where a robot is at each time of a table, and its marks there."""
+    """The place of a robot at each time of a table, and its marks there."""
 
     robot: str
     kind: Literal["planned", "list 1", "list 2"]
@@ -651,7 +651,7 @@ SpreadData = TypedDict(
     "SpreadData",
     {"counts": list[int], "planned": int, "from": float, "to": float},
 )
-"""How many runs have which flowtime [ticks]."""
+"""Numbers of runs by flowtime [ticks]."""
 
 
 class Ranks(TypedDict):

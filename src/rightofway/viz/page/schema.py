@@ -98,7 +98,7 @@ class UnitsData(TypedDict):
 
 
 class FrameData(TypedDict):
-    """Where (0, 0) of the drawing lies on the site, and the length of its unit there."""
+    """The position of (0, 0) of the drawing on the site, and the length of its unit there."""
 
     x: float
     y: float
@@ -108,7 +108,7 @@ class FrameData(TypedDict):
 
 
 class PlaceData(TypedDict):
-    """Where a picture lies: its upper left corner, its size, how it is turned about that [rad]."""
+    """The position of a picture: upper left corner, size, and rotation about that corner [rad]."""
 
     x: float
     y: float
@@ -239,7 +239,7 @@ class FaultData(TypedDict):
 
 
 class FaultsData(TypedDict):
-    """How many faults there are, of each kind by the index of its name, and the first of them."""
+    """Numbers of faults of each kind, by the index of its name, and the first faults."""
 
     count: int
     kinds: list[tuple[int, int]]

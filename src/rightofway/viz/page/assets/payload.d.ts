@@ -131,7 +131,7 @@ export interface FaultData {
   vertices: number[];
 }
 
-/** How many faults there are, of each kind by the index of its name, and the first of them. */
+/** Numbers of faults of each kind, by the index of its name, and the first faults. */
 export interface FaultsData {
   count: number;
   kinds: [number, number][];
@@ -181,7 +181,7 @@ export interface ForcedLossData {
   tick: number;
 }
 
-/** Where (0, 0) of the drawing lies on the site, and the length of its unit there. */
+/** The position of (0, 0) of the drawing on the site, and the length of its unit there. */
 export interface FrameData {
   x: number;
   y: number;
