@@ -213,8 +213,8 @@ std::vector<RobotId> FleetSearch::take_over(const GivenTracks& given,
     std::vector<RobotId> left;
     for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
         if (misses_stage[index(robot)] != 0) {
-            TimedTrack none;
-            plan_.exchange(robot, none);
+            TimedTrack no_track;
+            plan_.exchange(robot, no_track);
         }
         if (!plan_.has_track(robot)) {
             left.push_back(robot);
