@@ -15,7 +15,7 @@ from rightofway.control.endpoints import Letter
 from rightofway.control.identities import Identity, load_identities
 from rightofway.control.order_map import OrderMap
 from rightofway.control.routes import make_routes_to_drive
-from rightofway.control.stop_actions import ActionToDo, StopActions
+from rightofway.control.stop_actions import ActionToDo, StopActions, is_further_action
 from rightofway.control.vda5050 import Header, OrderMessage, write_message
 from rightofway.dispatch.pool import Pool
 from rightofway.io import parse_scenario
@@ -228,3 +228,8 @@ def test_identities_name_the_usual_actions_for_loads(tmp_path: Path) -> None:
         ["transfer", "transfer", "transfer"],
         ["dock", "lift", "dock"],
     ]
+
+
+def test_the_first_action_of_a_stop_takes_its_whole_time() -> None:
+    ids = ["run-1-J1/0-1", "run-1-J1/0-1+1", "run-1-a+b/0-12+10", "other"]
+    assert [is_further_action(name) for name in ids] == [False, True, True, False]

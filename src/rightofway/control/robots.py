@@ -22,6 +22,7 @@ from rightofway.control.messages import Condition, RobotError
 from rightofway.control.order_map import OrderLane
 from rightofway.control.simulated_battery import make_simulated_battery
 from rightofway.control.simulated_robot import SimulatedRobot
+from rightofway.control.stop_actions import is_further_action
 from rightofway.errors import InputError, quote
 from rightofway.model import Plan, Scenario
 
@@ -165,6 +166,8 @@ class _NetworkRobot:
             case "arrive":
                 lane = self.find_lane()
                 lasts = 1.0 if lane is None else lane.length / lane.max_speed
+            case "end work" if is_further_action(robot.next_action or ""):
+                return 0.0  # the first action of a stop takes its whole time
             case "end work" if robot.next_action not in robot.charging:
                 lasts = self.works.get(robot.place, max(self.works.values(), default=0.0))
             case _:

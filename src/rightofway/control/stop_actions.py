@@ -16,7 +16,15 @@ from rightofway.dispatch.pool import Pool
 from rightofway.model import ActionUse, Job, Scenario, StopAction
 from rightofway.model.actions import find_use
 
-__all__ = ["USUAL", "ActionToDo", "ListActions", "StopActions", "name_action", "split_action"]
+__all__ = [
+    "USUAL",
+    "ActionToDo",
+    "ListActions",
+    "StopActions",
+    "is_further_action",
+    "name_action",
+    "split_action",
+]
 
 ATTEMPT_AND_STEP = re.compile(r"-([0-9]+)(?:\+([0-9]+))?$")
 
@@ -124,6 +132,12 @@ def name_action(item: str, attempt: int, step: int) -> str:
     A single action, and the first of several, have the number 0, which is left out.
     """
     return f"{item}-{attempt}+{step}" if step else f"{item}-{attempt}"
+
+
+def is_further_action(action_id: str) -> bool:
+    """Return whether an action is not the first one of its item; one of others is a first one."""
+    match = ATTEMPT_AND_STEP.search(action_id)
+    return match is not None and match[2] is not None
 
 
 def split_action(action_id: str) -> tuple[int, int]:
