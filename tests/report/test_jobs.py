@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from datetime import datetime
+
 import pytest
 
 from rightofway.io import parse_scenario
@@ -13,6 +16,7 @@ from rightofway.report.jobs import make_jobs_data
 from rightofway.report.plan import summarize_plan
 from rightofway.report.plan_data import make_summary_data
 from rightofway.report.quantities import Quantities
+from rightofway.units import Units
 
 
 @pytest.fixture(scope="module")
@@ -57,6 +61,20 @@ def test_a_report_lists_jobs_and_says_why_others_are_not_served(plan: Plan) -> N
     assert ["jobs", "1", "of", "2", "done"] in [line.split() for line in lines]
     assert ["J1", "R1", "2", "5", "1"] in [line.split() for line in lines]
     assert "J2 is not served: no robot may do it and can carry it" in lines
+
+
+def test_jobs_begin_and_end_at_times_of_day_where_the_scenario_has_a_start(plan: Plan) -> None:
+    """They last, and are late, in units of time."""
+    start = datetime(2026, 11, 28, 6)  # noqa: DTZ001 (without an offset)
+    scenario = replace(plan.scenario, units=Units(start=start))
+    clocked = replace(plan, scenario=scenario)
+    lines = str(summarize_plan(clocked, Quantities.of(scenario))).splitlines()
+    assert ["J1", "R1", "06:00:02", "06:00:05", "1"] in [line.split() for line in lines]
+    assert make_summary_data(clocked)["units"] == {
+        "length": None,
+        "time": "s",
+        "start": "2026-11-28T06:00",
+    }
 
 
 def test_a_report_compares_no_plan_of_jobs_with_a_bound_of_trips(plan: Plan) -> None:
