@@ -24,6 +24,7 @@ from rightofway.control.messages import (
     Load,
     Message,
     Order,
+    RobotError,
     StateReport,
 )
 from rightofway.control.notices import Notices
@@ -529,6 +530,9 @@ class RobotEnd:
         robot, condition = self.robot, self.condition
         if robot.is_paused:
             condition = replace(condition, is_paused=True)
+        if robot.refusal is not None:
+            error = RobotError(kind=robot.refusal, level="WARNING")
+            condition = replace(condition, errors=(*condition.errors, error))
         state = robot.report_state(condition, self.battery.soc if self.battery else None)
         body = vda5050.StateMessage.of(
             replace(state, theta=self._find_theta()),

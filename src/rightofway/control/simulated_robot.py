@@ -45,8 +45,8 @@ class SimulatedRobot:
         The remaining nodes of its base.
     done
         The number of times that each action was finished, by its id.
-    rejected
-        The number of rejected orders.
+    refusal
+        The kind of error of the last order, if it was rejected; None after an accepted one.
     instant_actions
         The ids of all instant actions that it was asked for.
     charging
@@ -65,7 +65,8 @@ class SimulatedRobot:
         self.place, self.is_driving, self.is_paused = place, False, False
         self.ahead: list[OrderNode] = []
         self.done: dict[str, int] = {}
-        self.rejected, self.instant_actions = 0, set[str]()
+        self.refusal: str | None = None
+        self.instant_actions = set[str]()
         self.charging: dict[str, bool] = {}
         self.is_charging = False
         self.handling: dict[str, tuple[bool, Load]] = {}
@@ -141,19 +142,19 @@ class SimulatedRobot:
             last = self.ahead[-1].sequence_id if self.ahead else self._sequence_id
             is_next = order.update_id > self._update_id and first.sequence_id == last
             if self._is_cancelled or not is_next:
-                self.rejected += 1
+                self.refusal = "orderUpdateError"
                 return False
             self.ahead += order.nodes[1:]
         else:
             if self.is_active or first.place != self.place:
-                self.rejected += 1
+                self.refusal = "orderError"
                 return False
             self._order_id, self._is_cancelled = order.order_id, False
             self._sequence_id, self.ahead = first.sequence_id, list(order.nodes[1:])
             self._actions = {}
             self.instant_actions.clear()
             self._waiting = [action for action in first.actions if action not in self.done]
-        self._update_id = order.update_id
+        self._update_id, self.refusal = order.update_id, None
         for node in order.nodes:
             for action in node.actions:
                 status = "FINISHED" if action in self.done else "WAITING"
