@@ -88,11 +88,11 @@ TEST_CASE("earlier tracks are taken over as far as they fit, and others are plan
     CHECK(search.cost() == cost);
 
     Tracks cut = tracks;  // robot 0 stays at home, where its track misses its stages
-    const auto n_dropped = index(cut.first_visit[1]) - 1;
+    const VisitId n_dropped = cut.first_visit[1] - 1;
     cut.vertex.erase(cut.vertex.begin() + 1, cut.vertex.begin() + 1 + n_dropped);
     cut.enter.erase(cut.enter.begin() + 1, cut.enter.begin() + 1 + n_dropped);
     for (std::size_t r = 1; r < cut.first_visit.size(); ++r) {
-        cut.first_visit[r] -= static_cast<VisitId>(n_dropped);
+        cut.first_visit[r] -= n_dropped;
     }
     CHECK(search.take_over(given(cut), nothing, no_deadline) == std::vector<RobotId>{0});
     const std::vector<RobotId> missing{0};
