@@ -87,10 +87,10 @@ TEST_CASE("earlier tracks are taken over as far as they fit, and others are plan
     CHECK(search.take_over(given(tracks), nothing, no_deadline).empty());
     CHECK(search.cost() == cost);
 
-    Tracks cut = tracks;  // robot 0 stays at home, where its track misses its stages
-    const VisitId n_dropped = cut.first_visit[1] - 1;
-    cut.vertex.erase(cut.vertex.begin() + 1, cut.vertex.begin() + 1 + n_dropped);
-    cut.enter.erase(cut.enter.begin() + 1, cut.enter.begin() + 1 + n_dropped);
+    Tracks cut = tracks;  // without that of robot 0
+    const VisitId n_dropped = cut.first_visit[1];
+    cut.vertex.erase(cut.vertex.begin(), cut.vertex.begin() + n_dropped);
+    cut.enter.erase(cut.enter.begin(), cut.enter.begin() + n_dropped);
     for (std::size_t r = 1; r < cut.first_visit.size(); ++r) {
         cut.first_visit[r] -= n_dropped;
     }
