@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import random
 from fractions import Fraction
 from typing import Any
 
@@ -417,6 +418,28 @@ def test_rounds_for_which_only_time_is_a_reason_become_rare() -> None:
         shift.floor.send(shift.rounds.go_on())
         begins += [shift.now] * (len(rounds.requests) - before)
     assert begins == [10, 26, 58, 122]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_rounds_plan_behind_vertices_that_robots_only_pass(seed: int) -> None:
+    """A kept part ends where its robot may stop; of a chain that it is on it keeps all."""
+    fleet = rightofway.FleetBuilder(turn=0)
+    points = {"a": (0, 0), "p": (1, 0), "q": (2, 0), "b": (3, 0), "c": (3, 1), "d": (0, 1)}
+    for name, (x, y) in {**points, "e": (4, 0)}.items():
+        fleet.add_vertex(name, x=x, y=y, is_passed=name in {"p", "q"})
+    for ends in ("ap", "pq", "qb", "bc", "cd", "da", "be"):
+        fleet.add_edge(*ends)
+    fleet.add_robot("R1", home="a", turn_rate=90)
+    fleet.add_robot("R2", home="e", turn_rate=90)
+    fleet.add_job("J1", at="b")
+    shift = Shift(rightofway.solve(fleet.build_scenario(), "prioritized"))
+    draw = random.Random(seed)  # noqa: S311
+    for number in range(12):
+        shift.drive(draw.randint(1, 5))
+        shift.ask("add", name=f"A{number}", at=draw.choice("abcde"))
+    shift.drive(200)
+    assert dict.fromkeys(shift.pool.left.values()) == {"done": None}
+    assert len(shift.pool.left) == 13
 
 
 def test_a_plan_with_jobs_is_not_repeated_in_laps() -> None:

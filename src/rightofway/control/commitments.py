@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive
@@ -13,6 +13,7 @@ from rightofway.resume.rest_of_fleet import KeptPart, StopToMake
 
 __all__ = [
     "RobotCommitment",
+    "begin_at_stop",
     "find_last_open",
     "list_stops_to_make",
     "make_robot_commitment",
@@ -62,6 +63,24 @@ def find_last_open(
         visit += 1
         end = visit if may_stop(route.get_place(visit)) else end
     return end
+
+
+def begin_at_stop(own: RobotLedger, may_stop: Callable[[str], bool]) -> RobotLedger:
+    """Return a robot as if it had arrived no further than where it last might stop.
+
+    A drive through passed vertices is planned as a whole.
+
+    Parameters
+    ----------
+    own
+        What is known of it.
+    may_stop
+        Tells whether robots may stop at a vertex, by its name.
+    """
+    visit = own.arrived
+    while visit > own.route.first and not may_stop(own.route.get_place(visit)):
+        visit -= 1
+    return own if visit == own.arrived else replace(own, arrived=visit)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

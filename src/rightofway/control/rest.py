@@ -14,6 +14,7 @@ from itertools import accumulate
 from rightofway.check import check
 from rightofway.control.commitments import (
     RobotCommitment,
+    begin_at_stop,
     list_stops_to_make,
     make_robot_commitment,
 )
@@ -102,10 +103,7 @@ class RestPlanner:
         own
             What is known of it.
         """
-        visit = own.arrived
-        while visit > own.route.first and not self.may_stop(own.route.get_place(visit)):
-            visit -= 1
-        return own if visit == own.arrived else replace(own, arrived=visit)
+        return begin_at_stop(own, self.may_stop)
 
     def plan(
         self,

@@ -164,7 +164,7 @@ class RoundDriver:
             return
         self.watch.begin_round()
         self.is_wanted, self._ignores_closures = False, ignores_closures
-        kept_parts = find_kept_parts(ledger, control.list_committed(), AHEAD)
+        kept_parts = find_kept_parts(ledger, control.list_committed(), AHEAD, control.may_stop)
         now, lead = self.watch.read_ticks(), 0
         if self.rounds.time_limit is not None:
             seconds = float(self.scenario.problem.clock.tick * (self.scenario.units.seconds or 1))

@@ -11,6 +11,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from rightofway.control.commitments import begin_at_stop
 from rightofway.control.ledger import Ledger
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.work_items import find_charge_step, find_stop
@@ -35,6 +36,7 @@ __all__ = [
     "list_items_to_do",
     "list_vertices",
     "mirror_floor",
+    "put_at_stop",
 ]
 
 WHOLE = 1000
@@ -147,6 +149,21 @@ def list_vertices(roadmap: Roadmap, own: RobotLedger, begin: int) -> list[Vertex
     """
     vertices = roadmap.unfold_route(list(map(roadmap.get_vertex, own.route.places)))
     return vertices[begin - own.route.first :]
+
+
+def put_at_stop(roadmap: Roadmap, own: RobotLedger) -> RobotLedger:
+    """Return a robot as if it had arrived no further than where it last might stop.
+
+    Parameters
+    ----------
+    roadmap
+        The map.
+    own
+        The robot.
+    """
+    if roadmap.passing is None:
+        return own
+    return begin_at_stop(own, lambda place: not roadmap.is_passed(roadmap.get_vertex(place)))
 
 
 def mirror_floor(
@@ -267,8 +284,9 @@ class _Mirror:
         self, floor: SimulatedFloor, robot: int, ledger: Ledger, reports: FloorReports, now: int
     ) -> None:
         self._floor, self._robot, self._ledger = floor, robot, ledger
-        self._own, self._now, self._reports = ledger.robots[robot], now, reports
-        self._since = reports.find_since(robot, self._own, now)
+        own = ledger.robots[robot]
+        self._own, self._now, self._reports = put_at_stop(floor.roadmap, own), now, reports
+        self._since = reports.find_since(robot, own, now)
         known = ledger.pool.jobs
         items = list_items_to_do(floor.scenario, self._own, self._own.arrived)
         self._items = [

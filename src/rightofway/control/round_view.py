@@ -7,7 +7,7 @@ in the new order, so commitments wait for no robot.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from rightofway.control.batteries import FleetBatteries, follow_charge
@@ -19,6 +19,7 @@ from rightofway.control.round_floor import (
     forecast_kept_parts,
     list_items_to_do,
     list_vertices,
+    put_at_stop,
 )
 from rightofway.control.routes import RouteToDrive
 from rightofway.control.work_items import find_charge_step, find_stop, name_charge, name_stop
@@ -60,11 +61,13 @@ class ViewOfRound:
     jobs: Mapping[str, PooledJob]
 
 
-def find_kept_parts(ledger: Ledger, released: Sequence[int], ahead: int) -> list[int]:
+def find_kept_parts(
+    ledger: Ledger, released: Sequence[int], ahead: int, may_stop: Callable[[str], bool]
+) -> list[int]:
     """Return the last part of each robot that is kept, at most ``ahead`` beyond the released ones.
 
-    A part is kept only together with all that go before it by right of way. A robot keeps none
-    behind a stop that is not asked for yet.
+    A part is kept only together with all that go before it by right of way, and as far as to where
+    the robot may stop. A robot keeps none behind a stop that is not asked for yet.
 
     Parameters
     ----------
@@ -74,6 +77,8 @@ def find_kept_parts(ledger: Ledger, released: Sequence[int], ahead: int) -> list
         The last released part of each robot.
     ahead
         How many more parts a robot may keep.
+    may_stop
+        Tells whether robots may stop at a vertex, by its name.
     """
     kept_parts, grows = list(released), True
     while grows:
@@ -84,9 +89,12 @@ def find_kept_parts(ledger: Ledger, released: Sequence[int], ahead: int) -> list
                 continue
             items = own.route.get_jobs(part - 1)
             is_free = all(item in own.finished or own.is_sent(item) for item in items)
-            before = ledger.graph.waits(Part(robot, part))
+            rest = range(part, own.route.end)
+            last = next(visit for visit in rest if may_stop(own.route.get_place(visit)))
+            parts = (Part(robot, number) for number in range(part, last + 1))
+            before = itertools.chain.from_iterable(map(ledger.graph.waits, parts))
             if is_free and all(_is_kept(ledger, kept_parts, *arrival) for arrival in before):
-                kept_parts[robot], grows = part, True
+                kept_parts[robot], grows = last, True
     return kept_parts
 
 
@@ -138,7 +146,7 @@ def view_fleet(
     caps = {k: (kept_parts[k], sum(map(_is_kept_item, items[k]))) for k in present}
     expected, expected_ends = forecast_kept_parts(floor, caps, now, takeover)
     for robot in present:
-        own = _leave_out_unsent(ledger.robots[robot], kept_parts[robot])
+        own = _leave_out_unsent(put_at_stop(roadmap, ledger.robots[robot]), kept_parts[robot])
         commitment = make_robot_commitment(scenario, robot, own, kept_parts[robot])
         begun = {
             name: _count_begun(job, own, commitment.route)
@@ -253,7 +261,8 @@ def make_routes_of_round(
     planned
         The plan.
     """
-    routes = [own.route.cut_before(own.arrived) for own in ledger.robots]
+    robots = [put_at_stop(scenario.roadmap, own) for own in ledger.robots]
+    routes = [own.route.cut_before(own.arrived) for own in robots]
     later = 1 + max(commitment.route.enter[-1] for commitment in seen.commitments)
     batteries = FleetBatteries(scenario)
     for index, robot in enumerate(seen.present):
@@ -274,7 +283,7 @@ def make_routes_of_round(
         routes[robot] = items.make_route(
             list(map(scenario.roadmap.name, track.vertices.tolist())),
             [later + tick for tick in track.enter.tolist()],
-            ledger.robots[robot].arrived,
+            robots[robot].arrived,
         )
     return routes
 
