@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from random import Random
 from typing import Any
 
 from hypothesis import strategies as st
 
 from rightofway.check import check
+from rightofway.dispatch import ShiftRecord
 from rightofway.io.scenario.reader import parse_scenario
 from rightofway.model import Scenario
 from tests.builders.laws import law
@@ -60,6 +62,42 @@ def test_all_jobs_without_windows_are_done_or_have_a_reason(seed: int) -> None:
     assert record.until < LONG  # it is over once no job can be done any more
     for own in record.jobs.values():
         assert (own.ended is None) == (own.reason is not None)
+
+
+def list_silent(record: ShiftRecord, bound: int) -> list[tuple[int, int]]:
+    """Return stretches over a bound in which a job waits, nothing moves, and no fact is told.
+
+    This observer reads the record alone: visits, works and charges, jobs, and facts. A job waits
+    from when it is known and all its times have begun, until it ends or leaves.
+    """
+    left = {event.name: event.at for event in record.events if event.kind == "job unserved"}
+    moves = {0, record.until}
+    for robot in record.robots:
+        moves.update(robot.enter)
+        moves.update(tick for step in robot.steps for tick in range(step.begin, step.end + 1))
+    ticks = sorted(tick for tick in moves if tick <= record.until)
+    told = [tick for tick, fact in record.facts if fact.kind == "nothing moves"]
+    silent = list[tuple[int, int]]()
+    for begin, end in pairwise(ticks):
+        for name, own in record.jobs.items():
+            waits_from = max([own.known, *(int(stop.earliest) for stop in own.job.stops), begin])
+            gone = left.get(name, record.until) if own.ended is None else own.ended
+            is_told = any(begin <= tick <= waits_from + bound for tick in told)
+            if min(end, gone) - waits_from > bound and not is_told:
+                silent.append((begin, end))
+    return silent
+
+
+@law(SEEDS, st.sampled_from([0, 3]), st.booleans())
+def test_no_job_waits_in_silence(seed: int, lead: int, has_delays: bool) -> None:
+    if has_delays:
+        scenario = parse_scenario(draw_work_document(seed, n_robots=3, n_jobs=8))
+        delays = f"stop:{scenario.robots[0].name}@{seed % 7},chance:0.1x5"
+        record = hold_shift(scenario, seed=seed, lead=lead, delays=delays)
+    else:
+        record = draw_shift(seed, lead=lead)
+    # A round, its takeover, a drive or a stoppage.
+    assert list_silent(record, 3 * max(1, lead) + 10) == []
 
 
 ROWS, COLUMNS = 4, 6

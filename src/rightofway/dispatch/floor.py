@@ -128,6 +128,12 @@ class FloorRobot:
         return len(self.visits) == 1 and self.n_begun == len(self.visits[0].steps)
 
     @property
+    def waits_until(self) -> int:
+        """When the work for which it stands at its place may begin by the clock [ticks]; or 0."""
+        steps = self.visits[0].steps[self.n_begun : self.n_begun + 1]
+        return max((step.earliest for step in steps), default=0)
+
+    @property
     def n_steps_left(self) -> int:
         """Number of works and charges of its route that have not begun."""
         return sum(len(visit.steps) for visit in self.visits) - self.n_begun

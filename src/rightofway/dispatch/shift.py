@@ -31,6 +31,9 @@ MOST_DOUBLED = 3
 """The time of a round is doubled so often at most, each time after the old plan stood, or
 after many robots kept their old tours."""
 
+QUIET = 3
+"""Looks in a row at which nothing moves are a standstill: the last one may have had a new plan."""
+
 HASTE = 8
 """Every so many rounds half the time is tried again, where planning takes time on the floor: a slow
 round costs the fleet less than one that keeps the old plan."""
@@ -127,6 +130,8 @@ class _Shift:
         self._watch = FloorWatch(self._floor)
         self._closed = [_count_closed(closure, scenario) for closure in scenario.closures]
         self._has_told = False  # whether the standstill that there is has been told
+        self._n_quiet = 0  # looks in a row at which nothing moved
+        self._begun: tuple[tuple[int, int], ...] = ()  # how far each robot was at the last look
 
     @property
     def is_over(self) -> bool:
@@ -312,8 +317,9 @@ class _Shift:
 
     def _find_standstill(self) -> None:
         """Note once that jobs are known and nothing moves, with the reasons of the last round."""
-        is_still = all(own.is_idle or own.lost is not None for own in self._floor.robots)
-        if not is_still or not self._pool.jobs:
+        robots = self._floor.robots
+        is_still = all(own.is_idle or own.lost is not None for own in robots)
+        if not (is_still or self._count_quiet() >= QUIET) or not self._pool.jobs:
             self._has_told = False
             return
         if self._has_told:
@@ -323,6 +329,19 @@ class _Shift:
         why = last or tuple(self._explain_standstill())
         fact = Fact("nothing moves", self._scenario, jobs=len(self._pool.jobs), reasons=why)
         self._facts.append((self._now, fact))
+
+    def _count_quiet(self) -> int:
+        """Return the looks in a row at which nothing had begun, and nobody was busy."""
+        robots = self._floor.robots
+        begun = tuple((own.first, own.n_begun) for own in robots)
+        is_busy = any(
+            own.lost is None
+            and (own.free > self._now or own.waits_until > self._now or self._floor.is_charging(k))
+            for k, own in enumerate(robots)
+        )
+        self._n_quiet = 0 if is_busy or begun != self._begun else self._n_quiet + 1
+        self._begun = begun
+        return self._n_quiet
 
     def _explain_standstill(self) -> Iterator[Fact]:
         """Yield why known jobs are not done: their robot is lost, or else the last reasons."""
