@@ -128,7 +128,7 @@ class LateRounds(RoundsAtOnce):
 
     def begin(self, request: RoundRequest) -> None:
         """Plan a round; its plan comes after some more messages."""
-        with patch("rightofway.dispatch.round.MOST_IN_VAIN", 1):  # how good a plan is, is no matter
+        with patch("rightofway.dispatch.routes.PATIENCE", 1):  # how good a plan is, is no matter
             super().begin(request)
         self._polls = self._draw.choice([0, 3, 30, 100])
 
