@@ -10,12 +10,8 @@ from rightofway.facts import Fact
 def log_progress(fact: Fact | str) -> None:
     """Log a fact on progress by the logger ``rightofway``, at the level INFO.
 
-    A program that listens has imported `logging`; other programs do not need it for this.
-
-    Parameters
-    ----------
-    fact
-        The fact, which becomes a sentence only if a handler writes it.
+    It becomes a sentence only if a handler writes it. A program that listens has imported
+    `logging`; other programs do not need it for this.
     """
     logging = sys.modules.get("logging")
     if logging is not None:
