@@ -10,6 +10,7 @@ import subprocess
 import sys
 from contextlib import closing
 from pathlib import Path
+from typing import Any, cast
 
 import pytest
 
@@ -21,7 +22,7 @@ from rightofway.control import (
     SqliteJournal,
 )
 from rightofway.control.dispatcher import Dispatcher
-from rightofway.control.journal import OLDEST, VERSION, BatchedJournal, JournalRow
+from rightofway.control.journal import OLDEST, VERSION, BatchedJournal, JournalRow, _refuse_gaps
 from rightofway.control.notices import make_notice
 from rightofway.control.recording import Recording
 from rightofway.errors import InputError
@@ -241,3 +242,24 @@ def test_a_journal_with_a_wrong_entry_is_refused_with_its_number_or_drives(drive
                 refused.append(str(error))
     assert len(refused) > 100
     assert all(re.match(r"entry\[\d+\]: ", message) for message in refused)
+
+
+def test_a_journal_that_grows_while_it_is_opened_has_no_gaps(tmp_path: Path) -> None:
+    """Another process commits an entry after each statement of the one that opens it."""
+    path = tmp_path / "run.journal"
+    journal = SqliteJournal(path)
+    journal.commit([{"kind": "started"}])
+
+    class Growing(sqlite3.Connection):
+        def execute(self, *query: Any) -> sqlite3.Cursor:
+            found = super().execute(*query)
+            rows = found.fetchall()
+            journal.commit([{"kind": "started"}])
+            return cast("sqlite3.Cursor", FoundRows(rows))
+
+    class FoundRows(list[Any]):
+        def fetchone(self) -> Any:
+            return self[0]
+
+    _refuse_gaps(sqlite3.connect(path, factory=Growing), path)
+    journal.close()

@@ -44,6 +44,6 @@ def test_a_round_whose_process_is_killed_is_reported_and_the_next_one_plans() ->
     driver.want()
     floor.send(driver.go_on())
     wait_for(is_over, 30, "the end of the next round")
-    assert "A1" not in driver.list_waiting()
+    assert "A1" not in driver.watch.list_waiting()
     assert said[1:] == ["the rest is replanned"]
     rounds.close()

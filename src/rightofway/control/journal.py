@@ -341,14 +341,15 @@ def _refuse_other_version(database: sqlite3.Connection, path: Path) -> None:
 
 def _refuse_gaps(database: sqlite3.Connection, path: Path) -> None:
     """Refuse a file in which entries are missing: numbers rise by one, from 1 or a snapshot on."""
-    query = "SELECT count(*), min(number), max(number) FROM entries"
-    count, first, last = database.execute(query).fetchone()
-    snapshots = {number for (number,) in database.execute("SELECT number FROM snapshots")}
-    query = "SELECT max(seq) FROM sqlite_sequence WHERE name = 'entries'"
-    last = database.execute(query).fetchone()[0] or last
+    query = (  # one statement: a control may write meanwhile
+        "SELECT count(*), min(number), max(number),"
+        " (SELECT max(seq) FROM sqlite_sequence WHERE name = 'entries'),"
+        " (SELECT min(number) FROM snapshots) FROM entries"
+    )
+    count, first, last, numbered, expected = database.execute(query).fetchone()
+    last, expected = numbered or last, expected or 1
     if not last:
         return
-    expected = min(snapshots, default=1)
     if first not in {1, expected}:
         missing = f"entries before {first} are missing" if first else "all entries are missing"
     elif count != last - first + 1:
