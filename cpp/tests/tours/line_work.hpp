@@ -98,6 +98,7 @@ inline std::unique_ptr<TourProblem> make_line(const std::vector<LineJob>& jobs,
     }
     const std::vector<std::int64_t> weights(jobs.size(), 1);
     const std::vector<std::int64_t> full{20};
+    const std::vector<std::int32_t> tables{0};
     const std::vector<std::int64_t> none_used{0};
     const std::vector<std::int64_t> charge{4};
     const std::vector<std::int64_t> reserve{2};
@@ -108,7 +109,7 @@ inline std::unique_ptr<TourProblem> make_line(const std::vector<LineJob>& jobs,
         TourRobotArrays{zeros, battery, start, end, no_ticks, capacity, zeros, soc, ones},
         TourJobArrays{first_stop, place, work, load, earliest, latest, weights, release, due,
                       begun_by, first_robot, allowed, first_after, after},
-        BatteryArrays{full, none_used, none_used, charge, reserve, drains, to_charging,
+        BatteryArrays{full, none_used, none_used, charge, reserve, tables, drains, to_charging,
                       first_charging, charging},
         objective, 1, 10);
 }
