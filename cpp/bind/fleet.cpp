@@ -128,6 +128,32 @@ Parameters
 time_limit : float or None
     When to stop; at once for 0 or less. [s])";
 
+constexpr auto compete_doc =
+    R"(Plan robots one after another beside the present tracks; take a better plan over.
+
+Return whether the attempt has ended; another call continues one that has not.
+
+Parameters
+----------
+order : int32[R]
+    Every robot once.
+n_searches : int
+    The most searches since its beginning.
+time_limit : float or None
+    When to stop; at once for 0 or less. [s])";
+
+constexpr auto hurry_doc =
+    R"(Plan robots greedily, one after another, and take the plan over if it is better.
+
+Parameters
+----------
+order : int32[R]
+    Every robot once.
+n_searches : int
+    The most searches before it gives up.
+time_limit : float or None
+    When to stop; at once for 0 or less. [s])";
+
 constexpr auto resume_doc = R"(Continue a `prioritize` that returned False.
 
 Parameters
@@ -250,6 +276,24 @@ void bind_fleet(nb::module_& module) {
             },
             array("order"), nb::arg("n_searches"), nb::arg("time_limit").none(),
             nb::arg("with_fallback").none(), prioritize_doc)
+        .def(
+            "compete",
+            [](FleetSearch& self, const ArrayIn<RobotId>& order, std::int64_t n_searches,
+               std::optional<double> time_limit) {
+                const Deadline deadline(time_limit);
+                const nb::gil_scoped_release released;
+                return self.compete(view(order), n_searches, deadline);
+            },
+            array("order"), nb::arg("n_searches"), nb::arg("time_limit").none(), compete_doc)
+        .def(
+            "hurry",
+            [](FleetSearch& self, const ArrayIn<RobotId>& order, std::int64_t n_searches,
+               std::optional<double> time_limit) {
+                const Deadline deadline(time_limit);
+                const nb::gil_scoped_release released;
+                self.hurry(view(order), n_searches, deadline);
+            },
+            array("order"), nb::arg("n_searches"), nb::arg("time_limit").none(), hurry_doc)
         .def(
             "repair",
             [](FleetSearch& self, const ArrayIn<RobotId>& order, std::int64_t n_searches,

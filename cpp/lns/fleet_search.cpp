@@ -97,6 +97,48 @@ bool FleetSearch::prioritize(std::span<const RobotId> order, std::int64_t n_sear
     return resume(n_searches, deadline, with_fallback);
 }
 
+bool FleetSearch::compete(std::span<const RobotId> order, std::int64_t n_searches,
+                          const StopCondition& deadline) {
+    require_count("n_searches", n_searches);
+    require_length("order", order.size(), n_robots());
+    require_each_once(order);
+    require_all_tracks("compete");
+    if (!rival_) {
+        rival_ = std::make_unique<Rival>(distances_, problem_, plan_.objective(), order);
+    }
+    if (rival_->portfolio.run(n_searches, n_threads_ > 1, deadline, deadline)) {
+        take_if_better(rival_->portfolio.best());
+    }
+    const bool has_ended = rival_->portfolio.has_ended();
+    if (has_ended) {
+        rival_.reset();
+    }
+    return has_ended;
+}
+
+void FleetSearch::hurry(std::span<const RobotId> order, std::int64_t n_searches,
+                        const StopCondition& deadline) {
+    require_count("n_searches", n_searches);
+    require_length("order", order.size(), n_robots());
+    require_each_once(order);
+    require_all_tracks("hurry");
+    FleetPlan plan(problem_, plan_.objective());
+    TrackPrices prices = greedy;
+    prices.states_between_raises *= problem_.n_robots();
+    Prioritized planner(distances_, plan, prices);
+    planner.start(order);
+    if (planner.run(n_searches, deadline) == SearchEnd::found) {
+        take_if_better(plan);
+    }
+}
+
+void FleetSearch::take_if_better(const FleetPlan& plan) {
+    if (plan.worth() < plan_.worth()) {
+        improvement_.reset();
+        plan_ = plan;
+    }
+}
+
 bool FleetSearch::move_one_at_a_time(const StopCondition& deadline) {
     if (!problem_.has_times()) {
         throw std::invalid_argument("move_one_at_a_time: is for stages with times");
@@ -152,6 +194,9 @@ bool FleetSearch::resume(std::int64_t n_searches, const StopCondition& deadline,
     }
     if (!portfolio_->run(n_searches, n_threads_ > 1, deadline, with_fallback)) {
         return false;
+    }
+    if (const FleetPlan& best = portfolio_->best(); &best != &plan_) {
+        plan_ = best;
     }
     portfolio_.reset();
     return true;

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -59,6 +60,13 @@ class FleetSearch {
     // Continues a `prioritize` that returned false.
     bool resume(std::int64_t n_searches, const StopCondition& deadline,
                 const StopCondition& with_fallback);
+    // Plans robots in this order beside the present tracks, and takes the plan over if it is
+    // better. Whether the attempt has ended. Another call continues one that has not; `improve` and
+    // `start` may come between. A greedy attempt is quick, and ends in one call or never.
+    bool compete(std::span<const RobotId> order, std::int64_t n_searches,
+                 const StopCondition& deadline);
+    void hurry(std::span<const RobotId> order, std::int64_t n_searches,
+               const StopCondition& deadline);
     // Gives all robots tracks on which one of them moves at a time. Whether this was possible. Only
     // for a problem with times of stages.
     bool move_one_at_a_time(const StopCondition& deadline);
@@ -94,6 +102,7 @@ class FleetSearch {
     void measure_least();
     std::vector<RobotId> find_conflict_closure(RobotId first, std::span<const TimedTrack> old,
                                                Poll& poll) const;
+    void take_if_better(const FleetPlan& plan);
     void drop_searches();
     void clear();
 
@@ -107,6 +116,15 @@ class FleetSearch {
     bool is_alone_known_ = false;
     Tick bound_ = 0;
     std::optional<PrioritizedPortfolio> portfolio_;
+    struct Rival {
+        Rival(SharedDistances& distances, const Problem& problem, Objective objective,
+              std::span<const RobotId> order)
+            : plan(problem, objective), portfolio(distances, plan, order) {}
+
+        FleetPlan plan;
+        PrioritizedPortfolio portfolio;
+    };
+    std::unique_ptr<Rival> rival_;  // portfolios refer to plans: it does not move
     std::optional<AnytimeLns> improvement_;
 };
 

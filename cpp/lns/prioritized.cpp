@@ -11,9 +11,6 @@ constexpr Tick hold_edges = 16;
 constexpr double raise = 1.25;
 constexpr double highest_level = 1000;
 
-// See `SearchRequest`.
-constexpr Tick greed = 1;
-
 }  // namespace
 
 Prioritized::Prioritized(SharedDistances& distances, FleetPlan& plan, const TrackPrices& prices)
@@ -105,7 +102,7 @@ bool Prioritized::place_open(RobotId robot, const StopCondition& is_over) {
 
 bool Prioritized::find(RobotId robot, const StopCondition& is_over) {
     const auto search = [&](const Trip& trip) {
-        SearchRequest request{trip, plan_.bookings(), prices_, never, greed};
+        SearchRequest request{trip, plan_.bookings(), prices_, never, track_prices_.greed};
         request.rest_price = track_prices_.first * first_hold(robot);
         return search_.run(request, is_over);
     };

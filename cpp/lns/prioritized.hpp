@@ -39,14 +39,16 @@ namespace rightofway {
 
 // The price of evicting a robot, in units of its first start hold: `first`, plus `dearer` for each
 // eviction. Both rise by 25 % per `states_between_raises` expanded states, so planning ends on full
-// floors, too. Greater prices end a search sooner, with longer detours.
+// floors, too. Greater prices and more greed end a search sooner, with longer detours.
 struct TrackPrices {
     Tick first;
     Tick dearer;
     std::int64_t states_between_raises;
+    Tick greed = 1;  // see `SearchRequest`
 };
 constexpr TrackPrices patient{3, 2, 1'000'000};
 constexpr TrackPrices hasty{12, 6, 300'000};
+constexpr TrackPrices greedy{6, 2, 1000, 64};  // states for each robot of the fleet
 
 class Prioritized {
   public:

@@ -78,10 +78,17 @@ bool PrioritizedPortfolio::run(std::int64_t n_searches, bool has_second_thread,
             second_thread->finish(is_over);
         }
     }
-    if (hasty_.is_complete && (!patient_.is_complete || is_hasty_better())) {
-        plan_ = hasty_plan_;
-    }
     return patient_.is_complete || hasty_.is_complete;
+}
+
+const FleetPlan& PrioritizedPortfolio::best() const {
+    const bool is_hasty = hasty_.is_complete && (!patient_.is_complete || is_hasty_better());
+    return is_hasty ? hasty_plan_ : plan_;
+}
+
+bool PrioritizedPortfolio::has_ended() const {
+    return (patient_.is_complete || patient_.is_beaten_by(hasty_)) &&
+           (hasty_.is_complete || hasty_.is_beaten_by(patient_));
 }
 
 // Compares projections before flowtimes, because a run may have been stopped for its projection.

@@ -23,11 +23,16 @@ class PrioritizedPortfolio {
                          std::span<const RobotId> order);
 
     // Gives each robot a track within `n_searches` searches per run since the start. False if no
-    // run is complete: the plan is in an unknown state, and another call continues. Once the hasty
-    // plan is complete, `is_late` replaces `is_over`; only the calling thread evaluates both. An
-    // exception on either thread comes back when both have ended.
+    // run is complete. Another call continues. Once the hasty plan is complete, `is_late` replaces
+    // `is_over`; only the calling thread evaluates both. An exception on either thread comes back
+    // when both have ended.
     bool run(std::int64_t n_searches, bool has_second_thread, const StopCondition& is_over,
              const StopCondition& is_late);
+
+    // The better complete plan: the plan given, or another one.
+    const FleetPlan& best() const;
+    // Whether no run may find a better plan any more.
+    bool has_ended() const;
 
   private:
     struct Side {

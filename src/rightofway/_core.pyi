@@ -921,6 +921,36 @@ class FleetSearch:
             When to stop instead once the hasty attempt has a plan. [s]
         """
 
+    def compete(self, order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_searches: int, time_limit: float | None) -> bool:
+        """
+        Plan robots one after another beside the present tracks; take a better plan over.
+
+        Return whether the attempt has ended; another call continues one that has not.
+
+        Parameters
+        ----------
+        order : int32[R]
+            Every robot once.
+        n_searches : int
+            The most searches since its beginning.
+        time_limit : float or None
+            When to stop; at once for 0 or less. [s]
+        """
+
+    def hurry(self, order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_searches: int, time_limit: float | None) -> None:
+        """
+        Plan robots greedily, one after another, and take the plan over if it is better.
+
+        Parameters
+        ----------
+        order : int32[R]
+            Every robot once.
+        n_searches : int
+            The most searches before it gives up.
+        time_limit : float or None
+            When to stop; at once for 0 or less. [s]
+        """
+
     def repair(self, order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], n_searches: int, time_limit: float | None) -> bool:
         """
         Give tracks to robots that have none, in this order; return whether all have one now.

@@ -632,6 +632,12 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
         "order": int32(*rng.sample(range(3), 3)), "n_searches": 100, "time_limit": 0.2,
         "with_fallback": 0.1,
     },
+    "FleetSearch.compete": lambda rng: {
+        "order": int32(*rng.sample(range(3), 3)), "n_searches": 100, "time_limit": 0.1
+    },
+    "FleetSearch.hurry": lambda rng: {
+        "order": int32(*rng.sample(range(3), 3)), "n_searches": 100, "time_limit": 0.1
+    },
     "FleetSearch.repair": lambda rng: {
         "order": int32(*rng.sample(range(3), rng.randrange(4))), "n_searches": 50, "time_limit": 0.2
     },

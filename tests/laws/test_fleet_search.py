@@ -70,6 +70,40 @@ def test_plans_are_sound_better_each_time_and_the_same_on_any_number_of_threads(
     assert all(search.list_tracks() == better for search in searches)
 
 
+@law(FLEETS, st.integers(0, 99))
+def test_a_plan_beside_the_present_one_is_taken_over_only_if_it_is_better(
+    scenario: Scenario, seed: int
+) -> None:
+    order = list(range(len(scenario.robots)))
+    search, other = search_of(scenario, seed=seed), search_of(scenario, seed=seed)
+    if not search.prioritize(order, searches=500, time_limit=None):
+        return
+    backwards = order[::-1]
+    alone = other.prioritize(backwards, searches=500, time_limit=None)
+    for attempt in (search.compete, search.hurry):
+        before = search.cost
+        attempt(backwards, searches=500, time_limit=None)
+        assert search.cost <= before
+        assert judged(scenario, search.list_tracks())
+        assert not alone or search.cost <= other.cost
+
+
+@law(FLEETS, st.integers(1, 9))
+def test_an_attempt_in_slices_ends_with_the_plan_of_one_call(
+    scenario: Scenario, turns: int
+) -> None:
+    order = list(range(len(scenario.robots)))
+    whole, sliced = search_of(scenario, threads=1), search_of(scenario, threads=1)
+    for search in (whole, sliced):
+        if not search.prioritize(order, searches=500, time_limit=None):
+            return
+    whole.compete(order[::-1], searches=500, time_limit=None)
+    for turn in range(1, turns + 1):
+        sliced.compete(order[::-1], searches=500 * turn // turns, time_limit=None)
+        sliced.improve(3, patience=10**9)
+    assert sliced.cost <= whole.cost
+
+
 @law(FLEETS)
 def test_the_least_completions_are_those_of_the_metrics(scenario: Scenario) -> None:
     assert tuple(search_of(scenario).compute_alone()) == compute_alone_completions(scenario)

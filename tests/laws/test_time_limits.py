@@ -113,6 +113,18 @@ def prioritize(scenario: Scenario, limit: float) -> None:
     search.prioritize(order(scenario), searches=10**9, time_limit=limit)
 
 
+def compete(scenario: Scenario, limit: float) -> None:
+    search = FleetSearch(scenario.problem)
+    if search.prioritize(order(scenario), searches=100, time_limit=None):
+        search.compete(order(scenario), searches=10**9, time_limit=limit)
+
+
+def hurry(scenario: Scenario, limit: float) -> None:
+    search = FleetSearch(scenario.problem)
+    if search.prioritize(order(scenario), searches=100, time_limit=None):
+        search.hurry(order(scenario), searches=10**9, time_limit=limit)
+
+
 def repair(scenario: Scenario, limit: float) -> None:
     search = FleetSearch(scenario.problem)
     search.repair(order(scenario), searches=10**9, time_limit=limit)
@@ -226,6 +238,8 @@ CALLS: dict[str, Callable[[Scenario, float], object]] = {
     "ConflictBasedSearch.search_together": least_sum,
     "CyclicSimulator.advance": lambda one, limit: rightofway.run_laps(one, time_limit=limit),
     "FleetSearch.alone": lambda one, limit: compute_least_completions(one, time_limit=limit),
+    "FleetSearch.compete": compete,
+    "FleetSearch.hurry": hurry,
     "FleetSearch.resume": resume,
     "FleetSearch.improve": improve,
     "FleetSearch.move_one_at_a_time": move_one_at_a_time,

@@ -71,7 +71,8 @@ def test_without_rotations_a_full_hall_takes_the_order_of_moves_first() -> None:
     told: list[Fact | str] = []
     plan = rightofway.solve(scenario, "lacam", time_limit=60, report=told.append)
     assert plan.run.status == Status("moves")
-    assert told == [Fact("planning moves without clocks")]
+    _, step, _ = told
+    assert step == Fact("planning moves without clocks")
 
 
 def test_a_large_robot_pushes_every_robot_in_its_way() -> None:

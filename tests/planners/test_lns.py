@@ -93,8 +93,9 @@ def test_the_search_sums_costs_by_weights() -> None:
 def test_progress_tells_flowtime_gap_and_rate() -> None:
     told: list[Fact | str] = []
     rightofway.solve(CROWDED, "lns", options={"iterations": 20}, report=told.append)
-    facts = [fact for fact in told if isinstance(fact, Fact)]
-    assert len(facts) == len(told) > 0
+    begin, *facts, judged = [fact for fact in told if isinstance(fact, Fact)]
+    assert (begin.kind, judged.kind) == ("planning begins", "plan judged")
+    assert len(facts) + 2 == len(told) > 2
     assert {fact.kind for fact in facts} == {"value and gap reached"}
     assert all(fact.values["objective"] == "flowtime" for fact in facts)
     assert all(fact.values["gap"] >= 0 and fact.values["rate"] > 0 for fact in facts)

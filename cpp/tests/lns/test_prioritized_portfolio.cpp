@@ -22,14 +22,14 @@ TEST_CASE("planning in turn gives the same plan on one thread and on two, patien
     for (const std::int64_t n_searches : {6, 7, 1000}) {
         FleetPlan one(distances.problem());
         FleetPlan two(distances.problem());
-        const bool is_found = PrioritizedPortfolio(distances, one, in_turn(distances))
-                                  .run(n_searches, false, test::no_deadline, test::no_deadline);
+        PrioritizedPortfolio first(distances, one, in_turn(distances));
+        const bool is_found = first.run(n_searches, false, test::no_deadline, test::no_deadline);
         PrioritizedPortfolio second(distances, two, in_turn(distances));
         second.run(3, true, test::no_deadline, test::no_deadline);  // and on from there
         CHECK(second.run(n_searches, true, test::no_deadline, test::no_deadline) == is_found);
         if (is_found) {
-            CHECK(is_sound(distances, two));
-            CHECK(one.cost() == two.cost());
+            CHECK(is_sound(distances, second.best()));
+            CHECK(first.best().cost() == second.best().cost());
         }
     }
 }
@@ -49,9 +49,10 @@ TEST_CASE("planning in turn takes the better one of the patient plan and the one
             flowtime[is_hasty ? 1 : 0] = alone.cost();
         }
         FleetPlan plan(distances.problem());
-        REQUIRE(PrioritizedPortfolio(distances, plan, in_turn(distances))
-                    .run(1000, true, test::no_deadline, test::no_deadline));
-        CHECK(plan.cost() == std::min(flowtime[0], flowtime[1]));
+        PrioritizedPortfolio portfolio(distances, plan, in_turn(distances));
+        REQUIRE(portfolio.run(1000, true, test::no_deadline, test::no_deadline));
+        CHECK(portfolio.has_ended());
+        CHECK(portfolio.best().cost() == std::min(flowtime[0], flowtime[1]));
         has_either_won[0] |= flowtime[0] < flowtime[1];
         has_either_won[1] |= flowtime[1] < flowtime[0];
     }
@@ -70,10 +71,10 @@ TEST_CASE("with a plan made in haste as a net, it is asked whether it is late, a
         return false;
     };
     const auto is_late = [&was_asked] { return was_asked = true; };
-    CHECK(PrioritizedPortfolio(distances, plan, in_turn(distances))
-              .run(1000, true, is_over, is_late));
+    PrioritizedPortfolio portfolio(distances, plan, in_turn(distances));
+    CHECK(portfolio.run(1000, true, is_over, is_late));
     CHECK(was_asked);
-    CHECK(is_sound(distances, plan));
+    CHECK(is_sound(distances, portfolio.best()));
 }
 
 TEST_CASE("what the caller throws while robots are planned in turn comes back") {

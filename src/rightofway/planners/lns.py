@@ -16,14 +16,21 @@ Moscato & Norman, *A memetic approach for the traveling salesman problem*, 1992.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 
 from rightofway.errors import GaveUp
 from rightofway.facts import Fact
 from rightofway.model import Improvement, Objective, Status, Tick, Track
 from rightofway.planners.lacam import plan_by_instants, plan_fleet
-from rightofway.planners.prioritized import MOST_ROBOTS, plan_in_turn, plan_whole_fleet
+from rightofway.planners.prioritized import (
+    MOST_ROBOTS,
+    SEARCHES,
+    choose_order,
+    plan_in_turn,
+    plan_whole_fleet,
+)
 from rightofway.precedence import build_graph_of_plan
 from rightofway.repair.fleet_search import make_fleet_search
 from rightofway.repair.plan_request import Draft, PlanRequest
@@ -58,6 +65,13 @@ UNLIMITED = 2**62
 ITERATIONS_PER_TURN = 1
 """Neighbourhoods for each robot from one look at the proof to the next."""
 
+SHARE_OF_GREEDY = 0.5
+"""The most of the time left for a greedy plan, which takes a small part of it as a rule."""
+
+FIRST_TURN, TURN_OF_RIVAL = 0.3, 1.5
+"""How long prioritized planning goes on before the improvement has its turn, `BETWEEN_REPORTS`:
+at first, and then [s]. The better plan is usually that of prioritized planning."""
+
 IsEnough = Callable[[Tick], bool]
 """Tells whether a plan of some value is good enough; it may search for the proof each time."""
 
@@ -85,17 +99,20 @@ def improve_best(
     """
     problem = request.scenario.problem
     drafts: tuple[Draft | None, ...]
+    is_simple = problem.resources.are_points and problem.is_open and not problem.has_times
+    competes = is_simple and problem.closures is None
     if problem.has_times or not problem.is_open:
         drafts = (first, _try_search(request, search, needed=first is None))
     elif len(problem.itineraries) > MOST_ROBOTS and problem.resources.are_points:
         drafts = (first, _plan_together(request))
+    elif (together := _plan_quickly_together(request)) is not None and competes:
+        drafts = (first, together)
     else:
-        together = _plan_quickly_together(request)
+        competes = False
         has_plan = first is not None or together is not None
         drafts = (first, together, _plan_in_turn(request, search, has_plan=has_plan))
     plans = [plan for plan in drafts if plan is not None]
     if not plans:
-        is_simple = problem.resources.are_points and problem.is_open and not problem.has_times
         together = _plan_together(request) if is_simple else plan_whole_fleet(request)
         plans = [together] if together is not None else []
     if not plans:
@@ -103,7 +120,9 @@ def improve_best(
         raise GaveUp(Fact("time over without a plan" if is_over else "no first plan"))
     best = min(plans, key=lambda plan: request.measure_worth(plan.tracks))
     proof = None if first is None else first.proof
-    return _run_improvement(request, search, replace(best, proof=proof), is_enough)
+    return _run_improvement(
+        request, search, replace(best, proof=proof), is_enough, competes=competes
+    )
 
 
 def _try_search(request: PlanRequest, search: FleetSearch, *, needed: bool) -> Draft | None:
@@ -147,8 +166,58 @@ def _plan_in_turn(request: PlanRequest, search: FleetSearch, *, has_plan: bool) 
     return draft
 
 
+class _Rival:
+    """Prioritized planning that takes turns with the improvement, until it has a plan or fails.
+
+    Without a limit of time it plans to its end first.
+    """
+
+    def __init__(self, request: PlanRequest, search: FleetSearch, *, competes: bool) -> None:
+        self._request, self._search, self._competes = request, search, competes
+        self._order = choose_order(request.scenario, search, "shortest", request.seed)
+        self._searches = SEARCHES * len(self._order)
+        self._is_over = not competes or len(self._order) > MOST_ROBOTS
+        self.has_won = False  # the search goes on from a plan of prioritized planning
+
+    def begin(self) -> None:
+        """Plan for a moment, which is enough for most fleets; then greedily, if it was not."""
+        self.go_on(FIRST_TURN)
+        left = self._request.deadline.shorten(SHARE_OF_GREEDY).measure_seconds_left()
+        if self._competes and (not self._is_over or len(self._order) > MOST_ROBOTS):
+            with self._watch():
+                self._search.hurry(self._order, searches=self._searches, time_limit=left)
+
+    def go_on(self, seconds: float) -> None:
+        """Plan for a while."""
+        left = self._request.deadline.measure_seconds_left()
+        if self._is_over or left == 0:
+            return
+        limit = None if left is None else min(left, seconds)
+        began = time.perf_counter()
+        with self._watch():
+            self._is_over = self._search.compete(
+                self._order, searches=self._searches, time_limit=limit
+            )
+        has_given_up = limit is None or time.perf_counter() - began < limit / 2
+        self._is_over = self._is_over or has_given_up
+
+    @contextmanager
+    def _watch(self) -> Iterator[None]:
+        """Note, and hand over, a plan that the search takes over."""
+        before = self._search.value, self._search.cost
+        yield
+        if (self._search.value, self._search.cost) < before:
+            self.has_won = True
+            self._request.better(self._search.list_tracks)
+
+
 def _run_improvement(
-    request: PlanRequest, search: FleetSearch, first: Draft, is_enough: IsEnough | None = None
+    request: PlanRequest,
+    search: FleetSearch,
+    first: Draft,
+    is_enough: IsEnough | None = None,
+    *,
+    competes: bool = False,
 ) -> Draft:
     """Improve a plan until time, iterations or gains are used up, or nothing can be better.
 
@@ -156,6 +225,8 @@ def _run_improvement(
     """
     request.better(lambda: first.tracks)
     search.start(first.tracks)
+    rival = _Rival(request, search, competes=competes)
+    rival.begin()
     is_open = request.scenario.problem.closures is None
     retiming = RETIMING if is_open else RETIMING_AMONG_CLOSURES
     deadline = request.deadline.bring_forward(retiming * sum(map(len, first.tracks)))
@@ -185,6 +256,7 @@ def _run_improvement(
                 pause=BETWEEN_REPORTS,
             )
             rate = (done - done_before) / (time.perf_counter() - began)
+            rival.go_on(TURN_OF_RIVAL)
             if (search.value, search.cost) < reached:
                 request.better(search.list_tracks)
             request.report(_describe_progress(request, search, bound, rate))
@@ -194,6 +266,8 @@ def _run_improvement(
         if not request.keep_best:
             raise
         is_interrupted = True
+    if rival.has_won:
+        first = replace(first, status=Status("in turn"))
     tracks = _take_found(
         request, search, first.tracks, is_better=(search.value, search.cost) < before
     )

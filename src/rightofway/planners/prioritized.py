@@ -78,7 +78,7 @@ def plan_in_turn(
     """
     if len(request.scenario.robots) > MOST_ROBOTS or request.deadline.measure_seconds_left() == 0:
         return None
-    turns = _choose_order(request.scenario, search, order, request.seed)
+    turns = choose_order(request.scenario, search, order, request.seed)
     problem = request.scenario.problem
     if problem.has_times:
         return _in_time(request, search, turns, SHARE_WITH_PLAN if has_plan else SHARE_WITH_SIZES)
@@ -182,7 +182,8 @@ def _make_paced(scenario: Scenario) -> Scenario:
     return replace(scenario, robots=robots, rules=rules)
 
 
-def _choose_order(scenario: Scenario, search: FleetSearch, order: str, seed: int) -> list[int]:
+def choose_order(scenario: Scenario, search: FleetSearch, order: str, seed: int) -> list[int]:
+    """Return all robots in the order of the option ``order``."""
     robots = list(range(len(scenario.robots)))
     if order == "random":
         random.Random(seed).shuffle(robots)  # noqa: S311 (no secret depends on it)

@@ -142,6 +142,34 @@ class FleetSearch:
         """Continue `prioritize` where it ended; the searches count from its beginning."""
         return self._core.resume(searches, time_limit)
 
+    def compete(self, order: Sequence[int], *, searches: int, time_limit: float | None) -> bool:
+        """Plan robots one after another beside the present tracks; take over a better plan.
+
+        Return whether the attempt has ended; another call continues one that has not.
+
+        Parameters
+        ----------
+        order
+            Every robot once.
+        searches
+            The most searches since the attempt began.
+        time_limit
+            When to stop [s].
+        """
+        return self._core.compete(self._make_order(order), searches, time_limit)
+
+    def hurry(self, order: Sequence[int], *, searches: int, time_limit: float | None) -> None:
+        """Plan robots greedily, one after another, and take over a better plan.
+
+        Parameters
+        ----------
+        order, searches
+            As for `compete`.
+        time_limit
+            When to stop without a plan [s].
+        """
+        self._core.hurry(self._make_order(order), searches, time_limit)
+
     def move_one_at_a_time(self, *, time_limit: float | None) -> bool:
         """Give robots tracks on which one of them moves at a time; tell whether all have one.
 
