@@ -68,9 +68,10 @@ ITERATIONS_PER_TURN = 1
 SHARE_OF_GREEDY = 0.5
 """The most of the time left for a greedy plan, which takes a small part of it as a rule."""
 
-FIRST_TURN, TURN_OF_RIVAL = 0.3, 1.5
-"""How long prioritized planning goes on before the improvement has its turn, `BETWEEN_REPORTS`:
-at first, and then [s]. The better plan is usually that of prioritized planning."""
+FIRST_TURN, TURN, TURN_OF_IMPROVEMENT = 0.3, 1.0, 0.2
+"""How long prioritized planning goes on at first and then, and the improvement in between [s]: what
+prioritized planning ends with is better, as a rule, than what the improvement comes to meanwhile.
+"""
 
 IsEnough = Callable[[Tick], bool]
 """Tells whether a plan of some value is good enough; it may search for the proof each time."""
@@ -176,30 +177,30 @@ class _Rival:
         self._request, self._search, self._competes = request, search, competes
         self._order = choose_order(request.scenario, search, "shortest", request.seed)
         self._searches = SEARCHES * len(self._order)
-        self._is_over = not competes or len(self._order) > MOST_ROBOTS
+        self.is_over = not competes or len(self._order) > MOST_ROBOTS
         self.has_won = False  # the search goes on from a plan of prioritized planning
 
     def begin(self) -> None:
         """Plan for a moment, which is enough for most fleets; then greedily, if it was not."""
         self.go_on(FIRST_TURN)
         left = self._request.deadline.shorten(SHARE_OF_GREEDY).measure_seconds_left()
-        if self._competes and (not self._is_over or len(self._order) > MOST_ROBOTS):
+        if self._competes and (not self.is_over or len(self._order) > MOST_ROBOTS):
             with self._watch():
                 self._search.hurry(self._order, searches=self._searches, time_limit=left)
 
     def go_on(self, seconds: float) -> None:
         """Plan for a while."""
         left = self._request.deadline.measure_seconds_left()
-        if self._is_over or left == 0:
+        if self.is_over or left == 0:
             return
         limit = None if left is None else min(left, seconds)
         began = time.perf_counter()
         with self._watch():
-            self._is_over = self._search.compete(
+            self.is_over = self._search.compete(
                 self._order, searches=self._searches, time_limit=limit
             )
         has_given_up = limit is None or time.perf_counter() - began < limit / 2
-        self._is_over = self._is_over or has_given_up
+        self.is_over = self.is_over or has_given_up
 
     @contextmanager
     def _watch(self) -> Iterator[None]:
@@ -253,10 +254,10 @@ def _run_improvement(
                 min(look, iterations) - done,
                 patience=patience,
                 time_limit=deadline.measure_seconds_left(),
-                pause=BETWEEN_REPORTS,
+                pause=BETWEEN_REPORTS if rival.is_over else TURN_OF_IMPROVEMENT,
             )
             rate = (done - done_before) / (time.perf_counter() - began)
-            rival.go_on(TURN_OF_RIVAL)
+            rival.go_on(TURN)
             if (search.value, search.cost) < reached:
                 request.better(search.list_tracks)
             request.report(_describe_progress(request, search, bound, rate))
