@@ -119,6 +119,25 @@ def test_a_robot_that_breaks_down_is_a_closure_and_others_do_the_rest() -> None:
     assert all(own.robot == 1 for own in record.jobs.values())
 
 
+def test_others_go_on_while_a_loaded_robot_waits_behind_one_that_is_lost() -> None:
+    """R1 breaks down in N10, the only way between both halves, and R2 has J2 on board."""
+    jobs = [
+        {"name": "J1", "at": "N10", "robot": "R1"},
+        transport("J2", "N1", "N5", robot="R2"),
+        {"name": "J3", "at": "N12", "robot": "R3", "earliest": 20},
+    ]
+    robots = {"R1": "N8", "R2": "N0", "R3": "N6"}
+    record = hold_shift(
+        make_scenario(["...@...", "......."], robots, jobs=jobs),
+        delays="stop:R1@2",
+        until=Tick(60),
+    )
+    assert record.jobs["J2"].begun is not None
+    assert record.jobs["J2"].ended is None
+    assert record.jobs["J3"].ended is not None
+    assert not any(planned.stands for planned in record.rounds)
+
+
 def test_a_shift_in_which_nothing_moves_says_why() -> None:
     jobs = [{"name": "J1", "at": "N1"}, transport("J2", "N1", "N0", load=2)]
     record = hold_shift(make_scenario([".."], {"R1": "N0"}, jobs=jobs), until=Tick(20))

@@ -199,7 +199,7 @@ class RoundDriver:
         if ledger.graph is not self._graph:  # another splice came first
             self.is_wanted = True
             return control.note()
-        if planned.stands and not self._ignores_closures and self._has_closures(seen):
+        if planned.stands and not self._ignores_closures and not seen.view.is_open:
             self._begin(ignores_closures=True)
             return []
         if planned.stands:
@@ -231,11 +231,6 @@ class RoundDriver:
             if reason is not None and self.reasons.get(name) != reason:
                 self.tell(Fact("unserved", job=name, why=Fact(f"unserved {reason}")))
         self.reasons = reasons
-
-    @staticmethod
-    def _has_closures(seen: ViewOfRound) -> bool:
-        view = seen.view
-        return bool(view.closed) or not all(own.is_able for own in view.robots)
 
     def _keep_old(self, reason: Fact | str) -> list[Message]:
         """Let the old plan go on, and try again later."""

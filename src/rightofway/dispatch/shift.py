@@ -269,13 +269,17 @@ class _Shift:
         self._n_still = self._n_still + 1 if self._is_still else 0
         jobs = dict(self._pool.jobs)
         view = look_at_floor(self._floor, begin, takeover, jobs, self._later)
-        planned = self._planner.plan(
-            view,
-            jobs,
-            over=self._pool.left,
-            time_limit=limit,
-            seed=rules.seed + len(self._rounds),
-        )
+        views = [view] if view.is_open else [view, view.ignore_closures()]
+        for seen in views:
+            planned = self._planner.plan(
+                seen,
+                jobs,
+                over=self._pool.left,
+                time_limit=limit,
+                seed=rules.seed + len(self._rounds),
+            )
+            if not planned.stands:
+                break
         if rules.lead:
             cap_floor(self._floor, view)
             self._move_on(takeover)

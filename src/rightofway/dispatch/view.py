@@ -8,7 +8,7 @@ the round plans what comes behind it.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 import numpy as np
@@ -121,6 +121,20 @@ class FleetView:
     robots: tuple[RobotView, ...]
     ends: tuple[tuple[str, Tick], ...] = ()
     closed: frozenset[tuple[int, int]] = frozenset()
+
+    @property
+    def is_open(self) -> bool:
+        """Whether nothing is closed, and all robots can drive."""
+        return not self.closed and all(robot.is_able for robot in self.robots)
+
+    def ignore_closures(self) -> FleetView:
+        """Return the fleet as if nothing was closed, and all robots could drive.
+
+        A plan of it always lets robots drive that have nothing to do with what is closed; the
+        others wait before it, and behind robots that do not go on.
+        """
+        able = tuple(replace(robot, is_able=True) for robot in self.robots)
+        return replace(self, robots=able, closed=frozenset())
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
