@@ -269,7 +269,9 @@ class _Shift:
         self._n_still = self._n_still + 1 if self._is_still else 0
         jobs = dict(self._pool.jobs)
         view = look_at_floor(self._floor, begin, takeover, jobs, self._later)
-        views = [view] if view.is_open else [view, view.ignore_closures()]
+        views = [view]
+        if not view.is_open and any(own.is_able for own in view.robots):
+            views.append(view.ignore_closures())
         for seen in views:
             planned = self._planner.plan(
                 seen,
@@ -291,7 +293,7 @@ class _Shift:
                 self._n_doubled = min(self._n_doubled + 1, MOST_DOUBLED)
             elif not rules.lead or len(self._rounds) % HASTE == 0:
                 self._n_doubled = max(0, self._n_doubled - 1) if rules.lead else 0
-            splice_round(self._floor, view, planned, jobs)
+            splice_round(self._floor, seen, planned, jobs)
             self._note_unserved(planned)
             self._watch.take_over(self._now, jobs)
         self._tried = replace(situation, outlook=self._watch.outlook)
