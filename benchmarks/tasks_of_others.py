@@ -3,7 +3,9 @@
 ``python -m benchmarks.tasks_of_others mapd MAP LOG ... [--seconds S] [--output FOLDER]`` reads logs
 of ``mapd`` of https://github.com/Kei18/pibt2, which draws tasks while it plans. A log names the
 starts of the agents, and for each task both places and the step at which it appears. All tasks are
-known here from the start on. The table compares makespan and mean service time with the log's.
+known here from the start on; with ``--online``, each from the step on at which it appears, and
+``--seconds`` is the time of each round of a shift. The table compares makespan and mean service
+time with the log's.
 
 ``python -m benchmarks.tasks_of_others targets FILE ...`` reads inputs of CBS-TA of
 https://github.com/whoenig/libMultiRobotPlanning: agents with `potentialGoals`, one of which each
@@ -28,6 +30,7 @@ import yaml
 
 from benchmarks.common import table
 from rightofway import solve
+from rightofway.dispatch.settings import ShiftSettings
 from rightofway.io import load_map, write_scenario
 from rightofway.metrics import derive_outcome
 from rightofway.model import Job, JobStop, OutcomeKind, Robot, Rules, Scenario, Stop
@@ -117,6 +120,15 @@ def plan_log(log: Log, seconds: float) -> tuple[int, float]:
     return max(ends.values()), sum(times) / len(times)
 
 
+def hold_shift(log: Log, seconds: float) -> tuple[int, float]:
+    """Return makespan and mean service time of a shift with tasks that appear [steps]."""
+    record = ShiftSettings(round_time=seconds, lead=Fraction(0)).simulate(log.scenario)
+    ends = {name: own.ended for name, own in record.jobs.items()}
+    times = [(ends[job.name] or 0) - int(job.earliest) for job in log.scenario.jobs or ()]
+    assert None not in ends.values(), "a task is not served"
+    return max(end or 0 for end in ends.values()), sum(times) / len(times)
+
+
 def find_least_flowtime(document: Mapping[str, Any], seconds: float) -> int:
     """Return the least flowtime over all assignments of goals, each of them proven [steps]."""
     plans = [solve(scenario, time_limit=seconds) for scenario in list_assignments(document)]
@@ -131,6 +143,7 @@ def main() -> None:
     parser.add_argument("kind", choices=["mapd", "targets"])
     parser.add_argument("files", nargs="+", type=Path)
     parser.add_argument("--seconds", type=float, default=10)
+    parser.add_argument("--online", action="store_true")
     parser.add_argument("--output", type=Path)
     given = parser.parse_args()
     scenarios, lines = dict[str, Scenario](), list[Sequence[str]]()
@@ -139,7 +152,7 @@ def main() -> None:
         map_file, *logs = given.files
         for file in logs:
             log = read_log(file.read_text(encoding="utf-8"), load_map(map_file))
-            makespan, service = plan_log(log, given.seconds)
+            makespan, service = (hold_shift if given.online else plan_log)(log, given.seconds)
             figures = f"{log.makespan}", f"{makespan}", f"{log.service_time:.1f}", f"{service:.1f}"
             lines.append((log.solver, *figures))
             scenarios[file.stem] = log.scenario
