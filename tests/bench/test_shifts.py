@@ -86,7 +86,7 @@ def test_a_fleet_changes_speeds_rules_and_chargers(directory: Path) -> None:
     assert [robot.speed for robot in plain.robots] == [1, 2]
     changed = read_one(directory, "[2]", "speeds = [3, 4]\nheadway = 2\nchargers = 1")
     assert [robot.speed for robot in changed.robots] == [3, 4]
-    assert (plain.rules.headway, changed.rules.headway) == (0, 2)
+    assert [plain.rules.headway, changed.rules.headway] == [0, 2]
     # The places of the map come first, and R2 has lost its own one.
     names = [changed.roadmap.name(at) for at in changed.roadmap.drawing.charging]
     assert (names, changed.charging) == (["a"], (0,))
@@ -99,7 +99,7 @@ def test_a_scenario_without_counts_is_taken_as_it_is(directory: Path) -> None:
         'counts = [1]\nmaps = [{scenario = "hall.yaml"}]\nfleets = [{name = "x", speeds = [9]}]\n'
         'planners = [{name = "shift"}]\n',
     )
-    assert (case.fleet, case.robots, case.limit) == ("", 2, 1)
+    assert (case.fleet, case.robots, float(case.limit or 0)) == ("", 2, 1.0)
     assert [robot.speed for robot in case.make_scenario().robots] == [1, 2]
 
 

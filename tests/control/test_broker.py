@@ -545,7 +545,8 @@ def test_the_file_of_identities_of_the_page_is_read(tmp_path: Path) -> None:
     first, second = load_identities(path, ["R1", "R2"])
     assert first.get_topic("state") == "uagv/v2/ACME/A-001/state"
     assert second.get_topic("state") == "vda5050/v3/ACME/A-002/state"
-    assert (first.work.action, first.work.parameters) == ("pick", {"stationType": "floor"})
+    assert first.work.action == "pick"
+    assert dict(first.work.parameters) == {"stationType": "floor"}
     assert (second.work.action, first.deviation, first.map_id) == ("drop", 0.05, "hall-1")
 
 

@@ -82,7 +82,7 @@ def test_a_recording_says_which_job_a_robot_does_and_how_full_it_is(tmp_path: Pa
         "drives to stop 1 of J1", "works at stop 1 of J1", "drives to stop 2 of J1", "", "charges",
     ]  # fmt: skip
     assert next(say(row[3]) for row in rows if row[1:3] == (1, "task")) == "charges"
-    percents = [row[3] for row in rows if row[1:3] == (1, "charge")]
+    percents = [int(str(row[3])) for row in rows if row[1:3] == (1, "charge")]
     assert percents[0] == 20
     assert all(abs(a - b) >= 5 or b in {0, 100} for a, b in pairwise(percents))
 

@@ -34,13 +34,16 @@ AHEAD: list[tuple[dict[str, Any], dict[str, Any], Fact]] = [
 ]
 
 
+def freeze(values: dict[str, Any]) -> dict[str, Any]:
+    return {key: frozenset(own) if isinstance(own, set) else own for key, own in values.items()}
+
+
 def make_situation(values: dict[str, Any]) -> Situation:
-    return Situation(**{k: frozenset(v) if isinstance(v, set) else v for k, v in values.items()})
+    return Situation(**freeze(values))
 
 
 def look_ahead(values: dict[str, Any]) -> Situation:
-    own = {k: frozenset(v) if isinstance(v, set) else v for k, v in values.items()}
-    return Situation(outlook=Outlook(**own))
+    return Situation(outlook=Outlook(**freeze(values)))
 
 
 @pytest.mark.parametrize(("before", "now", "trigger"), TRIGGERS)

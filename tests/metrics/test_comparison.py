@@ -24,6 +24,7 @@ from rightofway.model import (
     Stop,
     Tick,
     Track,
+    UnservedReason,
 )
 from rightofway.model.attributes import Attribute
 from rightofway.model.robot import ROBOT_ATTRIBUTES, RULE_ATTRIBUTES
@@ -212,7 +213,9 @@ def plan_street(*tours: list[tuple[int, int, int]], **changes: Any) -> Plan:
         for tour in tours
     )  # fmt: skip
     done = {job for tour in tours for job, _, _ in tour}
-    left = tuple((job, "latest") for job in range(len(scenario.jobs or ())) if job not in done)
+    numbers = range(len(scenario.jobs or ()))
+    late: UnservedReason = "latest"
+    left = tuple((job, late) for job in numbers if job not in done)
     return Plan(
         scenario=scenario, tracks=tuple(tracks), run=PlannerRun(), tours=items, unserved=left
     )
