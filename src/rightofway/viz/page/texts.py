@@ -7,7 +7,7 @@ from typing import Any
 
 from rightofway.languages import LANGUAGES, VALUE, read_texts
 
-PARTS = {"jobs": "work", "driven": "driven", "shift": "shift"}
+PARTS = {"jobs": "work", "driven": "driven", "shift": "shift", "compared": "comparison"}
 """Labels that only some pages need: the key of the labels, and that of the data they are for."""
 
 

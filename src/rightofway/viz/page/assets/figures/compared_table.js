@@ -119,7 +119,7 @@ export function changeInWords({ subject, robots, jobs, key, before, after }) {
   /** @type {Record<"whats" | "keys", Partial<Record<string, string>>>} */
   const { whats, keys } = texts.compared;
   const names = robots.length ? robots : jobs;
-  const counted = robots.length ? texts.robots : texts.jobs.counted;
+  const counted = robots.length ? texts.robots : texts.compared.jobs;
   const named =
     names.length > FEW_NAMES ? counted({ count: names.length }) : joined(names).join("");
   const whose = named || (whats[said(subject)] ?? said(subject));

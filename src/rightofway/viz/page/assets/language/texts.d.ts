@@ -224,7 +224,6 @@ export interface PageTexts {
     early: Text<"time">;
   };
   jobs: {
-    counted: Text<"count">;
     done: string;
     doneAtLength: string;
     serviceTimeAtLength: string;
@@ -344,6 +343,7 @@ export interface PageTexts {
   };
   compared: {
     plans: Text<"count">;
+    jobs: Text<"count">;
     mapOf: Text<"title">;
     compareWith: Text<"title">;
     figures: {
