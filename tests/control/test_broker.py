@@ -545,9 +545,11 @@ def test_the_file_of_identities_of_the_page_is_read(tmp_path: Path) -> None:
     first, second = load_identities(path, ["R1", "R2"])
     assert first.get_topic("state") == "uagv/v2/ACME/A-001/state"
     assert second.get_topic("state") == "vda5050/v3/ACME/A-002/state"
-    assert first.work.action == "pick"
-    assert dict(first.work.parameters) == {"stationType": "floor"}
-    assert (second.work.action, first.deviation, first.map_id) == ("drop", 0.05, "hall-1")
+    assert first.work.action == "scan"
+    assert dict(first.work.parameters) == {"mode": "fast"}
+    picks = [None if own.pick is None else own.pick.action for own in (first, second)]
+    assert picks == ["pick", "lift"]
+    assert (first.deviation, first.map_id) == (0.05, "hall-1")
 
 
 FAULTS = {
