@@ -50,7 +50,7 @@ LIMITS = [0.0, -0.0, -1.0, -1e-9, 1e-9, 1e-4]
 
 HARD = Path(__file__).parents[1] / "data" / "hard"
 
-MOST = 1.0
+MOST = 0.5
 """How much longer than its limit a call may take [s]."""
 
 

@@ -163,7 +163,7 @@ def improve(
     """Return the best timetable after ``steps`` steps, or at the deadline of the problem."""
     best, in_vain, step = candidate, 0, 0
     while (steps is None or step < steps) and problem.compute_value(best) < problem.bound:
-        if problem.is_out_of_time:
+        if not problem.has_time_for(candidate):
             break
         step, in_vain = step + 1, in_vain + 1
         inserts = step % params.insert_every == 0 or candidate.n_visits > params.most_visits

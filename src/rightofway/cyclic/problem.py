@@ -19,6 +19,9 @@ from rightofway.planners import Deadline
 from rightofway.precedence import CyclicSchedule, TimedEventGraph
 from rightofway.search import PeriodicBookings, RoundTrip, RowsOfLaps
 
+EARLIEST = 1.2e-6
+"""The time that the earliest timetable of given orders takes for each visit [s]."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RobotCycle:
@@ -82,6 +85,11 @@ class CyclicProblem:
     def shorten(self, share: float) -> Self:
         """Return the same problem with a share of the time left."""
         return replace(self, deadline=self.deadline.shorten(share))
+
+    def has_time_for(self, candidate: Candidate) -> bool:
+        """Tell whether there is time to book a timetable, and to compute it once more."""
+        left = self.deadline.measure_seconds_left()
+        return left is None or left > 2 * EARLIEST * candidate.n_visits
 
     @property
     def is_out_of_time(self) -> bool:

@@ -374,7 +374,10 @@ def _cut_out(problem: CyclicProblem, run: GroupResult, params: ChoiceParams) -> 
     best = sorted(filter(problem.accepts, windows), key=problem.compute_value, reverse=True)
     short = [candidate for candidate in best if candidate.n_visits <= params.short]
     cuts = dict.fromkeys((*best[:1], *short[: params.cuts_kept]))
-    filled = [fill(cutting, *cutting.book(candidate)) for candidate in cuts]
+    filled = [
+        candidate if cutting.is_out_of_time else fill(cutting, *cutting.book(candidate))
+        for candidate in cuts
+    ]
     return [max(pair, key=problem.compute_value) for pair in zip(cuts, filled, strict=True)]
 
 
