@@ -55,9 +55,9 @@ def probe(
 ) -> int:
     """Ask one robot for its state and its factsheet, and give it a first order.
 
-    The orders have a single node, the one where the robot is, so it does not move. The report says
-    what the robot supports and where it departs from the norm. Exit code 1: it departs, or the
-    control cannot drive it.
+    The orders have a single node, the present one, so the robot does not move. The report lists the
+    features of the robot and its departures from the norm. Exit code 1: it departs, or the control
+    cannot drive it.
     """
     from rightofway.control.probe import Probe
 

@@ -28,7 +28,7 @@ PLACES = list_kinds_of_places(None)
 WORK = "work time there [time unit], 0 by default"
 EARLIEST = "when the work begins at the earliest [time unit], or a time of day; 0 by default"
 ACTIONS = (
-    "what the robot does there: an action or a list of actions, each its type or {action,"
+    "the actions at the stop: one or a list, each its type or {action,"
     " parameters, blocking, retriable, description}; those of the place by default"
 )
 LATEST = "when the work ends at the latest [time unit], or a time of day; none by default"
