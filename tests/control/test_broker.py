@@ -448,7 +448,7 @@ def test_the_commands_of_the_page_change_the_work_of_robots_that_drive(
     tmp_path: Path, broker: Mosquitto
 ) -> None:
     """The job of the page has the name that the control gives it; all robots come home."""
-    [block] = [one for one in blocks(ROOT / "docs/control.md") if one.info == ("sh", "jobs")]
+    [block] = [one for one in blocks(ROOT / "docs/live-jobs.md") if one.info == ("sh", "jobs")]
     name = "R1/job1"
     with robots_of(door(), tmp_path, broker.url, "--time-scale", "1"):
         wait_for((tmp_path / "robots.yaml").exists, 60, "the file of identities")
@@ -517,7 +517,7 @@ def test_the_drawing_of_the_page_becomes_robots_that_drive(
     tmp_path: Path, broker: Mosquitto
 ) -> None:
     """From the LIF file and the scenario of the page to simulated robots at a broker."""
-    for block in blocks(ROOT / "docs/control.md"):
+    for block in blocks(ROOT / "docs/recipes/lif-robots.md"):
         if block.file_name in {"plant.lif.json", "plant.yaml"}:
             (tmp_path / block.file_name).write_text(block.text, encoding="utf-8")
     observer = Observer(broker.port)
@@ -537,9 +537,7 @@ def test_the_drawing_of_the_page_becomes_robots_that_drive(
 
 
 def test_the_file_of_identities_of_the_page_is_read(tmp_path: Path) -> None:
-    [block] = [
-        block for block in blocks(ROOT / "docs/control.md") if block.file_name == "acme.yaml"
-    ]
+    [block] = [block for block in blocks(ROOT / "docs/robots.md") if block.file_name == "acme.yaml"]
     path = tmp_path / "acme.yaml"
     path.write_text(block.text, encoding="utf-8")
     first, second = load_identities(path, ["R1", "R2"])

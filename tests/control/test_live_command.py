@@ -39,9 +39,9 @@ def frames_of(address: str, count: int) -> list[dict[str, Any]]:
 
 
 def test_a_demo_is_watched_until_an_interrupt(tmp_path: Path) -> None:
-    """By the command of the page *From plan to robots*."""
+    """By the command of the page *The live page*."""
     write_plan(door(), tmp_path / "plan.json")
-    (block,) = [one for one in blocks(DOCS / "control.md") if one.info == ("sh", "live")]
+    (block,) = [one for one in blocks(DOCS / "live.md") if one.info == ("sh", "live")]
     _, name, *arguments = block.text.split()
     with Command(tmp_path, name, *arguments, "--time-scale", "4").running() as drive:
         address = address_of(drive)

@@ -1,6 +1,6 @@
 """What goes wrong: what this robot does, what the others do, what is reported; a test for each row.
 
-The rows are those of the table of docs/control.md, which names these tests. R1 works at N1, and R2
+The cases are those of docs/failures.md. R1 works at N1, and R2
 comes by there twice; there is another way for it as long as R1 is not at its home N5.
 
     N0  N1  N2  N3
@@ -539,12 +539,95 @@ def test_a_robot_that_is_passed_no_longer_is_planned_with_again(
 # --- the table ------------------------------------------------------------------------------------
 
 
-def rows() -> list[list[str]]:
-    """Return the cells of the table of the page, without its head."""
-    page = (ROOT / "docs/control.md").read_text(encoding="utf-8")
+TESTS = {
+    "late, stopped": (
+        "test_a_robot_that_is_late_or_stops",
+        "test_a_robot_that_stands_on_a_free_way_has_an_alarm_until_it_moves",
+        "test_rights_of_way_are_switched_where_robots_are_late",
+    ),
+    "in error, emergency stop, paused, in manual mode": (
+        "test_a_robot_that_is_not_fit",
+        "test_a_robot_that_is_passed_no_longer_is_planned_with_again",
+    ),
+    "lost: disconnected or silent": (
+        "test_a_robot_that_is_lost_and_comes_back",
+        "test_each_loss_of_a_robot_is_reported_also_by_silence",
+    ),
+    "the header of a message contradicts its topic": (
+        "test_a_message_whose_header_contradicts_its_topic_is_not_used",
+    ),
+    "its position is far from its last node": (
+        "test_a_robot_far_from_the_node_that_it_names_is_reported_until_it_is_there",
+    ),
+    "back without its order": ("test_a_robot_that_forgets_its_order",),
+    "back at another position": (
+        "test_a_robot_that_is_elsewhere_when_it_comes_back",
+        "test_a_robot_is_placed_where_nobody_is_and_not_with_an_old_order",
+    ),
+    "off its route, with the order of another control": ("test_a_robot_that_is_off_its_way",),
+    "states doubled, old, with a wrong field": (
+        "test_states_that_are_doubled_old_or_wrong",
+        "test_broken_states_do_no_harm_and_are_reported_once",
+    ),
+    "action FAILED or RETRIABLE": (
+        "test_work_that_fails_is_done_again",
+        "test_failed_work_is_done_again_though_a_withdrawal_is_just_ending",
+        "test_an_action_that_fails_is_sent_again_without_those_that_are_done",
+        "test_work_that_fails_is_skipped",
+    ),
+    "order or action rejected": ("test_an_order_that_is_refused",),
+    "cancelled its order because a withdrawal came late": (
+        "test_a_withdrawal_that_comes_after_the_next_order_costs_one_more_order",
+    ),
+    "broker lost": ("test_control_and_broker_are_killed_and_everything_goes_on",),
+    "control killed": (
+        "test_a_control_that_is_killed",
+        "test_a_start_on_a_journal_ends_the_alarms_of_before",
+        "test_control_and_broker_are_killed_and_everything_goes_on",
+    ),
+    "states arrive faster than the control reads them": ("test_a_flood_of_states_fills_no_memory",),
+    "journal cannot be written, for example on a full disk": (
+        "test_a_journal_that_cannot_be_written",
+    ),
+    "file of commands cannot be read or written": (
+        "test_commands_that_cannot_be_read_stop_no_robot",
+    ),
+    "lane closed (`close --to`)": (
+        "test_robots_drive_round_what_is_closed",
+        "test_a_closed_lane_is_closed_with_its_pieces",
+    ),
+    "vertex closed (`close`)": (
+        "test_what_is_closed_can_be_left",
+        "test_a_robot_whose_work_is_closed_waits_and_the_others_go_on",
+        "test_laps_are_driven_round_what_is_closed",
+    ),
+    "no new plan found": ("test_replanning_that_fails_is_reported_once_until_it_succeeds",),
+    "on hold (`hold R1`)": ("test_a_robot_on_hold",),
+    "all on hold (`hold`)": ("test_all_robots_are_held_and_let_go",),
+    "all stopped (`stop`)": (
+        "test_a_robot_that_is_stopped_pauses_if_its_factsheet_has_that",
+        "test_all_robots_stop_at_once_where_they_are_and_go_on",
+    ),
+    "battery too low for the way to a charging place": (
+        "test_a_robot_that_reaches_no_charging_place_has_an_alarm_and_gets_no_more",
+    ),
+    "a round of jobs finds no plan": (
+        "test_the_old_plan_goes_on_where_a_round_finds_none_and_this_is_reported_once",
+    ),
+    "a job that no robot can do": ("test_a_job_that_no_robot_can_do_is_reported_once",),
+    "removed from the map (`remove`)": ("test_a_robot_taken_off_the_floor_is_in_nobodys_way",),
+}
+"""The tests of each case of the page."""
+
+
+def list_cases() -> list[str]:
+    """Return the first cells of the table of the page, without its head."""
+    page = (ROOT / "docs/failures.md").read_text(encoding="utf-8")
     section = page.partition("## Failures\n")[2].partition("\n## ")[0]
     lines = [line for line in section.splitlines() if line.startswith("| ")]
-    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
+    assert all(len(row) == 4 for row in rows)
+    return [row[0] for row in rows]
 
 
 def names_of_tests(path: Path) -> list[str]:
@@ -554,12 +637,12 @@ def names_of_tests(path: Path) -> list[str]:
     return [name for name in names if name.startswith("test_")]
 
 
-def test_each_row_of_the_table_has_its_tests() -> None:
-    """And each test of this file has its row."""
+def test_each_case_of_the_page_has_its_tests() -> None:
+    """And each test of this file has its case."""
     files = (ROOT / "tests/control").glob("test_*.py")
     known = {name for path in files for name in names_of_tests(path)}
-    named = [name.strip(" `") for row in rows() for name in row[-1].split(",")]
-    assert all(len(row) == 5 for row in rows())
-    assert {*named} <= known
-    own = {*names_of_tests(Path(__file__))} - {"test_each_row_of_the_table_has_its_tests"}
-    assert own <= {*named}
+    assert list_cases() == list(TESTS)
+    named = {name for names in TESTS.values() for name in names}
+    assert named <= known
+    own = {*names_of_tests(Path(__file__))} - {"test_each_case_of_the_page_has_its_tests"}
+    assert own <= named
