@@ -75,7 +75,7 @@ def test_a_file_keeps_all_actions(tmp_path: Path, ending: str) -> None:
     assert dump_scenario(scenario)["actions"]["B"]["pick"] == [SCAN, "pick"]
 
 
-def test_a_workbook_keeps_actions_of_trips_and_jobs(tmp_path: Path) -> None:
+def test_a_workbook_keeps_actions_of_trips_jobs_and_places(tmp_path: Path) -> None:
     fleet = FleetBuilder(grid=["....", "...."])
     fleet.add_robot("R1", home="N0", target="N3", work=1, actions=[SCAN, "pick"])
     fleet.add_robot("R2", home="N4", stops=[("N6", 2, "drop"), "N7"])
@@ -85,7 +85,7 @@ def test_a_workbook_keeps_actions_of_trips_and_jobs(tmp_path: Path) -> None:
     with_jobs = document()
     with_jobs["map"] = {"grid": ["...."]}
     with_jobs["robots"] = [{"name": "R1", "home": "N0"}]
-    del with_jobs["actions"]
+    with_jobs["actions"] = {"N1": with_jobs["actions"]["rack"], "N2": {"drop": ["one", "two"]}}
     for job in with_jobs["jobs"]:
         for stop in job.get("stops", [job]):
             stop.update({key: "N3" for key in ("at", "pickup", "dropoff") if key in stop})

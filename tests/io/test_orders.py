@@ -91,6 +91,14 @@ def test_orders_of_opentcs_are_jobs(site: Path) -> None:
     assert (second.types, second.after, second.due) == (("fork",), ("T1",), None)
 
 
+def test_operations_of_opentcs_without_loads_are_actions_of_stops(site: Path) -> None:
+    order = go("Gate:Load cargo", "B:Drill", "D:Unload cargo", "C", "C:CHARGE", name="T1")
+    (job,) = read(site, [order])
+    assert [[action.action for action in stop.actions] for stop in job.stops] == [
+        [], ["Drill"], [], [], []
+    ]  # fmt: skip
+
+
 def test_bodies_of_requests_have_the_names_under_which_they_are_posted(site: Path) -> None:
     assert [job.name for job in read(site, {"T7": go("B"), "T8": go("C")})] == ["T7", "T8"]
     assert [job.name for job in read(site, go("B"), "T9.json")] == ["T9"]

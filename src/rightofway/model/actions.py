@@ -7,6 +7,7 @@ does its usual action. The fleet control translates actions to messages.
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -36,6 +37,10 @@ during an action; during a ``hard`` one it does neither."""
 
 ActionUse = Literal["work", "pick", "drop"]
 """The kind of a stop: the load grows at a ``pick`` and falls at a ``drop``."""
+
+
+UNLOAD = re.compile(r"unload|drop|deliver", re.IGNORECASE)
+LOAD = re.compile(r"load|pick|fetch", re.IGNORECASE)
 
 
 class Entries(tuple[tuple[str, Any], ...]):
@@ -256,3 +261,8 @@ def read_drawn_actions(level: Level, roadmap: Roadmap) -> tuple[PlaceActions, ..
 def find_use(load: int) -> ActionUse:
     """Return the kind of a stop by the change of the load there."""
     return "work" if load == 0 else "pick" if load > 0 else "drop"
+
+
+def find_load_change(action: str) -> int:
+    """Return the change of the load by an action of another program, as far as its type tells."""
+    return -1 if UNLOAD.search(action) else 1 if LOAD.search(action) else 0

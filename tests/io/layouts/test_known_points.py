@@ -195,6 +195,28 @@ def test_report_positions_of_opentcs_are_driven_through_only(tmp_path: Path) -> 
     assert [vertex.name for vertex in vertices if vertex.is_passed] == ["Cross"]
 
 
+def test_operations_of_locations_are_actions_at_their_points(tmp_path: Path) -> None:
+    """Those of a link replace those of the type; of two of a kind, an order chooses."""
+    names = ("CHARGE", "NOP", "Load cargo", "Unload cargo", "Cut", "Drill")
+    operations = "".join(f'<allowedOperation name="{name}"/>' for name in names)
+    link = '<link point="Cross"><allowedOperation name="Cut"/></link></location>'
+    text = (HERE / "plant.xml").read_text("utf-8")
+    text = text.replace('<allowedOperation name="Cut"/>', operations)
+    text = text.replace('<link point="End"/></location>', f'<link point="End"/>{link}')
+    (tmp_path / "plant.xml").write_text(text, "utf-8")
+    found = read_layout(tmp_path / "plant.xml")
+    assert isinstance(found, Layout)
+    dock, cross, end = found.levels[0].vertices
+    assert (dock.actions, dict(cross.actions)) == ((), {"work": '{"action": "Cut"}'})
+    assert dict(end.actions) == {
+        "pick": '{"action": "Load cargo"}', "drop": '{"action": "Unload cargo"}'
+    }  # fmt: skip
+    assert [vertex.is_charging for vertex in (dock, cross, end)] == [True, False, True]
+    assert "operation Drill has no effect on plans: Saw 1" in tell_notes(found)
+    scenario = scenario_on("Dock", "Saw 1", layout="plant.xml")
+    assert [own.work[0].action for own in scenario.actions] == ["Cut"]
+
+
 def test_old_plant_models_have_other_names_for_positions() -> None:
     assert points(level_of("plant-5.xml")) == {
         "A": at(-1.5, 2.25),

@@ -29,7 +29,7 @@ from rightofway.io.layouts.draft import MICRO, Curve, LayoutDraft, LevelDraft, f
 from rightofway.io.layouts.nurbs import CHORD_ERROR, Nurbs
 from rightofway.io.source import Source
 from rightofway.model import Blocking
-from rightofway.model.actions import freeze_value, thaw_value
+from rightofway.model.actions import find_load_change, find_use, freeze_value, thaw_value
 from rightofway.site.layout import Layout, LayoutVertex, Station
 
 NODE_PROPERTIES = ("vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties")
@@ -45,7 +45,7 @@ CHARGING = ("startCharging", "stopCharging")
 """The actions of a charging place."""
 
 LOADS = ("pick", "drop")
-"""The actions of nodes that robots do at stops of jobs."""
+"""The actions of VDA 5050 that change the load."""
 
 NODE_KEYS = {"nodeId", "nodeName", "nodeDescription", "mapId", "nodePosition", *NODE_PROPERTIES}
 EDGE_KEYS = {"edgeId", "edgeName", "edgeDescription", "startNodeId", "endNodeId", *EDGE_PROPERTIES}
@@ -164,14 +164,16 @@ def _add_node(level: LevelDraft, node: Source, draft: LayoutDraft) -> None:
 
 
 def _take_actions(own: Source, actions: dict[str, str]) -> set[str]:
-    """Add what robots do where they pick and drop loads; return the types that have this action."""
-    used = set[str]()
+    """Add what robots do where they pick and drop loads; return the action types that count."""
+    kinds = list[tuple[str, Source]]()
     for source in own.read_items_under(*ACTIONS):
         kind = source.value.get("actionType") if isinstance(source.value, dict) else None
-        if kind not in LOADS:
-            continue
+        if isinstance(kind, str) and find_load_change(kind):
+            kinds.append((kind, source))
+    used = set[str]()
+    for kind, source in sorted(kinds, key=lambda own: own[0] not in LOADS):
         written = json.dumps(_read_action(source, kind))
-        if actions.setdefault(kind, written) == written:
+        if actions.setdefault(find_use(find_load_change(kind)), written) == written:
             used.add(kind)
     return used
 

@@ -2,10 +2,14 @@
 
 Lengths are millimetres there, speeds millimetres per second; a speed of 0 means that a path is not
 driven in that direction. Control points are in coordinates of the drawing, so they are not read.
+Operations of locations are the actions of robots at their points.
 """
 
 from __future__ import annotations
 
+import json
+import re
+from collections import defaultdict
 from dataclasses import replace
 from fractions import Fraction
 
@@ -15,6 +19,7 @@ from rightofway.io.faults import read_both
 from rightofway.io.layouts.draft import LayoutDraft, LevelDraft, find_name, name_piece
 from rightofway.io.layouts.xml_tree import Element
 from rightofway.io.source import Source
+from rightofway.model.actions import ActionUse, find_load_change, find_use
 from rightofway.site.layout import Layout, LayoutVertex, Station
 from rightofway.site.zones import NamedZone
 
@@ -24,6 +29,13 @@ VERSIONS = ("0.0.2", "0.0.3", "0.0.4", "0.0.5", "6", "7")
 MILLIMETRE = Fraction(1, 1000)
 X, Y = ("positionX", "xPosition"), ("positionY", "yPosition")
 
+CHARGE = re.compile(r"(?<!dis)charg", re.IGNORECASE)
+
+IDLE = {"", "MOVE", "NOP", "PARK"}
+"""Operations that are no work; openTCS defines them."""
+
+Operations = dict[tuple[str, ActionUse], dict[str, str]]
+"""For points and kinds of stops: their operations, each with the name of its location."""
 
 USED = {
     *X, *Y, "destinationPoint", "id", "length", "link", "locked", "maxReverseVelocity",
@@ -55,21 +67,14 @@ def read(root: Element) -> Layout:
         draft.attempt_vertex(find_name(point, "name"), _add_point, level, point, draft)
     for path in root.list_all("path"):
         draft.faults.attempt("", _add_path, level, path, paths, draft)
-    chargers = {
-        kind.value.get("name")
-        for kind in root.list_all("locationType")
-        for operation in kind.list_all("allowedOperation")
-        if "charge" in operation.value.get("name", "").lower()
+    of_types = {
+        kind.value.get("name", ""): _list_operations(kind) for kind in root.list_all("locationType")
     }
-    charging: set[str] = set()
+    operations: Operations = defaultdict(dict)
     for location in root.list_all("location"):
-        points = draft.faults.attempt("", _add_location, level, location, draft) or []
-        if location.value.get("type") in chargers:
-            charging.update(points)
-    level.vertices = {
-        name: replace(vertex, is_charging=True) if name in charging else vertex
-        for name, vertex in level.vertices.items()
-    }
+        if draft.faults.attempt("", _add_location, level, location, draft):
+            _add_operations(level, location, of_types, operations)
+    _add_actions(level, operations, draft)
     for kind in ("vehicle", "vehicleType", "staticRoute"):
         for part in root.list_all(kind):
             draft.note_unused_key(kind, name_piece(part, "name"))
@@ -149,15 +154,52 @@ def _add_path(
             level.connect(path, *ends, length=length, max_speed=speed * MILLIMETRE)
 
 
-def _add_location(level: LevelDraft, location: Element, draft: LayoutDraft) -> list[str]:
-    """Add a location as a station, and return its points."""
+def _add_location(level: LevelDraft, location: Element, draft: LayoutDraft) -> bool:
+    """Add a location as a station, and return whether it is in use."""
     points = [link.need("point").read_text() for link in location.list_all("link")]
     if _is_locked(location):
         draft.repair(Fact("locked location"), name_piece(location, "name"))
-        return []
+        return False
     _note_unused(location, draft)
     level.stations.append(Station(name=location.need("name").read_text(), vertices=tuple(points)))
-    return points
+    return True
+
+
+def _list_operations(owner: Element) -> list[str]:
+    """Return the operations of vehicles that a type of locations, or a link of one, allows."""
+    return [own.value.get("name", "") for own in owner.list_all("allowedOperation")]
+
+
+def _add_operations(
+    level: LevelDraft, location: Element, of_types: dict[str, list[str]], operations: Operations
+) -> None:
+    """Add the operations at the points of a location; those of a link replace those of the type."""
+    of_type = of_types.get(location.value.get("type", ""), [])
+    for link in location.list_all("link"):
+        point = link.value["point"]
+        for operation in _list_operations(link) or of_type:
+            if CHARGE.search(operation) and point in level.vertices:
+                level.vertices[point] = replace(level.vertices[point], is_charging=True)
+            elif is_work(operation):
+                use = find_use(find_load_change(operation))
+                operations[point, use].setdefault(operation, name_piece(location, "name"))
+
+
+def is_work(operation: str) -> bool:
+    """Return whether a vehicle does something in an operation, other than charging."""
+    return operation not in IDLE and not CHARGE.search(operation)
+
+
+def _add_actions(level: LevelDraft, operations: Operations, draft: LayoutDraft) -> None:
+    """Add operations as actions of points; note those of which an order would have to choose."""
+    for (point, use), names in operations.items():
+        vertex = level.vertices.get(point)
+        if vertex is None or len(names) > 1:
+            for operation, location in names.items():
+                draft.note_unused_key(f"operation {operation}", location)
+        else:
+            action = json.dumps({"action": next(iter(names))})
+            level.vertices[point] = replace(vertex, actions=(*vertex.actions, (use, action)))
 
 
 def _add_block(

@@ -86,7 +86,7 @@ def list_losses(layout: Layout, says: frozenset[str]) -> Iterator[Fact]:
         "stations": [station.name for level in levels for station in level.stations],
         "parking places": [vertex.name for vertex in vertices if vertex.is_parking],
         "charging places": [vertex.name for vertex in vertices if vertex.is_charging],
-        "actions of vertices": [vertex.name for vertex in vertices if vertex.actions],
+        **_list_actions(vertices),
         PASSED_VERTICES: [vertex.name for vertex in vertices if vertex.is_passed],
         "headings at vertices": [vertex.name for vertex in vertices if vertex.heading is not None],
         "orientations along lanes": [
@@ -113,6 +113,15 @@ def list_losses(layout: Layout, says: frozenset[str]) -> Iterator[Fact]:
     )
     if lost:
         yield Fact("left out of format", losses=lost)
+
+
+def _list_actions(vertices: Iterable[LayoutVertex]) -> dict[str, list[str]]:
+    """Return the vertices with actions: LIF has those that change the load, see its reader."""
+    has = {vertex.name: {use for use, _ in vertex.actions} for vertex in vertices}
+    return {
+        "actions of vertices": [name for name, uses in has.items() if uses - {"work"}],
+        "actions of vertices without loads": [name for name, uses in has.items() if "work" in uses],
+    }
 
 
 def _name_edges(edges: Iterable[LayoutEdge]) -> list[str]:
@@ -204,7 +213,7 @@ def _make_lif_node(vertex: LayoutVertex, types: Sequence[str]) -> dict[str, Any]
         {"actionType": name, "requirementType": "CONDITIONAL", "blockingType": "HARD"}
         for name in ("startCharging", "stopCharging")
         if vertex.is_charging
-    ] + [_make_lif_action(json.loads(text)) for _, text in vertex.actions]
+    ] + [_make_lif_action(json.loads(text)) for use, text in vertex.actions if use != "work"]
     more: dict[str, Any] = {"actions": actions} if actions else {}
     if vertex.heading is not None:
         more["theta"] = _convert_to_radians(vertex.heading)

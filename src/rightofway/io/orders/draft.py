@@ -21,11 +21,12 @@ NEVER = re.compile(r"\+?[0-9]{5,}-.*")
 
 @dataclass(slots=True, kw_only=True)
 class OrderStop:
-    """A stop of an order: its place as written, its work time [s] and its change of load."""
+    """A stop of an order: its place as written, work time [s], change of load and actions."""
 
     at: Source
     work: Fraction | None = None
     load: int = 0
+    actions: tuple[str, ...] = ()
 
 
 @dataclass(slots=True, kw_only=True)
@@ -166,6 +167,7 @@ def _dump_stops(
             "at": stop.at.value,
             **({"work": format_number(seconds * second)} if seconds else {}),
             **({"load": stop.load} if stop.load else {}),
+            **({"actions": list(stop.actions)} if stop.actions else {}),
         }
 
 

@@ -3,17 +3,18 @@
 JSON is what ``GET /v1/transportOrders`` returns, a list of orders; or the body of ``POST
 /v1/transportOrders/NAME``, one or several by their names. XML is a ``tcsOrderSet``.
 
-A destination is a location or a point. Operations that load or unload change the load by 1. Orders
-of one sequence are done in turn. Orders that are done or failed are left out, as are those to park
-and to charge; of an order in work, the destinations that are left.
+A destination is a location or a point. Operations that load or unload change the load by 1, and the
+robot does its usual action for loads, or that of the place; other operations are its actions.
+Orders of one sequence are done in turn. Orders that are done or failed are left out, as are those
+to park and to charge; of an order in work, the destinations that are left.
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from rightofway.io.layouts.opentcs import is_work
 from rightofway.io.layouts.xml_tree import Element
 from rightofway.io.orders.draft import (
     ForeignOrder,
@@ -23,6 +24,7 @@ from rightofway.io.orders.draft import (
     read_instant,
 )
 from rightofway.io.source import Source
+from rightofway.model.actions import find_load_change
 
 NO_TYPES = {"-", "*"}
 """Types of orders for any robot."""
@@ -32,9 +34,6 @@ IDLE_TYPES = {"Charge", "Park"}
 
 ENDED = {"FINISHED", "FAILED", "UNROUTABLE", "WITHDRAWN"}
 """States of orders that nobody does any more."""
-
-UNLOAD = re.compile(r"unload|drop|deliver", re.IGNORECASE)
-LOAD = re.compile(r"load|pick|fetch", re.IGNORECASE)
 
 
 def recognizes(data: Any) -> bool:
@@ -127,8 +126,9 @@ def _list_stops(order: Source) -> Iterator[OrderStop]:
 
 def _make_stop(place: Source, operation: str) -> OrderStop:
     place.read_text()
-    load = -1 if UNLOAD.search(operation) else 1 if LOAD.search(operation) else 0
-    return OrderStop(at=place, load=load)
+    load = find_load_change(operation)
+    actions = (operation,) if is_work(operation) and not load else ()
+    return OrderStop(at=place, load=load, actions=actions)
 
 
 def _follow_sequence(sequence: Source | None, job: ForeignOrder, sequences: dict[str, str]) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +24,7 @@ from rightofway.io.tables import (
 )
 from rightofway.io.workbook.sheets import Sheet, find_reference, read_sheets
 
-SHEETS = ("map", "robots", "rules", "vertices", "edges", "closures", "jobs", "batteries")
+SHEETS = ("map", "robots", "rules", "vertices", "edges", "closures", "jobs", "batteries", "actions")
 """Sheets that are read, by lower-case name."""
 
 ATTRIBUTES = ("barred", "surcharge", "pass", "heading")
@@ -121,7 +121,8 @@ def _add_work(
     cells: dict[Steps, Where],
     faults: Faults,
 ) -> None:
-    """Add the jobs and the batteries."""
+    """Add the jobs, the batteries and the actions of places."""
+    from rightofway.io.scenario.shape import PlaceActionsDocument
     from rightofway.io.scenario.work_shape import BatteryDocument, JobDocument
 
     if "jobs" in sheets:
@@ -131,16 +132,34 @@ def _add_work(
         document["jobs"] = jobs.part
         cells |= {("jobs",): sheet.location, **jobs.cells}
         faults.add(jobs.faults)
-    if "batteries" in sheets:
-        sheet, known = sheets["batteries"], ["name", *list_keys(BatteryDocument)]
-        table = read_records(
-            sheet.list_rows(), sheet.locate_cell, ("batteries",), known, noun="a battery"
-        )
-        names = [str(battery.pop("name", "")) for battery in table.part]
-        document["batteries"] = dict(zip(names, table.part, strict=True))
-        for (key, index, *steps), place in table.cells.items():
-            cells[key, names[int(index)], *steps] = place
-        faults.add(table.faults)
+    for key, shape, noun in (
+        ("batteries", BatteryDocument, "a battery"),
+        ("actions", PlaceActionsDocument, "actions of a place"),
+    ):
+        if key in sheets:
+            _add_named(sheets[key], (key, list_keys(shape), noun), document, cells, faults)
+
+
+def _add_named(
+    sheet: Sheet,
+    records: tuple[str, Sequence[str], str],
+    document: dict[str, Any],
+    cells: dict[Steps, Where],
+    faults: Faults,
+) -> None:
+    """Add a mapping with the names of rows as keys; ``records`` are its key, keys and noun."""
+    key, known, noun = records
+    table = read_records(sheet.list_rows(), sheet.locate_cell, (key,), ["name", *known], noun=noun)
+    names = [str(record.pop("name", "")) for record in table.part]
+    for index, name in enumerate(names):
+        if name in names[:index]:
+            message = f"{quote(name)} is in {{other}} already (take one out)"
+            faults.note(table.cells[key, index], message, table.cells[key, names.index(name)])
+    document[key] = dict(zip(names, table.part, strict=True))
+    cells[key,] = sheet.location
+    for (_, row, *steps), place in table.cells.items():
+        cells[key, names[int(row)], *steps] = place
+    faults.add(table.faults)
 
 
 def _read_grid(

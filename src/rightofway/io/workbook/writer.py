@@ -68,6 +68,7 @@ HELP = (
     "parking, robots without a home start there. With true in column pass, robots only drive",
     "through the vertex.",
     "closures, if needed: a place in column at, or [A, B] in column edge; from, until, radius.",
+    "actions, if needed: a place in column name; work, pick, drop: what robots do there.",
     "rules: an empty value stands for the default. Other sheets are not read.",
 )
 
@@ -137,9 +138,10 @@ def format_workbook(document: dict[str, Any]) -> bytes:
         _write_closures(workbook.create_sheet("closures"), document["closures"])
     if "jobs" in document:
         _write_jobs(workbook.create_sheet("jobs"), document["jobs"])
-    if "batteries" in document:
-        batteries = [{"name": name, **own} for name, own in document["batteries"].items()]
-        _write_records(workbook.create_sheet("batteries"), ["name"], batteries)
+    for key in ("batteries", "actions"):
+        if key in document:
+            records = [{"name": name, **own} for name, own in document[key].items()]
+            _write_records(workbook.create_sheet(key), ["name"], records)
     sheet = workbook.create_sheet("how to")
     sheet.column_dimensions["A"].width = 100
     for line in HELP:
@@ -149,7 +151,7 @@ def format_workbook(document: dict[str, Any]) -> bytes:
 
 def _refuse_more(document: dict[str, Any]) -> None:
     """Refuse a document with parts that would be lost."""
-    known = {"format", "map", "robots", "rules", "units", "start", "closures", *OF_JOBS}
+    known = {"format", "map", "robots", "rules", "units", "start", "closures", "actions", *OF_JOBS}
     more = document.keys() - known
     roadmap = document["map"].get("roadmap", {})
     more |= roadmap.keys() - {"vertices", "edges", *SPOTS}
