@@ -96,8 +96,17 @@ def command_help(*path: str) -> Iterable[str]:
 
 def planner_list() -> Iterable[str]:
     """Return the planners of this package."""
-    rows = [(f"[`{spec.name}`]({spec.name}.md)", spec.summary) for spec in PLANNERS]
+    rows = [
+        (f"[`{spec.name}`]({find_planner_page(spec.name).name})", spec.summary) for spec in PLANNERS
+    ]
     return table(("planner", "method"), rows)
+
+
+def find_planner_page(planner: str) -> Path:
+    """Return the page with the options of a planner."""
+    block = f"<!-- generated: planner-options {planner} -->\n"
+    pages = sorted((ROOT / "docs" / "planners").glob("*.md"))
+    return next(page for page in pages if block in page.read_text(encoding="utf-8"))
 
 
 def planner_options(planner: str) -> Iterable[str]:
