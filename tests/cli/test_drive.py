@@ -22,6 +22,16 @@ def plan(cli: Cli, door: Path, tmp_path: Path) -> Path:
 DEMO = ("--demo", "--time-scale", "inf")
 
 
+@pytest.mark.parametrize(("look_ahead", "most"), [("1", 2), ("3", 4)])
+def test_the_base_has_at_most_as_many_edges_as_asked_for(
+    cli: Cli, plan: Path, look_ahead: str, most: int
+) -> None:
+    done = cli("drive", plan, "--dry-run", "--look-ahead", look_ahead)
+    orders = [json.loads(line.split(" ", 1)[1]) for line in done.out.splitlines()]
+    sizes = {len(order["nodes"]) for order in orders if "nodes" in order}
+    assert max(sizes) == most
+
+
 def test_the_story_goes_to_standard_error_and_the_report_to_standard_output(
     cli: Cli, plan: Path
 ) -> None:

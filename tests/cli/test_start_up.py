@@ -101,6 +101,7 @@ def test_help_imports_commands_of_rooms_above_and_nothing_else_of_them() -> None
         "rightofway.control.command_line.probe",
         "rightofway.control.command_line.robots",
         "rightofway.control.command_line.watch",
+        "rightofway.control.messages",
         "rightofway.studio",
         "rightofway.studio.command_line",
     }

@@ -199,6 +199,26 @@ def test_the_checklist_is_followed_word_for_word(tmp_path: Path, broker: Mosquit
             assert "A1 sets out" not in driving.log.partition("A2: go")[0]
 
 
+@pytest.mark.parametrize(
+    ("look_ahead", "parts", "kind"),
+    [(1, 1.0, "brakes before end"), (2, 2.0, "base longer than braking")],
+)
+def test_the_base_of_a_longer_look_ahead_is_longer_than_the_braking_distance(
+    look_ahead: int, parts: float, kind: str
+) -> None:
+    """At 1 m/s and 1/3 m/s², the braking distance is 1.5 m; each edge has 1 m."""
+    names = [robot.name for robot in door().scenario.robots]
+    fleet = make_simulated_identities(names)
+    fit = PlanFit(plan=door(), identities=fleet, robot=1, look_ahead=look_ahead)
+    sheet = {"physicalParameters": {"decelerationMax": 1 / 3}}
+    found = {it.fact.kind: it.fact.values for it in fit.compare({}, sheet)}
+    assert (found["length of base"]["parts"], found["length of base"]["least"]) == (
+        look_ahead,
+        parts,
+    )
+    assert kind in found
+
+
 def test_a_robot_that_is_not_at_its_home_is_a_finding(tmp_path: Path, broker: Mosquitto) -> None:
     """The fit is against the second robot, which begins at N2; the first one is at N0."""
     write_plan(door(), tmp_path / "plan.json")

@@ -25,6 +25,7 @@ from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd, format_ti
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.identities import Identity, make_simulated_identities
 from rightofway.control.laps import LapsToDrive
+from rightofway.control.messages import LOOK_AHEAD
 from rightofway.control.notices import Notices
 from rightofway.control.order_map import make_order_maps
 from rightofway.control.simulated_battery import make_simulated_battery
@@ -57,6 +58,7 @@ def drive_demo(
     journal: Path | None = None,
     pace: float | None = None,
     stays: bool = False,
+    look_ahead: int = LOOK_AHEAD,
 ) -> DriveResult:
     """Have simulated robots drive a plan by right of way, until all jobs are done.
 
@@ -93,6 +95,8 @@ def drive_demo(
         How many simulated seconds `wait_until` lets pass in one, for pages; None without pauses.
     stays
         With a journal, whether to go on when all robots have come to the end of their way.
+    look_ahead
+        The largest number of edges that are released ahead of a robot.
 
     Raises
     ------
@@ -115,7 +119,9 @@ def drive_demo(
     record = None if journal is None else DemoRecord(journal, clock, pace, stays=stays)
     try:
         control = FleetControl(
-            record.journal if record else NothingKept(), roadmap=plan.scenario.roadmap
+            record.journal if record else NothingKept(),
+            look_ahead=look_ahead,
+            roadmap=plan.scenario.roadmap,
         )
         dispatcher = Dispatcher(control, plan, repeated)
         demo = _Demo(dispatcher, durations, identities, clock, record, watch=watch, report=report)

@@ -24,7 +24,7 @@ from rightofway.control.fleet_control import FleetControl
 from rightofway.control.identities import Identity
 from rightofway.control.journal import BatchedJournal, Entry, Journal, JournalFailed
 from rightofway.control.laps import LapsToDrive
-from rightofway.control.messages import Message
+from rightofway.control.messages import LOOK_AHEAD, Message
 from rightofway.control.notices import EVERY_KIND, Notices
 from rightofway.control.order_map import OrderMap, make_order_maps
 from rightofway.control.round_worker import ProcessRounds
@@ -89,6 +89,8 @@ class Driver:
     began
         When the run began, as the clock of the machine has it [s]: closures of the scenario count
         from then on; None for now.
+    look_ahead
+        The largest number of edges that are released ahead of a robot.
 
     Attributes
     ----------
@@ -116,6 +118,7 @@ class Driver:
         watch: Callable[[Letter, bool], None] | None = None,
         metrics: FleetMetrics | None = None,
         began: float | None = None,
+        look_ahead: int = LOOK_AHEAD,
     ) -> None:
         names = [robot.name for robot in plan.scenario.robots]
         maps = make_order_maps(plan.scenario, identities)
@@ -126,7 +129,9 @@ class Driver:
         self.is_stopped, self._is_connected = False, False
         self._turned = time.monotonic()  # when the last turn began, or a connection failed
         roadmap = plan.scenario.roadmap
-        self.control = FleetControl(self._journal, report=notices.report_on, roadmap=roadmap)
+        self.control = FleetControl(
+            self._journal, look_ahead=look_ahead, report=notices.report_on, roadmap=roadmap
+        )
         repeated = None if laps is None else LapsToDrive(plan, laps)
         rounds = None if plan.scenario.jobs is None else ProcessRounds()
         self._dispatcher = dispatcher = Dispatcher(self.control, plan, repeated, rounds=rounds)

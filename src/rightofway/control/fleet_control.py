@@ -17,7 +17,7 @@ from typing import Literal
 
 from rightofway.control.journal import Entry, Journal, JournalFailed
 from rightofway.control.ledger import Ledger, make_plan_entry
-from rightofway.control.messages import Condition, InstantAction, Message, StateReport
+from rightofway.control.messages import LOOK_AHEAD, Condition, InstantAction, Message, StateReport
 from rightofway.control.orders import MayBegin, make_order, make_update
 from rightofway.control.proofs import (
     find_proven_visit,
@@ -45,9 +45,6 @@ class LedgerFailed(Exception):
 
 UNSOUND = (JournalFailed, LedgerFailed)
 """Exceptions after which nothing may be sent; the guards of what comes in let them pass."""
-
-LOOK_AHEAD = 4
-"""Released parts that a robot has not reached yet, at most: re-planning keeps the rest free."""
 
 LONG_ORDER = 50
 """Jobs after which a robot gets a new order: its states list all that it has done in this one."""

@@ -10,6 +10,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
+LOOK_AHEAD = 4
+"""Released edges that a robot has not reached yet, at most: re-planning keeps the rest free."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OrderNode:

@@ -20,8 +20,8 @@ from rightofway.control.endpoints import (
     compare_size,
     compare_speed,
 )
-from rightofway.control.fleet_control import LOOK_AHEAD
 from rightofway.control.identities import Identity
+from rightofway.control.messages import LOOK_AHEAD
 from rightofway.control.order_map import OrderMap
 from rightofway.control.vda5050 import Factsheet, read
 from rightofway.errors import InputError, escape_text
@@ -44,11 +44,14 @@ class PlanFit:
         Of all its robots.
     robot
         The number of the robot.
+    look_ahead
+        The largest number of edges that a control releases ahead of it.
     """
 
     plan: Plan
     identities: Sequence[Identity]
     robot: int
+    look_ahead: int = LOOK_AHEAD
 
     def compare(
         self, state: Mapping[str, Any], sheet: Mapping[str, Any] | None
@@ -115,7 +118,7 @@ class PlanFit:
         yield "note", Fact("nodes to know", number=len(nodes), names=nodes)
         if pieces := tuple(name for name in nodes if name in self._list_pieces()):
             yield "note", Fact("pieces of lanes", names=pieces)
-        yield from _compare_base(orders, sheet)
+        yield from _compare_base(orders, sheet, self.look_ahead)
         features = get_mapping(sheet, "protocolFeatures")
         listed = {
             action.get("actionType")
@@ -153,7 +156,7 @@ class PlanFit:
 
 
 def _compare_base(
-    orders: Sequence[Mapping[str, Any]], sheet: Mapping[str, Any]
+    orders: Sequence[Mapping[str, Any]], sheet: Mapping[str, Any], look_ahead: int
 ) -> Iterator[tuple[Verdict, Fact]]:
     """Compare the least length of a full base with the braking distance.
 
@@ -164,12 +167,12 @@ def _compare_base(
     if not lengths:
         return
     spans = [
-        sum(leg[first : first + LOOK_AHEAD])
+        sum(leg[first : first + look_ahead])
         for leg in legs
-        for first in range(max(1, len(leg) - LOOK_AHEAD + 1))
+        for first in range(max(1, len(leg) - look_ahead + 1))
     ]
     least, most, shortest = (round(length, 3) for length in (min(spans), max(spans), min(lengths)))
-    base = Fact("length of base", parts=LOOK_AHEAD, least=least, most=most, shortest=shortest)
+    base = Fact("length of base", parts=look_ahead, least=least, most=most, shortest=shortest)
     yield "note", base
     physical = get_mapping(sheet, "physicalParameters")
     braking = physical.get("decelerationMax", physical.get("maximumDeceleration"))

@@ -9,6 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from rightofway.cli.options import Whole
+from rightofway.control.messages import LOOK_AHEAD
+
 if TYPE_CHECKING:
     from rightofway.control.broker import Broker
 
@@ -75,6 +78,14 @@ def add_identities_option(command: Any) -> Any:
     return click.option("--identities", metavar="FILE",
                         help="Manufacturer and serial number of each robot (YAML)."
                         )(command)  # fmt: skip
+
+
+def add_look_ahead_option(command: Any) -> Any:
+    """Add the option for the length of the base."""
+    return click.option("--look-ahead", type=Whole(1), default=LOOK_AHEAD, show_default=True,
+                        metavar="COUNT",
+                        help="The most edges released ahead of a robot. All of them together"
+                        " should be longer than its braking distance.")(command)  # fmt: skip
 
 
 def add_broker_options(command: Any) -> Any:

@@ -31,7 +31,11 @@ from rightofway.cli.terminal import (
     say,
     say_written,
 )
-from rightofway.control.command_line.broker_options import Login, add_broker_options
+from rightofway.control.command_line.broker_options import (
+    Login,
+    add_broker_options,
+    add_look_ahead_option,
+)
 from rightofway.control.command_line.event_log import EventLog, Level, add_log_options
 from rightofway.control.command_line.output import Output
 from rightofway.control.command_line.watch import WatchPage, add_page_options
@@ -106,6 +110,7 @@ def _count(_context: click.Context, _parameter: click.Parameter, given: str | No
 @click.option("--off", multiple=True, metavar="ROBOT",
               help="At a broker, begin a new journal without this robot of the plan, until it is"
               " placed. May be repeated.")  # fmt: skip
+@add_look_ahead_option
 @add_log_options
 @click.option("--time-scale", default="10", show_default=True, callback=_read_factor,
               metavar="FACTOR",
@@ -140,6 +145,7 @@ def drive(
     stay: bool,
     hold: bool,
     off: tuple[str, ...],
+    look_ahead: int,
     log: str,
     log_level: Level,
     time_scale: float,
@@ -204,15 +210,17 @@ def drive(
             host=host,
             off=off,
             holds=hold,
+            look_ahead=look_ahead,
         ).drive(laps=laps, switch=switch, stays=stay)
     if dry_run:
         from rightofway.control.demo import drive_demo
 
-        drive_demo(opened, identities=known, watch=_show)
+        drive_demo(opened, identities=known, watch=_show, look_ahead=look_ahead)
         return 0
     _drive_demo(
         known, journal, output, time_scale,
         delays=delay_texts(delays), seed=seed, laps=laps, switch=switch, stays=stay,
+        look_ahead=look_ahead,
     )  # fmt: skip
     return 0
 

@@ -15,6 +15,7 @@ from rightofway.control.command_line.broker_options import (
     Login,
     add_identities_option,
     add_login_options,
+    add_look_ahead_option,
 )
 from rightofway.errors import InputError, quote
 
@@ -39,6 +40,7 @@ Examples:
               " --robot.")  # fmt: skip
 @add_identities_option
 @click.option("--robot", metavar="NAME", help="The robot in the plan.")
+@add_look_ahead_option
 @click.option("--order", "node", metavar="NODE",
               help="Send the orders of the probe without asking, at this node. By default the"
               " command asks first, and takes the node where the robot is.")  # fmt: skip
@@ -50,6 +52,7 @@ def probe(
     plan: str | None,
     identities: str | None,
     robot: str | None,
+    look_ahead: int,
     node: str | None,
     as_json: bool,
 ) -> int:
@@ -63,7 +66,7 @@ def probe(
 
     if login.broker is None:
         raise click.UsageError("a robot is at a broker (give --broker)")
-    fit = _choose_robot(plan, identities, robot)
+    fit = _choose_robot(plan, identities, robot, look_ahead)
     manufacturer, serial = _read_identity(identity, fit)
     address = login.make_broker()
 
@@ -84,7 +87,9 @@ def probe(
     return int(result.count("departs") + result.count("blocks") > 0)
 
 
-def _choose_robot(plan: str | None, identities: str | None, robot: str | None) -> PlanFit | None:
+def _choose_robot(
+    plan: str | None, identities: str | None, robot: str | None, look_ahead: int
+) -> PlanFit | None:
     """Return the robot of a plan with which the real one is compared; None without a plan."""
     if plan is None and identities is None and robot is None:
         return None
@@ -97,7 +102,8 @@ def _choose_robot(plan: str | None, identities: str | None, robot: str | None) -
     opened = read_plan(plan)
     names = [known.name for known in opened.scenario.robots]
     fleet = load_identities(identities, names)
-    return PlanFit(plan=opened, identities=fleet, robot=find_robot(names, robot))
+    number = find_robot(names, robot)
+    return PlanFit(plan=opened, identities=fleet, robot=number, look_ahead=look_ahead)
 
 
 def _read_identity(identity: str | None, fit: PlanFit | None) -> tuple[str, str]:

@@ -51,6 +51,8 @@ class Service:
         Robots that are off the floor when a new journal begins.
     holds
         Whether all robots are on hold when a new journal begins.
+    look_ahead
+        The largest number of edges that are released ahead of a robot.
     """
 
     broker: Broker
@@ -62,6 +64,7 @@ class Service:
     host: str
     off: Sequence[str]
     holds: bool
+    look_ahead: int
 
     def drive(self, *, laps: int | None, switch: bool, stays: bool) -> int:
         """Drive the plan, and report; return the exit code."""
@@ -86,6 +89,7 @@ class Service:
                         watch=log.trace if log.has_messages else None,
                         metrics=counted,
                         began=began,
+                        look_ahead=self.look_ahead,
                     )
                 if counted is not None and self.metrics is not None:
                     counted.serve(self.metrics, self.host, driver.report_health)
