@@ -123,3 +123,18 @@ def test_times_with_a_turn_rate_are_those_of_a_robot_that_drives_alone(rate: int
         assert least is not None
         time = find_ticks(travel, tail, head) * tick
         assert time == int(least[0]) * alone.problem.clock.tick
+
+
+def test_times_with_a_turn_rate_on_a_roadmap_with_a_dead_end() -> None:
+    """No lane leaves the first vertex; A, B, C is 2 + 2 long, with a turn of 2 at B."""
+    fleet = FleetBuilder()
+    for name, x, y in [("end", 4, 2), ("A", 0, 0), ("B", 2, 0), ("C", 2, 2)]:
+        fleet.add_vertex(name, x, y)
+    fleet.add_edge("A", "B").add_edge("B", "C", both_ways=False)
+    fleet.add_edge("C", "end", both_ways=False)
+    roadmap = fleet.build_roadmap()
+    robot = Robot(name="R1", home=V(1), turn_rate=Fraction(45))
+    jobs = (Job(name="J1", stops=(JobStop(at=V(3)),)),)
+    scenario = make_work(roadmap=roadmap, robots=(robot,), jobs=jobs)
+    time = find_ticks(measure(scenario), 1, 3) * scenario.problem.clock.tick
+    assert time == 2 + 2 + 2

@@ -104,6 +104,9 @@ class Chaos:
         Whether orders lose their order, too. No rule keeps robots safe where they are also reset.
     works_at_home
         Whether every second robot works at its home before it sets out.
+    floor
+        Whether plans with jobs have vertices that are driven through only, robots that turn slowly,
+        and closures that begin and end by the clock.
     """
 
     events: int = 500
@@ -120,6 +123,7 @@ class Chaos:
     people: float = 0.0
     shuffles: bool = False
     works_at_home: bool = False
+    floor: bool = False
 
 
 KINDS = {

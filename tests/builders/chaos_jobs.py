@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import random
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import replace
+from fractions import Fraction
 from functools import lru_cache, partial
 from typing import Any
 from unittest.mock import patch
@@ -24,7 +26,8 @@ from rightofway.dispatch import Round
 from rightofway.errors import GaveUp, InputError, NoPlanExists
 from rightofway.facts import Fact
 from rightofway.io import parse_scenario
-from rightofway.model import Plan, Scenario
+from rightofway.model import NEVER, Plan, Scenario
+from rightofway.precedence import Part
 from tests.builders.chaos import Chaos, Fault, Killed, Observer, World, list_several
 
 __all__ = ["JOB_KINDS", "plan_with_jobs", "run_job_chaos"]
@@ -37,6 +40,10 @@ JOB_KINDS = {
     "arrive, wrong fields": Chaos(wrong=0.1, jobs=0.02),
     "arrive, people": Chaos(people=0.03, jobs=0.02),
     "arrive, all": Chaos(people=0.02, kills=0.03, resets=0.01, wrong=0.05, cancels=0.01, jobs=0.03),
+    "floor": Chaos(kills=0.0, jobs=0.02, floor=True),
+    "floor, all": Chaos(
+        people=0.02, kills=0.03, resets=0.01, wrong=0.05, cancels=0.01, jobs=0.03, floor=True
+    ),
 }
 """Kinds of chaos with jobs by name."""
 
@@ -50,8 +57,11 @@ CHARGED_PER_EVENT = 0.01
 
 
 @lru_cache(maxsize=4)
-def plan_with_jobs(seed: int) -> Plan:
-    """Return a plan of robots with batteries and jobs, of the first draw that has one."""
+def plan_with_jobs(seed: int, *, floor: bool = False) -> Plan:
+    """Return a plan of robots with batteries and jobs, of the first draw that has one.
+
+    With ``floor`` it has the features of `Chaos.floor`.
+    """
     draw = random.Random(f"jobs {seed}")  # noqa: S311
     while True:
         rows, columns = draw.choice([(3, 4), (4, 4), (3, 5)])
@@ -79,10 +89,52 @@ def plan_with_jobs(seed: int) -> Plan:
             ],
             "jobs": [draw_job(draw, free, f"J{number}") for number in range(draw.randint(1, 4))],
         }
+        if floor:
+            _add_floor(draw, document, cells)
         try:
             return rightofway.solve(parse_scenario(document), "prioritized")
         except (NoPlanExists, GaveUp, InputError):
             continue
+
+
+def _add_floor(draw: random.Random, document: dict[str, Any], cells: list[str]) -> None:
+    """Replace the grid of a document by a roadmap, with turn rates and closures.
+
+    Robots do not stop at vertices without homes and jobs, every third of them.
+    """
+    columns, free = len(cells[0]), [k for k, cell in enumerate("".join(cells)) if cell == "."]
+    needed = {robot["home"] for robot in document["robots"]}
+    needed |= {job[key] for job in document["jobs"] for key in job if key in JOB_PLACES}
+    vertices: dict[str, Any] = {}
+    for k in free:
+        at = [k % columns, k // columns]
+        is_passed = f"N{k}" not in needed and draw.random() < 1 / 3
+        vertices[f"N{k}"] = {"at": at, "pass": True} if is_passed else at
+    edges = [
+        [f"N{k}", f"N{other}"]
+        for k in free
+        for other in (k + 1, k + columns)
+        if other in free and (other > k + 1 or other % columns or columns == 1)
+    ]
+    document["map"] = {"roadmap": {"vertices": vertices, "edges": edges}}
+    for robot in document["robots"]:
+        if draw.random() < 2 / 3:
+            robot["turn_rate"] = draw.choice([30, 45, 90])
+            robot["start"]["heading"] = draw.choice([0, 90, 180, 270])
+    document["closures"] = []
+    for _ in range(draw.randint(0, 2)):
+        begin = draw.randint(0, 60)
+        where = (
+            {"edge": draw.choice(edges)}
+            if edges and draw.random() < 0.5
+            else {"at": f"N{draw.choice(free)}"}
+        )
+        until = {"until": begin + draw.randint(1, 60)} if draw.random() < 0.8 else {}
+        document["closures"].append({"from": begin, **until, **where})
+
+
+JOB_PLACES = ("at", "pickup", "dropoff")
+"""Keys of a job that name a place."""
 
 
 def draw_job(draw: random.Random, places: list[str], name: str) -> dict[str, Any]:
@@ -110,7 +162,7 @@ def run_job_chaos(
         At the first booking held twice, contradiction, stop done twice, too early or never, or run
         that stands without a reason.
     """
-    world = JobWorld(plan_with_jobs(seed), seed, chaos, control)
+    world = JobWorld(plan_with_jobs(seed, floor=chaos.floor), seed, chaos, control)
     world.run()
     world.counts["jobs done"] = sum(
         left == "done" for left in world.control.ledger.pool.left.values()
@@ -151,6 +203,7 @@ class JobWorld(World):
         ]
         super().__init__(plan, seed, chaos, control)
         self.observer = JobObserver(plan.scenario, self.robots)
+        self.observer.is_shut_out = self._is_shut_out
 
     def _begin(self) -> None:
         while True:
@@ -162,6 +215,9 @@ class JobWorld(World):
                     long_order=2,
                     roadmap=self.scenario.roadmap,
                 )
+                if self.chaos.floor:  # robots report any heading
+                    turned = (Fraction(self.draw.randrange(0, 360, 45)) for _ in self.robots)
+                    control.headings.update(enumerate(turned))
                 rounds = LateRounds(self.draw)
                 dispatcher = Dispatcher(control, self.plan, rounds=rounds, patience=2)
                 if self.several:
@@ -287,6 +343,16 @@ class JobWorld(World):
             or all(own.is_off and self._has_no_place(k) for k, own in enumerate(ledger.robots))
         )
 
+    def _is_shut_out(self, robot: int) -> bool:
+        """Whether a closure for good stops a robot, or one that goes first, as was reported."""
+        ledger, part = self.control.ledger, self.control.ledger.robots[robot].released + 1
+        closed = self.dispatcher.find_closed(robot, part)
+        missing = ledger.graph.list_missing(Part(robot, part), ledger.arrived)
+        is_shut = (closed is not None and closed.end == NEVER) or any(
+            self._is_shut_out(arrival.robot) for arrival in missing
+        )
+        return self.dispatcher._has_failed and is_shut
+
     def _stands_told(self) -> bool:
         """Whether rounds find no plan, and this was said, in many tries."""
         robots = self.control.ledger.robots
@@ -311,6 +377,7 @@ class JobObserver(Observer):
         self.lengths: dict[str, int] = {}  # stops of each job
         self.over = set[str]()  # jobs that had left without being begun
         self.steps: list[dict[str, set[int]]] = [{} for _ in robots]  # of each item, as done
+        self.is_shut_out: Callable[[int], bool] = lambda _: False
 
     def is_charging(self, robot: int) -> bool:
         """Return whether the last charge of a robot has begun, and it has not driven on."""
@@ -371,7 +438,8 @@ class JobObserver(Observer):
         assert not is_endless
         for robot, own in enumerate(control.ledger.robots):
             self._look_at_jobs(robot, own)
-            if not own.is_off and self.robots[robot].place != own.route.places[-1]:
+            is_there = self.robots[robot].place == own.route.places[-1]
+            if not (own.is_off or is_there or self.is_shut_out(robot)):
                 raise Fault(f"robot {robot} ends at {self.robots[robot].place}")
         for name, left in control.ledger.pool.left.items():
             if left == "done" and not self.stops.get(name):

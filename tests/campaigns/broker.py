@@ -70,7 +70,7 @@ def run_chaos_at_a_broker(seed: int, robots: int | None = None) -> Counter[str]:
         own = ("plan.json", *options, "--write-identities", "robots.yaml")
         try:
             with Command(folder, "robots", *own).running():
-                wait_for((folder / "robots.yaml").exists, 120, "the file of identities")
+                wait_for((folder / "robots.yaml").exists, LONGEST, "the file of identities")
                 asked = ("--broker", broker.url, "--identities", "robots.yaml")
                 with WarmCommand(folder, "drive", "plan.json", *asked).running() as drive:
                     _kill(drive, broker, observer, draw, counts)
@@ -117,7 +117,7 @@ def run_jobs_at_a_broker(seed: int) -> Counter[str]:
         journal = folder / "plan.journal"
         try:
             with Command(folder, "robots", *own).running():
-                wait_for((folder / "robots.yaml").exists, 120, "the file of identities")
+                wait_for((folder / "robots.yaml").exists, LONGEST, "the file of identities")
                 with WarmCommand(folder, "drive", "plan.json", *asked).running() as drive:
                     wait_for(lambda: "sets out" in drive.log, LONGEST, "robots")
                     names = _ask_for_jobs(

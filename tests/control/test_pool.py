@@ -13,6 +13,7 @@ import rightofway
 from rightofway.control import FleetControl
 from rightofway.control.commands import read_duration
 from rightofway.control.dispatcher import Dispatcher
+from rightofway.control.fleet_control import LOOK_AHEAD
 from rightofway.control.journal import Entry
 from rightofway.control.laps import LapsToDrive
 from rightofway.control.round_worker import RoundRequest, RoundsAtOnce
@@ -30,10 +31,16 @@ from tests.builders.floors import Floor
 class Shift:
     """The robots of a plan with jobs, a second after another, and people who ask for more."""
 
-    def __init__(self, plan: Plan | None = None, rounds: RoundsAtOnce | None = None) -> None:
+    def __init__(
+        self,
+        plan: Plan | None = None,
+        rounds: RoundsAtOnce | None = None,
+        look_ahead: int = LOOK_AHEAD,
+    ) -> None:
         self.plan, self.now = plan or floor_plan(), 0
         self.journal, self.said = MemoryJournal(), list[str]()
-        control = FleetControl(self.journal, roadmap=self.plan.scenario.roadmap)
+        roadmap = self.plan.scenario.roadmap
+        control = FleetControl(self.journal, look_ahead=look_ahead, roadmap=roadmap)
         self.dispatcher = Dispatcher(control, self.plan, rounds=rounds or RoundsAtOnce(None))
         self.dispatcher.keep_time(lambda: self.now)
         assert self.dispatcher.rounds is not None
@@ -370,6 +377,24 @@ def test_a_battery_that_will_not_last_begins_a_round_once_for_each_plan() -> Non
     assert wanted == [False, True, False]
 
 
+def test_a_robot_before_a_closed_place_is_led_around_it() -> None:
+    """R1 is at N0 with parts released to N1 on the way N1, N2, N3; N2 is closed then."""
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {"grid": ["....", ".@@.", "...."]},
+        "rules": {"rotations": False, "turn": 0},
+        "robots": [{"name": "R1", "home": "N0"}],
+        "jobs": [{"name": "J1", "at": "N3", "earliest": 9}],
+    }
+    plan = rightofway.solve(parse_scenario(document), "prioritized")
+    shift = Shift(plan, look_ahead=1)
+    (own,) = shift.dispatcher.ledger.robots
+    assert own.route.stretch(0, own.released + 3) == ("N0", "N1", "N2", "N3")
+    shift.ask("close", name="N2")
+    shift.drive(40)
+    assert shift.list_done() == ["J1/0"]
+
+
 def test_rounds_begin_by_the_triggers_of_simulated_shifts() -> None:
     """Robots stand still; then a place closes; then a job arrives."""
     rounds = SlowRounds()
@@ -420,9 +445,8 @@ def test_rounds_for_which_only_time_is_a_reason_become_rare() -> None:
     assert begins == [10, 26, 58, 122]
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_rounds_plan_behind_vertices_that_robots_only_pass(seed: int) -> None:
-    """A kept part ends where its robot may stop; of a chain that it is on it keeps all."""
+def plan_with_passed_vertices() -> Plan:
+    """Return a plan of R1 at a, which drives through p and q to a job at b, and R2 at e."""
     fleet = rightofway.FleetBuilder(turn=0)
     points = {"a": (0, 0), "p": (1, 0), "q": (2, 0), "b": (3, 0), "c": (3, 1), "d": (0, 1)}
     for name, (x, y) in {**points, "e": (4, 0)}.items():
@@ -431,8 +455,14 @@ def test_rounds_plan_behind_vertices_that_robots_only_pass(seed: int) -> None:
         fleet.add_edge(*ends)
     fleet.add_robot("R1", home="a", turn_rate=90)
     fleet.add_robot("R2", home="e", turn_rate=90)
-    fleet.add_job("J1", at="b")
-    shift = Shift(rightofway.solve(fleet.build_scenario(), "prioritized"))
+    fleet.add_job("J1", at="b", robot="R1")
+    return rightofway.solve(fleet.build_scenario(), "prioritized")
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_rounds_plan_behind_vertices_that_robots_only_pass(seed: int) -> None:
+    """A kept part ends where its robot may stop; of a chain that it is on it keeps all."""
+    shift = Shift(plan_with_passed_vertices())
     draw = random.Random(seed)  # noqa: S311
     for number in range(12):
         shift.drive(draw.randint(1, 5))
@@ -440,6 +470,20 @@ def test_rounds_plan_behind_vertices_that_robots_only_pass(seed: int) -> None:
     shift.drive(200)
     assert dict.fromkeys(shift.pool.left.values()) == {"done": None}
     assert len(shift.pool.left) == 13
+
+
+def test_a_robot_is_placed_while_another_one_is_at_a_vertex_that_it_only_passes() -> None:
+    shift = Shift(plan_with_passed_vertices())
+    robots = shift.dispatcher.ledger.robots
+    shift.ask("remove", name="R2")
+    while robots[0].route.get_place(robots[0].arrived) != "q":
+        shift.drive(1)
+    shift.floor.robots[1].forget()
+    shift.floor.robots[1].place = "c"
+    shift.ask("place", name="R2", at="c")
+    shift.drive(40)
+    assert shift.pool.left == {"J1": "done"}
+    assert [robot.place for robot in shift.floor.robots] == ["a", "e"]
 
 
 def test_a_plan_with_jobs_is_not_repeated_in_laps() -> None:

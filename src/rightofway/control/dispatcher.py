@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
-from itertools import pairwise
 
 from rightofway.control.clocked_closures import ClockedClosures, Closed
 from rightofway.control.commitments import find_last_open, list_stops_to_make
@@ -167,7 +166,7 @@ class Dispatcher:
         planned = [own.route.end - 1 for own in robots]
         messages = self.control.splice(routes, self._build_graph(routes))
         closed = self._list_closed_edges()
-        if closed and any(not closed.isdisjoint(pairwise(route.places)) for route in routes):
+        if any(route.leads_over(closed, route.first, route.end) for route in routes):
             try:
                 messages += self._plan_behind(planned)
             except GaveUp:  # else robots stop before what is closed
@@ -399,9 +398,8 @@ class Dispatcher:
 
     def _is_led_over(self, closed: Collection[Edge]) -> bool:
         """Return whether the way of a robot leads over edges, after its released parts."""
-        return bool(closed) and any(
-            not set(closed).isdisjoint(pairwise(own.route.stretch(own.released, own.route.end)))
-            for own in self.ledger.robots
+        return any(
+            own.route.leads_over(closed, own.released, own.route.end) for own in self.ledger.robots
         )
 
     def _report_round(self, fact: Fact | None, is_over: bool) -> None:

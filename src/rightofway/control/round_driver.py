@@ -164,7 +164,10 @@ class RoundDriver:
             return
         self.watch.begin_round()
         self.is_wanted, self._ignores_closures = False, ignores_closures
-        kept_parts = find_kept_parts(ledger, control.list_committed(), AHEAD, control.may_stop)
+        closed = self.watch.list_closed()
+        kept_parts = find_kept_parts(
+            ledger, control.list_committed(), AHEAD, control.may_stop, closed=closed
+        )
         now, lead = self.watch.read_ticks(), 0
         if self.rounds.time_limit is not None:
             seconds = float(self.scenario.problem.clock.tick * (self.scenario.units.seconds or 1))
@@ -174,7 +177,7 @@ class RoundDriver:
             ledger,
             kept_parts,
             unable=() if ignores_closures else self.watch.unable,
-            closed=() if ignores_closures else self.watch.list_closed(),
+            closed=() if ignores_closures else closed,
             later=self.watch.later,
             now=now,
             takeover=now + lead,

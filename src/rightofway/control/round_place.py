@@ -10,6 +10,7 @@ from dataclasses import replace
 
 from rightofway.control.laps import build_graph_behind_released
 from rightofway.control.ledger import Ledger
+from rightofway.control.round_floor import put_at_stop
 from rightofway.control.routes import RouteToDrive, make_route_from
 from rightofway.errors import GaveUp
 from rightofway.facts import Fact
@@ -64,9 +65,10 @@ def make_routes_to_stand(
     committed
         The last part of each robot that a splice has to keep.
     """
+    at_stops = [put_at_stop(scenario.roadmap, own) for own in ledger.robots]
     routes = [
         own.route.cut_before(own.arrived).cut_after(last)
-        for own, last in zip(ledger.robots, committed, strict=True)
+        for own, last in zip(at_stops, committed, strict=True)
     ]
     before = ledger.robots[robot].route
     routes[robot] = replace(

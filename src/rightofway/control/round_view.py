@@ -62,12 +62,18 @@ class ViewOfRound:
 
 
 def find_kept_parts(
-    ledger: Ledger, released: Sequence[int], ahead: int, may_stop: Callable[[str], bool]
+    ledger: Ledger,
+    released: Sequence[int],
+    ahead: int,
+    may_stop: Callable[[str], bool],
+    *,
+    closed: Collection[Edge] = (),
 ) -> list[int]:
     """Return the last part of each robot that is kept, at most ``ahead`` beyond the released ones.
 
     A part is kept only together with all that go before it by right of way, and as far as to where
-    the robot may stop. A robot keeps none behind a stop that is not asked for yet.
+    the robot may stop. A robot keeps none behind a stop that is not asked for yet, and none that it
+    may not enter: a round could not lead it around a closure there.
 
     Parameters
     ----------
@@ -79,6 +85,8 @@ def find_kept_parts(
         How many more parts a robot may keep.
     may_stop
         Tells whether robots may stop at a vertex, by its name.
+    closed
+        The edges that nobody may enter now.
     """
     kept_parts, grows = list(released), True
     while grows:
@@ -93,6 +101,7 @@ def find_kept_parts(
             last = next(visit for visit in rest if may_stop(own.route.get_place(visit)))
             parts = (Part(robot, number) for number in range(part, last + 1))
             before = itertools.chain.from_iterable(map(ledger.graph.waits, parts))
+            is_free = is_free and not own.route.leads_over(closed, part - 1, last + 1)
             if is_free and all(_is_kept(ledger, kept_parts, *arrival) for arrival in before):
                 kept_parts[robot], grows = last, True
     return kept_parts

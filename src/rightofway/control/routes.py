@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
 from rightofway.control.batteries import FleetBatteries, follow_charge
@@ -109,6 +110,18 @@ class RouteToDrive:
             Numbers of visits; those not kept are left out.
         """
         return self.places[max(begin - self.first, 0) : max(end - self.first, 0)]
+
+    def leads_over(self, edges: Collection[tuple[str, str]], begin: int, end: int) -> bool:
+        """Return whether the way from a visit to before another one leads over one of some edges.
+
+        Parameters
+        ----------
+        edges
+            The names of both ends of each.
+        begin, end
+            The numbers of the visits, as in `stretch`.
+        """
+        return bool(edges) and not set(edges).isdisjoint(pairwise(self.stretch(begin, end)))
 
     def cut_before(self, visit: int) -> RouteToDrive:
         """Return the route without the visits before one.

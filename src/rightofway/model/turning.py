@@ -74,7 +74,15 @@ class Turning:
 
     def compute_turns(self, edges: NDArray[np.int32]) -> NDArray[np.int64]:
         """Return how long the robot turns between each edge and the next [ticks]; int64."""
-        before, after = edges[:-1], edges[1:]
+        return self.compute_turns_between(edges[:-1], edges[1:])
+
+    def compute_turns_between(
+        self, before: NDArray[np.integer], after: NDArray[np.integer]
+    ) -> NDArray[np.int64]:
+        """Return how long the robot turns between the edges of each pair [ticks]; int64.
+
+        An edge of -1 is none: before and after it nothing turns.
+        """
         turns = np.zeros(len(before), np.int64)
         known = np.flatnonzero((before >= 0) & (after >= 0))
         place = self.angles.offset[before[known]] + after[known]

@@ -31,10 +31,10 @@ class TurningDistances:
         is_last = place == np.repeat(counts, counts + 1)
         before = np.repeat(np.arange(self._n_edges), counts + 1)
         after = np.repeat(begins, counts + 1) + place
+        turns = turning.compute_turns_between(before, np.where(is_last, -1, after))
         follows = np.where(is_last, 0, after)
-        kinds = turning.angles.kind[turning.angles.offset[before] + follows]
         drives = edge_ticks[follows].astype(np.int64)
-        ticks = np.where(drives < 0, -1, drives + turning.ticks[kinds])
+        ticks = np.where(drives < 0, -1, drives + turns)
         self._ticks = np.where(is_last, LAST, ticks).astype(np.int32)
         heads = np.where(is_last, self._n_edges + roadmap.heads[before], follows)
         states = np.concatenate((indptr, np.full(n_vertices, indptr[-1])))
