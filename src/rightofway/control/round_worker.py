@@ -16,7 +16,13 @@ from rightofway.model import Scenario
 __all__ = ["ProcessRounds", "RoundRequest", "Rounds", "RoundsAtOnce"]
 
 GRACE = 20.0
-"""Seconds beyond its time limit after which a round is given up, with its process."""
+"""Seconds beyond its time limit after which a round is given up, with its process.
+
+Twice as long after each round that was given up: on a slow machine a later one ends in time.
+"""
+
+STARTING = 600.0
+"""Seconds after which a process that has not started is given up: a busy machine needs minutes."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -123,15 +129,18 @@ class ProcessRounds:
         self._limit, self._planner = time_limit, planner
         self._process: multiprocessing.process.BaseProcess | None = None
         self._pipe: Connection | None = None
-        self._until = 0.0
+        self._has_started = False
+        self._waiting: RoundRequest | None = None  # until the process has started
+        self._until, self._grace = 0.0, GRACE
 
     def begin(self, request: RoundRequest) -> None:
-        """Give a round to the process."""
+        """Give a round to the process, as soon as it has started."""
         if self._process is None or not self._process.is_alive():
             self._start()
-        assert self._pipe is not None, "a process was started"
-        self._until = time.monotonic() + self._limit + GRACE
-        self._pipe.send(request)
+        if self._has_started:
+            self._send(request)
+        else:  # a pipe that nobody reads takes no long request
+            self._waiting = request
 
     def poll(self) -> Round | None:
         """Return the plan of the round that was begun, once; None as long as there is none.
@@ -142,13 +151,24 @@ class ProcessRounds:
             return None
         try:
             if self._pipe.poll():
-                planned: Round = self._pipe.recv()
-                return planned
+                planned: Round | None = self._pipe.recv()
+                if planned is not None:
+                    self._grace = GRACE
+                    return planned
+                self._has_started = True
+                if self._waiting is not None:
+                    self._send(self._waiting)
         except (EOFError, OSError):
             return self._give_up()
         if not self._process.is_alive() or time.monotonic() > self._until:
+            self._grace *= 2
             return self._give_up()
         return None
+
+    def _send(self, request: RoundRequest) -> None:
+        assert self._pipe is not None, "a process was started"
+        self._until, self._waiting = time.monotonic() + self._limit + self._grace, None
+        self._pipe.send(request)
 
     def close(self) -> None:
         """End the process."""
@@ -158,6 +178,7 @@ class ProcessRounds:
         if self._pipe is not None:
             self._pipe.close()
         self._process = self._pipe = None
+        self._has_started = False
 
     def _start(self) -> None:
         self.close()
@@ -167,6 +188,7 @@ class ProcessRounds:
             target=_serve_rounds, args=(theirs, self._limit, self._planner), daemon=True
         )
         self._process.start()
+        self._until = time.monotonic() + STARTING
         theirs.close()
 
     def _give_up(self) -> Round:
@@ -176,8 +198,9 @@ class ProcessRounds:
 
 
 def _serve_rounds(pipe: Connection, time_limit: float, planner: str) -> None:
-    """Plan the rounds that come, until the other end of the pipe is closed."""
+    """Say that it has started; plan the rounds that come, until the pipe is closed."""
     planners = _Planners(time_limit, planner)
+    pipe.send(None)
     while True:
         try:
             pipe.send(planners.plan(pipe.recv()))
