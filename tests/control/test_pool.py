@@ -13,13 +13,13 @@ import rightofway
 from rightofway.control import FleetControl
 from rightofway.control.commands import read_duration
 from rightofway.control.dispatcher import Dispatcher
-from rightofway.control.fleet_control import LOOK_AHEAD
 from rightofway.control.journal import Entry
 from rightofway.control.laps import LapsToDrive
+from rightofway.control.messages import LOOK_AHEAD
 from rightofway.control.round_worker import RoundRequest, RoundsAtOnce
 from rightofway.control.work_items import find_stop
 from rightofway.dispatch import Round
-from rightofway.errors import InputError
+from rightofway.errors import GaveUp, InputError
 from rightofway.facts import Fact
 from rightofway.io import parse_scenario
 from rightofway.model import Plan
@@ -484,6 +484,29 @@ def test_a_robot_is_placed_while_another_one_is_at_a_vertex_that_it_only_passes(
     shift.drive(40)
     assert shift.pool.left == {"J1": "done"}
     assert [robot.place for robot in shift.floor.robots] == ["a", "e"]
+
+
+@pytest.mark.parametrize("place", ["p", "q"])
+def test_a_robot_whose_order_ends_at_a_vertex_that_it_only_passes_drives_on(place: str) -> None:
+    """R1 keeps its way to b, which is closed meanwhile: no other robot is put there."""
+    shift = Shift(plan_with_passed_vertices())
+    own = shift.dispatcher.ledger.robots[0]
+    while own.route.get_place(own.arrived) != place:
+        shift.drive(1)
+    shift.ask("close", name="b")
+    shift.ask("cancel", name="R1")
+    assert own.route.get_place(own.released) == place
+    shift.ask("add", name="A1", at="c")
+    shift.ask("remove", name="R2")
+    shift.floor.robots[1].forget()
+    with pytest.raises(GaveUp, match="R1"):
+        shift.ask("place", name="R2", at="b")
+    shift.ask("place", name="R2", at="e")
+    shift.drive(20)
+    assert own.route.get_place(own.released) == place
+    shift.ask("open", name="b")
+    shift.drive(60)
+    assert shift.pool.left == {"J1": "done", "A1": "done"}
 
 
 def test_a_plan_with_jobs_is_not_repeated_in_laps() -> None:

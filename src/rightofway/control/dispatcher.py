@@ -202,7 +202,8 @@ class Dispatcher:
         each time, and never get there. Earlier plans end with the visits ``planned``.
         """
         robots, closed = self.ledger.robots, self._list_closed_edges()
-        robots = [self._rest.begin_at_stop(own) for own in robots]
+        rows = zip(robots, self.control.list_committed(), strict=True)
+        robots = [replace(self._rest.begin_at_stop(own), released=last) for own, last in rows]
         ends = [
             own.released
             if robot in self._stuck.passed

@@ -547,8 +547,15 @@ class FleetControl:
         return [self._find_committed(own) for own in self.ledger.robots]
 
     def _find_committed(self, own: RobotLedger) -> int:
-        """Return the last part that a splice has to keep."""
-        return own.released
+        """Return the last part that a splice has to keep, where the robot may stop.
+
+        A robot whose order was withdrawn may stand at a passed vertex. All up to the end of its
+        chain was released before, so nobody can come first there.
+        """
+        rest = range(own.released, own.route.end)
+        places = map(own.route.get_place, rest)
+        ends = (visit for visit, place in zip(rest, places, strict=True) if self.may_stop(place))
+        return next(ends, own.released)
 
     def commit(self, *entries: Entry) -> None:
         """Write entries to the disk, then take them in; release nothing.

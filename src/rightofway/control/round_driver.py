@@ -145,8 +145,8 @@ class RoundDriver:
             If another robot is in the way, or no way leads home from there.
         """
         control, ledger = self._control, self._control.ledger
-        refuse_place(self.scenario, ledger, robot, place)
         committed = control.list_committed()
+        refuse_place(self.scenario, ledger, committed, robot, place)
         routes, graph = make_routes_to_stand(self.scenario, ledger, committed, robot, place)
         self.want()
         lost = list_lost(ledger, routes)

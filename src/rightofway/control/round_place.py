@@ -22,7 +22,9 @@ from rightofway.search import Distances
 __all__ = ["list_lost", "make_routes_to_stand", "refuse_place"]
 
 
-def refuse_place(scenario: Scenario, ledger: Ledger, robot: int, place: str) -> None:
+def refuse_place(
+    scenario: Scenario, ledger: Ledger, committed: Sequence[int], robot: int, place: str
+) -> None:
     """Refuse a place at which a robot cannot be put.
 
     Parameters
@@ -31,6 +33,8 @@ def refuse_place(scenario: Scenario, ledger: Ledger, robot: int, place: str) -> 
         The fleet.
     ledger
         The state that the journal describes.
+    committed
+        The last part of each robot that a splice has to keep.
     robot
         The number of a robot that is off the floor.
     place
@@ -39,7 +43,7 @@ def refuse_place(scenario: Scenario, ledger: Ledger, robot: int, place: str) -> 
     Raises
     ------
     GaveUp
-        If another robot holds the place, or what excludes it, or no way leads home from there.
+        If another robot keeps the place, or what excludes it, or no way leads home from there.
     """
     vertex, home = scenario.roadmap.get_vertex(place), scenario.robots[robot].home
     ticks = scenario.problem.itineraries[robot].edge_ticks
@@ -47,8 +51,9 @@ def refuse_place(scenario: Scenario, ledger: Ledger, robot: int, place: str) -> 
         raise GaveUp(Fact("no way to home", place=place, home=scenario.roadmap.name(home)))
     excluded = list_held(scenario, {robot: [int(vertex)]})
     near = {*map(int, excluded.vertices), *(int(head) for _, head in excluded.edges)}
-    for name, own in zip(ledger.names, ledger.robots, strict=True):
-        held = {int(scenario.roadmap.get_vertex(vertex)) for vertex in own.held}
+    for name, own, last in zip(ledger.names, ledger.robots, committed, strict=True):
+        places = own.route.stretch(own.arrived, last + 1)
+        held = {int(scenario.roadmap.get_vertex(vertex)) for vertex in places}
         if not own.is_off and not held.isdisjoint(near):
             raise GaveUp(Fact("place held", place=place, robot=name))
 
@@ -60,10 +65,8 @@ def make_routes_to_stand(
 
     Parameters
     ----------
-    scenario, ledger, robot, place
+    scenario, ledger, committed, robot, place
         As for `refuse_place`.
-    committed
-        The last part of each robot that a splice has to keep.
     """
     at_stops = [put_at_stop(scenario.roadmap, own) for own in ledger.robots]
     routes = [
