@@ -1,7 +1,7 @@
 """How many fleets `cbs` proves optimal, or within a factor, and what that takes.
 
 ``python -m benchmarks.proofs [--folder FOLDER] [--factor F] [--seconds S] [--classic]
-[--gaps [--makespan]] FLEET ...``
+[--gaps [--makespan]] [--eecbs PROGRAM] FLEET ...``
 takes fleets as MAP:ROBOTS: maps of the MovingAI benchmark, from a folder with ``maps`` and
 ``scens`` in it, or grids that are drawn: ``24x20`` has 24 x 24 cells with 20 % walls. ``discs`` is
 a drawn roadmap of 900 vertices and some 7000 lanes that cross, with robots of radius 0.35. Robots
@@ -11,12 +11,19 @@ speed, and `occupancy: one`. Trips are one way, without work.
 With ``--gaps`` the table says how far plans of `two-level`, `lns` and `auto` are above the optimum
 or, where `cbs` does not prove it, above the best lower bound; each planner has a third of the
 seconds. With ``--makespan`` all of them minimize the makespan, and the bound is of that.
+
+With ``--eecbs`` the program of EECBS and `cbs` plan classic fleets of the benchmark within a factor
+in turn, five times each. The table has their flowtimes, and the least processor time of each: that
+of the whole process of EECBS, and that of `rightofway.solve`.
 """
 
 from __future__ import annotations
 
 import argparse
+import os
 import re
+import resource
+import subprocess
 import time
 from dataclasses import replace
 from fractions import Fraction
@@ -35,6 +42,11 @@ SPEEDS = (Fraction(1), Fraction(1, 2), Fraction(1, 3), Fraction(1, 5))
 EQUAL = (Fraction(1),)
 
 DISCS = Graph(vertices=900, degree=8.3, lane=10, robots=0, radius="0.35")
+
+REPEATS = 5
+"""How often each program plans a fleet when they are compared."""
+
+HEADS_OF_COMPARISON = ("EECBS: flowtime", "`cbs`: flowtime", "EECBS [s]", "`cbs` [s]")
 
 PLANNERS = ("two-level", "lns", "auto")
 """Whose plans are compared with the optimum."""
@@ -73,12 +85,38 @@ def figures(scenario: Scenario, factor: Fraction, seconds: float) -> tuple[bool,
     except GaveUp:
         return False, ["-", "-", f"{time.process_time() - began:.2f}"]
     outcome = plan.run.outcome
+    spent = time.process_time() - began
     assert outcome is not None
     assert outcome.bound is not None
     ratio = plan.flowtime / outcome.bound
     is_proven = outcome.kind in {OutcomeKind.OPTIMAL, OutcomeKind.BOUNDED}
     cost = f"{float(plan.flowtime * scenario.problem.clock.tick):g}"
-    return is_proven, [cost, f"{ratio:.3f}", f"{time.process_time() - began:.2f}"]
+    return is_proven, [cost, f"{ratio:.3f}", f"{spent:.3f}"]
+
+
+def compare_with_eecbs(
+    program: Path, folder: Path, fleet_of: tuple[str, int, int], factor: Fraction, seconds: float
+) -> list[str]:
+    """Return the flowtime of EECBS and of `cbs`, and the processor seconds of both."""
+    name, robots, seed = fleet_of
+    files = ["-m", str(folder / "maps" / f"{name}.map"), "-o", os.devnull]
+    files += ["-a", str(folder / "scens" / f"{name}-random-{seed}.scen")]
+    limits = ["-k", str(robots), "-t", str(seconds), f"--suboptimality={float(factor)}"]
+    scenario = fleet(folder, name, robots, seed, classic=True)
+    theirs, ours = list[float](), list[float]()
+    answer, cost = "", "-"
+    for _ in range(REPEATS):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        answer = subprocess.run(
+            [program, *files, *limits], check=True, capture_output=True, text=True
+        ).stdout
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        theirs.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+        is_proven, (cost, _, spent) = figures(scenario, factor, seconds)
+        assert is_proven, f"{name} with {robots} robots is not proven within {factor}"
+        ours.append(float(spent))
+    found = re.search(r"Succeed,(\d+)", answer)
+    return [found[1] if found else "-", cost, f"{min(theirs):.3f}", f"{min(ours):.3f}"]
 
 
 def gaps(
@@ -130,11 +168,26 @@ def main() -> None:
     parser.add_argument("--classic", action="store_true")
     parser.add_argument("--gaps", action="store_true")
     parser.add_argument("--makespan", action="store_true")
+    parser.add_argument("--eecbs", type=Path, metavar="PROGRAM")
     given = parser.parse_args()
     objective = Objective.MAKESPAN if given.makespan else Objective.FLOWTIME
     lines: list[tuple[str, ...]] = []
     for each in given.fleets:
         name, robots = each.rsplit(":", 1)
+        if given.eecbs:
+            compared = [
+                compare_with_eecbs(
+                    given.eecbs,
+                    given.folder,
+                    (name, int(robots), seed),
+                    given.factor,
+                    given.seconds,
+                )
+                for seed in SEEDS
+            ]
+            in_rows = (", ".join(column) for column in zip(*compared, strict=True))
+            lines.append((name, robots, *in_rows))
+            continue
         fleets = [
             fleet(given.folder, name, int(robots), seed, classic=given.classic) for seed in SEEDS
         ]
@@ -152,6 +205,8 @@ def main() -> None:
     )  # fmt: skip
     if given.gaps:
         heads = ("map", "robots", "proven", *(f"`{planner}` [%]" for planner in PLANNERS))
+    if given.eecbs:
+        heads = ("map", "robots", *HEADS_OF_COMPARISON)
     print(table(heads, lines))  # noqa: T201
 
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputError, quote
 from rightofway.kinds.table import Kind, coerce_fields, make_kind
-from rightofway.model.problem import Itinerary, Stage, compute_least_dwell
+from rightofway.model.problem import Itinerary, Stage
 from rightofway.model.units import NEVER, Tick
 from rightofway.site import Roadmap, VertexId
 
@@ -310,13 +310,16 @@ def find_serving_visits(
     visits_at: dict[int, list[int]] = {}
     used: dict[int, int] = {}
     serves: list[int] = []
-    visit = 0
+    visit, last = 0, len(vertices) - 1
     for number, stage in enumerate(stages):
-        if stage.vertex not in visits_at:
-            visits_at[stage.vertex] = np.flatnonzero(vertices == stage.vertex).tolist()
-        visits, need = visits_at[stage.vertex], stage.work + stage.turn
-        is_last = number == len(stages) - 1
-        place = bisect_left(visits, len(vertices) - 1 if is_last else visit)
+        need = stage.work + stage.turn
+        if number == len(stages) - 1:
+            visits, place = [last] if vertices[last] == stage.vertex else [], 0
+        else:
+            if stage.vertex not in visits_at:
+                visits_at[stage.vertex] = np.flatnonzero(vertices == stage.vertex).tolist()
+            visits = visits_at[stage.vertex]
+            place = bisect_left(visits, visit)
         while place < len(visits) and spare[visits[place]] - used.get(visits[place], 0) < need:
             place += 1
         if place == len(visits):
@@ -332,6 +335,14 @@ def compute_least_dwells(
 ) -> NDArray[np.int64]:
     """Return the least ticks of each visit, without its drive; int64, shape (n,)."""
     dwell = np.zeros(n_visits, np.int64)
-    for stage, visit in zip(stages, serves, strict=False):
-        dwell[visit] += compute_least_dwell([stage], leaves=visit < n_visits - 1)
+    add_least_dwells(dwell, stages, serves)
     return dwell
+
+
+def add_least_dwells(
+    dwell: NDArray[np.int64], stages: Sequence[Stage], serves: Sequence[int]
+) -> None:
+    """Add the least ticks of each visit, without its drive, to the ticks in an array."""
+    last = len(dwell) - 1
+    for stage, visit in zip(stages, serves, strict=False):
+        dwell[visit] += stage.work + (stage.turn if visit < last else 0)

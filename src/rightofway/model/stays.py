@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -13,8 +14,8 @@ from rightofway.model.planned_tour import PlannedTour
 from rightofway.model.problem import Itinerary, Problem
 from rightofway.model.route import (
     Track,
+    add_least_dwells,
     compute_first_turn,
-    compute_least_dwells,
     find_serving_visits,
 )
 from rightofway.model.scenario import Scenario
@@ -102,11 +103,69 @@ def find_stays(
     Of tracks that break the rules, a move without an edge takes no time, and what comes after a
     missed stop is waiting. All tracks lie side by side in the arrays that the answer looks into.
     """
+    visits = _measure_visits(scenario, tracks)
+    if scenario.problem.has_times and tours is None:
+        return _find_stays_in_time(
+            scenario.problem, tracks, visits.owns, (visits.drive, visits.turns, visits.spare)
+        )
+    all_holds: list[tuple[Hold, ...]] = [()] * len(tracks)
+    if tours is None:
+        all_serves, dwell = _find_services(scenario, tracks, visits)
+        completion = _complete(visits, dwell)
+    else:
+        all_serves = [[item.visit for item in tour] for tour in tours]
+        dwell = np.zeros(len(visits.enter), np.int64)
+        for robot, (own, track) in enumerate(zip(visits.owns, tracks, strict=True)):
+            dwell[own], holds = _dwells_of_tour(scenario, robot, track, tours)
+            all_holds[robot] = tuple(holds)
+        completion = [
+            _complete_tour(scenario, robot, track, tour)
+            for robot, (track, tour) in enumerate(zip(tracks, tours, strict=True))
+        ]
+    waits = visits.spare - dwell
+    waits[visits.lasts] = [
+        sum(hold.ticks for hold in holds if hold.visit == len(track) - 1) if holds else 0
+        for track, holds in zip(tracks, all_holds, strict=True)
+    ]
+    dwell += visits.turns
+    return tuple(
+        Stays(
+            dwell=dwell[own],
+            drive=visits.drive[own],
+            waits=waits[own],
+            turns=visits.turns[own],
+            serves=tuple(serves),
+            completion=Tick(done),
+            holds=holds,
+        )
+        for own, serves, done, holds in zip(
+            visits.owns, all_serves, completion, all_holds, strict=True
+        )
+    )
+
+
+class _Visits(NamedTuple):
+    """The visits of all tracks, robot after robot [ticks].
+
+    ``owns`` and ``lasts`` are the visits and the last visit of each robot; ``spare`` is how long a
+    visit lasts beyond its drive and its turn.
+    """
+
+    owns: list[slice]
+    lasts: NDArray[np.int64]
+    enter: NDArray[np.int64]
+    drive: NDArray[np.int64]
+    turns: NDArray[np.int64]
+    spare: NDArray[np.int64]
+
+
+def _measure_visits(scenario: Scenario, tracks: Sequence[Track]) -> _Visits:
     ends = np.cumsum([len(track) for track in tracks])
     enter = np.concatenate([track.enter for track in tracks])
     edges = _find_edges_of_fleet(scenario.roadmap, tracks, ends)
-    owns = [slice(end - len(track), end) for track, end in zip(tracks, ends.tolist(), strict=True)]
-    drive, dwell = _measure_drives_of_fleet(scenario, tracks, edges), np.zeros(len(enter), np.int64)
+    stops = ends.tolist()
+    owns = [slice(begin, end) for begin, end in pairwise([0, *stops])]
+    drive = _measure_drives_of_fleet(scenario, np.diff(ends, prepend=0), edges)
     turns = np.zeros(len(enter), np.int64)
     for own, itinerary in zip(owns, scenario.problem.itineraries, strict=True):
         if itinerary.turning is not None:
@@ -114,44 +173,27 @@ def find_stays(
             turns[own][0] = compute_first_turn(scenario.roadmap, itinerary, edges[own])
     spare = np.append(np.diff(enter), 0) - drive - turns
     spare[ends - 1] = NEVER
-    if scenario.problem.has_times and tours is None:
-        return _find_stays_in_time(scenario.problem, tracks, owns, (drive, turns, spare))
-    all_serves, all_holds = [], list[tuple[Hold, ...]]()
-    for robot, (own, track) in enumerate(zip(owns, tracks, strict=True)):
-        if tours is None:
-            stages = scenario.problem.itineraries[robot].stages
-            serves = find_serving_visits(stages, track.vertices, spare[own])
-            dwell[own] = compute_least_dwells(stages, serves, len(track))
-            all_holds.append(())
-        else:
-            serves = [item.visit for item in tours[robot]]
-            dwell[own], holds = _dwells_of_tour(scenario, robot, track, tours)
-            all_holds.append(tuple(holds))
-        all_serves.append(tuple(serves))
-    dwell += turns
-    completion = (enter + dwell)[ends - 1].tolist()
-    if tours is not None:
-        completion = [
-            _complete_tour(scenario, robot, track, tour)
-            for robot, (track, tour) in enumerate(zip(tracks, tours, strict=True))
-        ]
-    waits = spare + turns - dwell
-    waits[ends - 1] = [
-        sum(hold.ticks for hold in holds if hold.visit == len(track) - 1)
-        for track, holds in zip(tracks, all_holds, strict=True)
-    ]
-    return tuple(
-        Stays(
-            dwell=dwell[own],
-            drive=drive[own],
-            waits=waits[own],
-            turns=turns[own],
-            serves=serves,
-            completion=Tick(done),
-            holds=holds,
-        )
-        for own, serves, done, holds in zip(owns, all_serves, completion, all_holds, strict=True)
-    )
+    return _Visits(owns, ends - 1, enter, drive, turns, spare)
+
+
+def _find_services(
+    scenario: Scenario, tracks: Sequence[Track], visits: _Visits
+) -> tuple[list[list[int]], NDArray[np.int64]]:
+    """Return the visits that serve the stages of each robot, and the work of each visit."""
+    all_serves, dwell = [], np.zeros(len(visits.enter), np.int64)
+    for own, track, itinerary in zip(
+        visits.owns, tracks, scenario.problem.itineraries, strict=True
+    ):
+        serves = find_serving_visits(itinerary.stages, track.vertices, visits.spare[own])
+        add_least_dwells(dwell[own], itinerary.stages, serves)
+        all_serves.append(serves)
+    return all_serves, dwell
+
+
+def _complete(visits: _Visits, dwell: NDArray[np.int64]) -> list[int]:
+    """Return when each robot has done its work in its last visit [ticks]."""
+    done = (visits.enter + dwell + visits.turns)[visits.lasts]
+    return [int(tick) for tick in done.tolist()]
 
 
 def _dwells_of_tour(
@@ -254,9 +296,8 @@ def _compute_dwells(itinerary: Itinerary, track: Track, times: StageTimes) -> ND
 def compute_drives(scenario: Scenario, tracks: Sequence[Track]) -> NDArray[np.int64]:
     """Return the ticks of the edge that ends each visit of a fleet, robot after robot."""
     ends = np.cumsum([len(track) for track in tracks])
-    return _measure_drives_of_fleet(
-        scenario, tracks, _find_edges_of_fleet(scenario.roadmap, tracks, ends)
-    )
+    edges = _find_edges_of_fleet(scenario.roadmap, tracks, ends)
+    return _measure_drives_of_fleet(scenario, np.diff(ends, prepend=0), edges)
 
 
 def compute_completions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Tick, ...]:
@@ -269,7 +310,11 @@ def compute_completions(scenario: Scenario, tracks: Sequence[Track]) -> tuple[Ti
     tracks
         One track for each robot.
     """
-    return tuple(stay.completion for stay in find_stays(scenario, tracks))
+    if scenario.problem.has_times:
+        return tuple(stay.completion for stay in find_stays(scenario, tracks))
+    visits = _measure_visits(scenario, tracks)
+    _, dwell = _find_services(scenario, tracks, visits)
+    return tuple(map(Tick, _complete(visits, dwell)))
 
 
 def compute_flowtime(scenario: Scenario, tracks: Sequence[Track]) -> Tick:
@@ -343,7 +388,7 @@ def _find_edges_of_fleet(
 
 
 def _measure_drives_of_fleet(
-    scenario: Scenario, tracks: Sequence[Track], edges: NDArray[np.int32]
+    scenario: Scenario, lengths: NDArray[np.int64], edges: NDArray[np.int32]
 ) -> NDArray[np.int64]:
     """Return the ticks of the edge after each visit of all tracks, 0 where there is none."""
     roadmap, itineraries = scenario.roadmap, scenario.problem.itineraries
@@ -352,8 +397,6 @@ def _measure_drives_of_fleet(
     }
     by_class = np.array([[*pace, 0] for pace in row], np.int64)  # the last column: no edge
     class_of_edge = np.append(roadmap.class_of_edge, -1)
-    rows = np.repeat(
-        [row[itinerary.edge_ticks] for itinerary in itineraries], [len(track) for track in tracks]
-    )
+    rows = np.repeat([row[itinerary.edge_ticks] for itinerary in itineraries], lengths)
     drives: NDArray[np.int64] = by_class[rows, class_of_edge[edges]]
     return np.maximum(drives, 0)  # -1: a track that drives along an edge where it is barred

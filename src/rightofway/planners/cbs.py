@@ -58,7 +58,7 @@ NODES_PER_TURN, SHARE_OF_TURN = 5, 0.1
 """
 
 
-TURNS_WITHIN_FACTOR = 3
+TURNS_WITHIN_FACTOR = 2
 """Turns of the first plan, of a neighbourhood for each robot, once it is proven to be within a
 factor above 1: the first turns gain most, and take about as long as the plan and its proof.
 """

@@ -119,7 +119,9 @@ def improve_best(
     if not plans:
         is_over = request.deadline.measure_seconds_left() == 0
         raise GaveUp(Fact("time over without a plan" if is_over else "no first plan"))
-    best = min(plans, key=lambda plan: request.measure_worth(plan.tracks))
+    best = plans[0]
+    if len(plans) > 1:
+        best = min(plans, key=lambda plan: request.measure_worth(plan.tracks))
     proof = None if first is None else first.proof
     return _run_improvement(
         request, search, replace(best, proof=proof), is_enough, competes=competes
@@ -272,15 +274,15 @@ def _run_improvement(
     tracks = _take_found(
         request, search, first.tracks, is_better=(search.value, search.cost) < before
     )
-    rated = request.measure_worth
+    reached = request.measure_worth(tracks)
     status = Status("as fast as alone", status=first.status)
-    if rated(tracks)[1] != least_cost or request.scenario.problem.minimizes_service:
-        is_better = rated(tracks) != before
+    if reached[1] != least_cost or request.scenario.problem.minimizes_service:
+        is_better = reached != before
         status = Status(
             "improved" if is_better else "not improved", neighbourhoods=done, status=first.status
         )
         status = Status("interrupted", status=status) if is_interrupted else status
-    saved = rated(first.tracks)[0] - rated(tracks)[0]
+    saved = request.measure_worth(first.tracks)[0] - reached[0]
     gain = Improvement(saved=Tick(saved), tries=done, interrupted=is_interrupted)
     return Draft(tracks=tracks, status=status, improvement=gain, proof=first.proof)
 

@@ -74,14 +74,16 @@ def finish_optimum(request: PlanRequest, draft: Draft) -> Draft:
 
     Other plans as they are. A plan whose decisions are explained keeps its tracks.
     """
-    return _explain(request, _act_less(request, draft))
+    proof = draft.proof
+    if proof is None or proof.objective.compute_cost(request.scenario, draft.tracks) > proof.bound:
+        return draft
+    return _explain(request, _act_less(request, draft), proof)
 
 
 def _act_less(request: PlanRequest, draft: Draft) -> Draft:
     objective, scenario = request.objective, request.scenario
     states = request.options.get("joint_states", STATES_OF_ACTIONS)
-    is_optimal = draft.proof and request.measure_worth(draft.tracks)[0] == draft.proof.bound
-    if not is_optimal or draft.decisions or states == 0:
+    if draft.decisions or states == 0:
         return draft
     latest = None
     if objective.has_makespan:
@@ -96,14 +98,12 @@ def _act_less(request: PlanRequest, draft: Draft) -> Draft:
     return replace(draft, tracks=tracks)
 
 
-def _explain(request: PlanRequest, draft: Draft) -> Draft:
-    """Return a plan with its forced losses, where it is proven to be optimal.
+def _explain(request: PlanRequest, draft: Draft, proof: Proof) -> Draft:
+    """Return an optimal plan with its forced losses.
 
     A bounded number of steps finds that: without a time limit reached the same losses each time.
     """
-    proof, scenario, deadline = draft.proof, request.scenario, request.deadline
-    if proof is None or proof.objective.compute_cost(scenario, draft.tracks) > proof.bound:
-        return draft
+    scenario, deadline = request.scenario, request.deadline
     losses: tuple[ForcedLoss, ...] = ()
     if proof.objective.has_makespan:
         makespan = Objective.MAKESPAN.compute_cost(scenario, draft.tracks)

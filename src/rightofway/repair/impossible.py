@@ -99,6 +99,8 @@ def _find_shared_ends(scenario: Scenario) -> Iterator[Blockage]:
 def _find_clashes(scenario: Scenario) -> Iterator[Blockage]:
     """Yield where two robots would start or end too near to each other."""
     itineraries, roadmap = scenario.problem.itineraries, scenario.roadmap
+    if scenario.problem.resources.are_points:
+        return
     homes, ends = (
         [itinerary.home for itinerary in itineraries],
         [itinerary.last for itinerary in itineraries],
