@@ -200,18 +200,21 @@ def test_nodes_have_their_position_in_the_frame_of_the_robot(version: str) -> No
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_headings_of_a_layout_are_sent_where_robots_work_and_along_edges(version: str) -> None:
+def test_headings_and_edge_ids_of_a_layout_are_sent(version: str) -> None:
     """The map of the robot is turned left by a right angle: north on the site is 0 there.
 
-    A robot that passes C, without work there, need not turn.
+    A robot that passes C, without work there, need not turn. Pieces of a lane have ids of their
+    own.
     """
     vertices = {"A": [100, 200], "B": [300, 200], "C": {"at": [300, 600], "heading": 90}}
-    edges = [["A", "B"], {"from": "B", "to": "C", "orientation": 180, "both_ways": False}]
+    back = {"from": "B", "to": "C", "orientation": 180, "both_ways": False, "id": "e2"}
+    edges = [{"from": "A", "to": "B", "id": "Gang 1 / ä"}, back]
     scenario = site(roadmap={"vertices": vertices, "edges": edges}, spacing=200)
     assert parse_scenario(dump_scenario(scenario)).roadmap.drawing == scenario.roadmap.drawing
     fleet = FleetBuilder(spacing=200, y="up").add_vertex("A", 100, 200).add_vertex("B", 300, 200)
-    fleet.add_vertex("C", 300, 600, heading=90).add_edge("A", "B")
-    fleet.add_edge("B", "C", orientation=180, both_ways=False)
+    fleet.add_vertex("C", 300, 600, heading=90)
+    fleet.add_edge("A", "B", edge_id="Gang 1 / ä")
+    fleet.add_edge("B", "C", orientation=180, both_ways=False, edge_id="e2")
     assert fleet.build_roadmap().drawing == scenario.roadmap.drawing
     order_map = map_of(scenario, frame=Frame(yaw=Fraction(math.pi / 2)))
     order = order_over("A", "B", "B-C/1", "C")
@@ -221,6 +224,8 @@ def test_headings_of_a_layout_are_sent_where_robots_work_and_along_edges(version
     for document in (passing, works):
         validator(version, "order").validate(document)
         first, *others = document["edges"]
+        ids = [edge["edgeId"] for edge in document["edges"]]
+        assert ids == ["Gang 1 / ä", "B-B-C/1", "B-C/1-C"]
         assert "orientation" not in first
         assert [edge["orientation"] for edge in others] == pytest.approx([math.pi, math.pi])
     assert not any("theta" in node["nodePosition"] for node in passing["nodes"])
@@ -367,7 +372,9 @@ def test_the_condition_of_a_robot_comes_back_as_it_was_sent(version: str) -> Non
         condition=CONDITION,
         charge=0.5,
     )
-    document = write_message(StateMessage.of(sent, ["N1"], frozenset("b")), header(version))
+    document = write_message(
+        StateMessage.of(sent, ["N1"], frozenset("b"), lanes={}), header(version)
+    )
     validator(version, "state").validate(document)
     assert read(StateMessage, document, "state").to_robot_state() == sent
 

@@ -99,13 +99,13 @@ def test_a_scenario_written_as_a_workbook_is_read_back(tmp_path: Path, name: str
     assert rightofway.load(tmp_path / "copy.xlsx") == scenario
 
 
-def test_headings_and_orientations_are_kept(tmp_path: Path) -> None:
+def test_headings_orientations_and_ids_are_kept(tmp_path: Path) -> None:
     document = {
         "format": "rightofway-scenario/1",
         "map": {
             "roadmap": {
                 "vertices": {"A": [0, 0], "B": {"at": [3, 0], "heading": 90}},
-                "edges": [{"from": "A", "to": "B", "orientation": 180}],
+                "edges": [{"from": "A", "to": "B", "orientation": 180, "id": "12"}],
             }
         },
         "robots": [{"name": "R1", "home": "A", "target": "B"}],

@@ -522,7 +522,10 @@ class RobotEnd:
             if is_known and tail is not None and head is not None:
                 length, speed = edge.length or 0.0, edge.maxSpeed or 1.0
                 self.lanes[tail, head] = OrderLane(
-                    length=length, max_speed=speed, orientation=edge.orientation
+                    length=length,
+                    max_speed=speed,
+                    orientation=edge.orientation,
+                    edge_id=edge.edgeId,
                 )
 
     def report_state(self) -> Letter:
@@ -539,6 +542,7 @@ class RobotEnd:
             [node.place for node in robot.ahead],
             frozenset(robot.instant_actions),
             self._places.get(robot.place),
+            lanes=self.lanes,
             is_charging=robot.is_charging,
         )
         return self._writer.make_letter(self._identity, "state", body)

@@ -54,6 +54,8 @@ class OrderLane:
         Whether the points are those of one Bézier curve; else straight lines join them.
     orientation
         Angle of the robot against the direction of driving, from -pi to pi [rad]; None for any.
+    edge_id
+        Its id, which the layout or the scenario gives; None without one.
     """
 
     length: float
@@ -61,6 +63,7 @@ class OrderLane:
     points: tuple[tuple[float, float], ...] = ()
     is_bezier: bool = False
     orientation: float | None = None
+    edge_id: str | None = None
 
 
 Shapes = Mapping[tuple[int, int], tuple[tuple[Point, ...], bool]]
@@ -74,6 +77,7 @@ class _LookedUp:
     shapes: Shapes
     headings: Mapping[int, Fraction]
     orientations: Mapping[tuple[int, int], Fraction]
+    edge_ids: Mapping[tuple[int, int], str]
     places: dict[str, Place | None] = field(default_factory=dict)
     lanes: dict[tuple[str, str], OrderLane | None] = field(default_factory=dict)
 
@@ -88,6 +92,7 @@ class _LookedUp:
                 (int(tail), int(head)): orientation
                 for tail, head, orientation in drawing.orientations
             },
+            edge_ids={(int(tail), int(head)): own for tail, head, own in drawing.edge_ids},
         )
 
 
@@ -193,6 +198,7 @@ class OrderMap:
             points=points,
             is_bezier=shape is not None and shape[1],
             orientation=self._find_orientation(start, end),
+            edge_id=self._known.edge_ids.get((int(start), int(end))),
         )
 
     def _find_vertex(self, name: str) -> VertexId | None:

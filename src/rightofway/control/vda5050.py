@@ -266,7 +266,7 @@ def _make_work(action_id: str, item: str, task: ActionToDo, identity: Identity) 
 def _make_edge(tail: str, head: str, sequence_id: int, order_map: OrderMap) -> _Edge:
     lane = order_map.find_lane(tail, head)
     return _Edge(
-        edgeId=name_edge(tail, head),
+        edgeId=name_edge(tail, head, lane),
         sequenceId=sequence_id,
         released=True,
         startNodeId=tail,
@@ -292,9 +292,9 @@ def _make_trajectory(lane: OrderLane | None) -> _Trajectory | None:
     )
 
 
-def name_edge(tail: str, head: str) -> str:
+def name_edge(tail: str, head: str, lane: OrderLane | None) -> str:
     """Return the id of the edge between two places."""
-    return f"{tail}-{head}"
+    return f"{tail}-{head}" if lane is None or lane.edge_id is None else lane.edge_id
 
 
 class _InstantAction(_Model):
@@ -430,6 +430,7 @@ class StateMessage(_Model):
         instant: frozenset[str],
         position: Place | None = None,
         *,
+        lanes: Mapping[tuple[str, str], OrderLane],
         is_charging: bool = False,
     ) -> StateMessage:
         """Return the message of a state.
@@ -444,6 +445,8 @@ class StateMessage(_Model):
             Ids of instant actions, which 3.0 keeps apart.
         position
             Where the robot is, if that is to be said.
+        lanes
+            The edges of its orders, by the places at their ends.
         is_charging
             Whether its battery is charged.
         """
@@ -463,7 +466,7 @@ class StateMessage(_Model):
                 for place, number in zip(ahead, state.nodes, strict=True)
             ),
             edgeStates=tuple(
-                _EdgeState(edgeId=name_edge(tail, head), sequenceId=number)
+                _EdgeState(edgeId=name_edge(tail, head, lanes.get((tail, head))), sequenceId=number)
                 for (tail, head), number in zip(
                     pairwise((state.last_place, *ahead)), state.edges, strict=True
                 )

@@ -240,6 +240,7 @@ class FleetBuilder:
         barred: Iterable[str] = (),
         surcharge: Number = 0,
         orientation: Number | None = None,
+        edge_id: str | None = None,
     ) -> Self:
         """Add an edge between two vertices.
 
@@ -264,6 +265,8 @@ class FleetBuilder:
         orientation
             How robots are turned against the direction of driving, for orders, like 180 for
             backwards [degrees]; None for any. Both directions have the same.
+        edge_id
+            Its id in orders to robots; None for the names of its ends with a hyphen between.
 
         Raises
         ------
@@ -283,6 +286,7 @@ class FleetBuilder:
             barred=barred,
             surcharge=surcharge,
             orientation=orientation,
+            edge_id=edge_id,
         )
         return self
 

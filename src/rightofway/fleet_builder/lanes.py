@@ -11,6 +11,7 @@ from rightofway.errors import InputError, find_nearest, locate_faults, quote
 from rightofway.kinds.numbers import Number
 from rightofway.kinds.table import (
     COORDINATE,
+    NAME,
     NAMES,
     NOT_NEGATIVE,
     NUMBER,
@@ -47,6 +48,8 @@ class DrawnLanes:
         Properties given for vertices.
     headings, orientations
         Headings at vertices, and orientations along edges by tail and head [degrees].
+    edge_ids
+        Ids of edges in orders, by tail and head.
     zones
         Zones by the names of their vertices and edges.
     is_drawn
@@ -60,6 +63,7 @@ class DrawnLanes:
     passed: list[str] = field(default_factory=list)
     headings: dict[str, Fraction] = field(default_factory=dict)
     orientations: dict[tuple[str, str], Fraction] = field(default_factory=dict)
+    edge_ids: dict[tuple[str, str], str] = field(default_factory=dict)
     zones: list[NamedZone] = field(default_factory=list)
     is_drawn: bool = True
 
@@ -102,6 +106,7 @@ class DrawnLanes:
         barred: Iterable[str],
         surcharge: Number,
         orientation: Number | None = None,
+        edge_id: str | None = None,
     ) -> None:
         """Add an edge, as `FleetBuilder.add_edge`."""
         place = f"edge {quote(tail)} to {quote(head)}"
@@ -127,6 +132,9 @@ class DrawnLanes:
         if angle is not None:
             self.orientations[tail, head] = angle
             self.orientations |= {(head, tail): angle} if both_ways else {}
+        if (own := allow_none(NAME).read_at((place, "edge_id"), edge_id)) is not None:
+            self.edge_ids[tail, head] = own
+            self.edge_ids |= {(head, tail): own} if both_ways else {}
         self.edges.append((tail, head, given, more))
         if both_ways:
             self.edges.append((head, tail, given, more))
@@ -183,6 +191,11 @@ class DrawnLanes:
                 (*ends, orientation)
                 for (tail, head), orientation in self.orientations.items()
                 for ends in roadmap.list_pieces((at(tail), at(head)))
+            ),
+            edge_ids=tuple(
+                (at(tail), at(head), own)
+                for (tail, head), own in self.edge_ids.items()
+                if roadmap.is_drawn(at(tail), at(head))
             ),
         )
         return replace(roadmap, drawing=drawing)

@@ -74,6 +74,8 @@ class Drawing:
     orientations
         Tail and head of each edge along which robots drive in an orientation, with the angle from
         the direction of driving, turned as a heading [degrees]; 180 for backwards.
+    edge_ids
+        Tail and head of each edge that has an id in orders, with the id.
     picture
         The picture that lies below the map.
     """
@@ -85,4 +87,5 @@ class Drawing:
     controls: tuple[tuple[VertexId, VertexId, tuple[Point, ...]], ...] = ()
     headings: tuple[tuple[VertexId, Fraction], ...] = ()
     orientations: tuple[tuple[VertexId, VertexId, Fraction], ...] = ()
+    edge_ids: tuple[tuple[VertexId, VertexId, str], ...] = ()
     picture: Picture | None = None

@@ -87,6 +87,8 @@ class Level:
     orientations
         Orientations along lanes, by names of tail and head: angle from the direction of driving
         [degrees].
+    edge_ids
+        Ids of lanes in orders, by names of tail and head.
     """
 
     name: str
@@ -97,6 +99,7 @@ class Level:
     links: tuple[tuple[str, str], ...] = ()
     picture: Picture | None = None
     orientations: Mapping[tuple[str, str], Fraction] = field(default_factory=dict)
+    edge_ids: Mapping[tuple[str, str], str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         names = tuple(vertex.name for vertex in self.vertices)
@@ -383,6 +386,11 @@ def _make_drawing(
             for ends, orientation in level.orientations.items()
             if ids.keys() >= {*ends}
             for tail, head in roadmap.list_pieces((ids[ends[0]], ids[ends[1]]))
+        ),
+        edge_ids=tuple(
+            (ids[tail], ids[head], edge_id)
+            for (tail, head), edge_id in level.edge_ids.items()
+            if {tail, head} <= ids.keys() and roadmap.is_drawn(ids[tail], ids[head])
         ),
         picture=level.picture and level.picture.scale(metre),
     )

@@ -48,6 +48,7 @@ def known_to(level: Level, says: frozenset[str]) -> list[object]:
             edge.shape for edge in level.edges if edge.chord_error is not None
         ],
         "vehicle types": level.vehicle_types,
+        "ids of lanes": level.edge_ids,
         "headings at vertices": [vertex.heading for vertex in level.vertices],
         "orientations along lanes": level.orientations,
         "zones": level.zones,
@@ -71,6 +72,8 @@ def test_what_is_written_is_read_back(
     says = LAYOUT_WRITERS[name].says
     if not old.vehicle_types:  # a LIF lane with a speed limit names a type
         says -= {"vehicle types"}
+    if len({*old.edge_ids.values()}) < len(old.edges):  # a LIF lane has an id of its own
+        says -= {"ids of lanes"}
     assert known_to(new, says) == known_to(old, says)
     assert format_layout(again, name) == (text, ())
 
@@ -78,7 +81,8 @@ def test_what_is_written_is_read_back(
 def test_losses_are_named_and_counted() -> None:
     (loss,) = format_layout(single("plant.xml", None), "graphml")[1]
     names = (
-        "stations (2: Socket and Saw 1), actions of vertices without loads (1: End) and zones (1:"
+        "stations (2: Socket and Saw 1), actions of vertices without loads (1: End), ids of lanes"
+        " (4: Dock --- Cross, Dock --- Cross, Cross --- End and End --- Dock) and zones (1:"
         " Crossing)"
     )
     assert str(loss) == f"left out, the format has no place for them: {names}"

@@ -129,6 +129,7 @@ class LevelDraft:
     zones: list[NamedZone] = field(default_factory=list)
     picture: Picture | None = None
     orientations: dict[tuple[str, str], Fraction] = field(default_factory=dict)
+    edge_ids: dict[tuple[str, str], str] = field(default_factory=dict)
     unused: int = 0  # vertices that are drawn and on no lane, of a format that has other ones, too
 
     def add(self, vertex: LayoutVertex, source: Source) -> None:
@@ -284,6 +285,7 @@ class LayoutDraft:
             links=links,
             picture=level.picture,
             orientations=level.orientations,
+            edge_ids=level.edge_ids,
         )
 
     def _list_usable_stations(self, level: LevelDraft) -> list[Station]:

@@ -207,6 +207,8 @@ def _add_edge(level: LevelDraft, edge: Source, draft: LayoutDraft) -> None:
         lambda: edge.need("startNodeId").read_text(), lambda: edge.need("endNodeId").read_text()
     )
     own, name = edge.read_items_under(*EDGE_PROPERTIES), name_piece(edge, "edgeId")
+    if (edge_id := find_name(edge, "edgeId")) is not None:
+        level.edge_ids.setdefault((tail, head), edge_id)
     draft.note_unused(edge, name, EDGE_KEYS)
     for properties in own:
         _note_unused_properties(properties, name, draft)

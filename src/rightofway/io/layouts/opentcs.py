@@ -151,6 +151,7 @@ def _add_path(
     for ends, speed in zip(((tail, head), (head, tail)), speeds, strict=True):
         if speed > 0:
             lanes.append(ends)
+            level.edge_ids.setdefault(ends, path.need("name").read_text())
             level.connect(path, *ends, length=length, max_speed=speed * MILLIMETRE)
 
 

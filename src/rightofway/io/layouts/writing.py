@@ -92,6 +92,9 @@ def list_losses(layout: Layout, says: frozenset[str]) -> Iterator[Fact]:
         "orientations along lanes": [
             name for level in levels for name in name_lanes(level.orientations)
         ],
+        "ids of lanes": [
+            own for level in levels for ends, own in level.edge_ids.items() if own != "-".join(ends)
+        ],
         "lanes longer than the straight line": [
             name for level in levels for name in _name_curved(level)
         ],
@@ -182,8 +185,8 @@ def _make_lif_level(level: Level) -> dict[str, Any]:
         "layoutLevelId": level.name or "0",
         "nodes": [_make_lif_node(vertex, everybody) for vertex in level.vertices],
         "edges": [
-            _make_lif_edge(edge, number, sorted(edge.types or everybody), level, at)
-            for number, edge in enumerate(level.edges)
+            {"edgeId": edge_id, **_make_lif_edge(edge, sorted(edge.types or everybody), level, at)}
+            for edge_id, edge in zip(_choose_edge_ids(level), level.edges, strict=True)
         ],
         "stations": [
             {"stationId": station.name, "interactionNodeIds": list(station.vertices)}
@@ -244,8 +247,18 @@ def _make_lif_action(own: dict[str, Any]) -> dict[str, Any]:
     return action
 
 
+def _choose_edge_ids(level: Level) -> Iterator[str]:
+    """Yield an id for each lane: its own for the first lane that has it."""
+    taken = set[str]()
+    for number, edge in enumerate(level.edges):
+        own = level.edge_ids.get((edge.tail, edge.head))
+        edge_id = f"{edge.tail}-{edge.head} {number}" if own is None or own in taken else own
+        taken.add(edge_id)
+        yield edge_id
+
+
 def _make_lif_edge(
-    edge: LayoutEdge, number: int, types: Sequence[str], level: Level, at: Mapping[str, Point]
+    edge: LayoutEdge, types: Sequence[str], level: Level, at: Mapping[str, Point]
 ) -> dict[str, Any]:
     more: dict[str, Any] = {}
     if (edge.tail, edge.head) in level.orientations:
@@ -255,7 +268,6 @@ def _make_lif_edge(
     if edge.chord_error is not None:
         more["trajectory"] = _make_trajectory(edge, at)
     return {
-        "edgeId": f"{edge.tail}-{edge.head} {number}",
         "startNodeId": edge.tail,
         "endNodeId": edge.head,
         "vehicleTypeEdgeProperties": [
@@ -414,7 +426,8 @@ LAYOUT_WRITERS: dict[str, LayoutWriter] = {
     "lif": LayoutWriter(
         summary="LIF 1.0.0", write=_write_lif,
         says=frozenset({"names of vertices", "levels", "stations", "charging places",
-                        "actions of vertices", "vehicle types", "curves that robots drive along",
+                        "actions of vertices", "vehicle types", "ids of lanes",
+                        "curves that robots drive along",
                         "headings at vertices", "orientations along lanes"}),
     ),
     "nav2": LayoutWriter(

@@ -351,7 +351,7 @@ def _collect_bends(curves: Mapping[tuple[str, str], LaneCurve], roadmap: Roadmap
 
 
 def _collect_headings(document: RoadmapDocument, roadmap: Roadmap) -> dict[str, Any]:
-    """Return the headings of vertices, and the orientations along edges and pieces of lanes."""
+    """Return headings of vertices, orientations along edges and pieces of lanes, and edge ids."""
     at = roadmap.get_vertex
     return {
         "headings": tuple(
@@ -365,6 +365,13 @@ def _collect_headings(document: RoadmapDocument, roadmap: Roadmap) -> dict[str, 
             if edge.orientation is not None
             for ends in ((edge.tail, edge.head), (edge.head, edge.tail))[: 1 + edge.both_ways]
             for tail, head in roadmap.list_pieces((at(ends[0]), at(ends[1])))
+        ),
+        "edge_ids": tuple(
+            (at(tail), at(head), edge.edge_id)
+            for edge in document.edges
+            if edge.edge_id is not None
+            for tail, head in ((edge.tail, edge.head), (edge.head, edge.tail))[: 1 + edge.both_ways]
+            if roadmap.is_drawn(at(tail), at(head))
         ),
     }
 

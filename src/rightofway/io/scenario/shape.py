@@ -111,6 +111,9 @@ class EdgeDocument(Document):
         "how robots are turned against the direction of driving, for orders, like 180 for backwards"
         " [degrees]; the same in both directions"
     )
+    edge_id: Name = make_optional(
+        "its id in orders to robots; by default that of its ends with a hyphen between", alias="id"
+    )
 
     @model_validator(mode="before")
     @classmethod

@@ -208,6 +208,7 @@ def _write_roadmap(roadmap: Roadmap) -> dict[str, Any]:
         (int(tail), int(head)): {"orientation": format_number(orientation)}
         for tail, head, orientation in roadmap.drawing.orientations
     }
+    ids = {(int(tail), int(head)): {"id": own} for tail, head, own in roadmap.drawing.edge_ids}
     curves = {
         (int(tail), int(head)): {
             "curve": [[format_number(part) for part in point] for point in points]
@@ -224,6 +225,7 @@ def _write_roadmap(roadmap: Roadmap) -> dict[str, Any]:
         {"from": names[tail], "to": names[head], **of_class[kind]}
         | curves.get((tail, head), {})
         | orientations.get((tail, head), {})
+        | ids.get((tail, head), {})
         for tail, head, kind in zip(*columns, strict=True)
     ]
     zones = [

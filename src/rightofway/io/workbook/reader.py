@@ -281,7 +281,7 @@ def _read_roadmap(vertices: Sheet, edges: Sheet) -> CellDocument:
         (*path, "edges"),
         list_keys(EdgeDocument),
         noun="an edge",
-        words={*WORD_KEYS, "from", "to"},
+        words={*WORD_KEYS, "from", "to", "id"},
     )
     faults.add((*table.faults, *ways.faults))
     cells: dict[Steps, Where] = {
