@@ -38,6 +38,7 @@ html_theme = "furo"
 html_title = "rightofway"
 html_static_path = ["_static"]
 html_css_files = ["rightofway.css"]
+html_search_scorer = str(Path(__file__).parent / "_static" / "scorer.js")
 html_copy_source = False
 html_show_copyright = False
 html_theme_options = {
