@@ -4,15 +4,18 @@ import pickle
 from collections.abc import Mapping
 
 from rightofway.errors import (
+    Blockage,
     InputError,
     InputFault,
     Location,
+    NoPlanExists,
     Steps,
     Where,
     format_path,
     locate_faults,
     name_file,
 )
+from rightofway.facts import Fact
 
 Starts = Mapping[Steps, Where]
 
@@ -67,3 +70,13 @@ def test_a_fault_comes_from_another_process_as_it_was() -> None:
     copy = pickle.loads(pickle.dumps(error))  # noqa: S301 (our own bytes)
     assert copy.faults == error.faults
     assert str(copy) == str(error) == "hall.yaml: robots[1]: of robots[0]"
+
+
+def test_many_blockages_are_one_fact_of_the_first_ones() -> None:
+    error = NoPlanExists([Blockage(f"{name} is cut off", remedy="move it") for name in "ABCDEF"])
+    text = "; ".join(f"{name} is cut off (move it)" for name in "ABCD")
+    assert str(error.explain()) == f"{text}; and 2 more"
+
+
+def test_messages_on_inputs_are_text_in_a_fact() -> None:
+    assert InputError.at("job", "is unknown").explain() == Fact("other", text="job: is unknown")

@@ -271,6 +271,10 @@ class InputFault:
 class RightOfWayError(Exception):
     """The base class of all exceptions that this package raises on purpose."""
 
+    def explain(self) -> Fact:
+        """Return the reason as a fact; messages on inputs are text."""
+        return Fact("other", text=str(self))
+
 
 class InputError(RightOfWayError, ValueError):
     """An input of the user is wrong.
@@ -363,6 +367,15 @@ class Blockage:
         reason = self.reason
         return replace(self, reason=reason.bind(scenario)) if isinstance(reason, Fact) else self
 
+    def explain(self) -> Fact:
+        """Return the reason and its remedy as one fact."""
+        reason = self.reason
+        if not isinstance(reason, Fact):
+            reason = Fact("other", text=reason)
+        if not self.remedy:
+            return reason
+        return Fact("fact and remedy", reason.about, fact=reason, remedy=self.remedy)
+
     def __str__(self) -> str:
         return f"{self.reason} ({self.remedy})" if self.remedy else str(self.reason)
 
@@ -389,6 +402,16 @@ class NoPlanExists(RightOfWayError):
         listed = [str(blockage) for blockage in self.blockages[:MAX_REASONS]]
         more = len(self.blockages) - len(listed)
         return "\n".join([*listed, *([str(Fact("more reasons", number=more))] if more else [])])
+
+    def explain(self) -> Fact:
+        """Return the first blockages, and the number of the others."""
+        reasons = [blockage.explain() for blockage in self.blockages[:FEW]]
+        if more := len(self.blockages) - len(reasons):
+            reasons.append(Fact("more reasons", number=more))
+        whole = reasons.pop()
+        for reason in reversed(reasons):
+            whole = Fact("two reasons", self.scenario, one=reason, other=whole)
+        return whole
 
     @property
     def robots(self) -> tuple[str, ...]:
@@ -447,6 +470,10 @@ class GaveUp(RightOfWayError):
     def __init__(self, reason: Fact | str) -> None:
         super().__init__(reason)
         self.reason = reason
+
+    def explain(self) -> Fact:
+        """Return the reason."""
+        return self.reason if isinstance(self.reason, Fact) else super().explain()
 
 
 class InvalidPlan(RightOfWayError):

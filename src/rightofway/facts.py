@@ -42,6 +42,16 @@ class Fact:
         """Return the fact about a scenario."""
         return Fact(self.kind, about, **self.values)
 
+    def detach(self, since: int = 0) -> Fact:
+        """Return the fact for readers without its scenario: names and quantities are text.
+
+        Parameters
+        ----------
+        since
+            Ticks after which its points in time begin to count.
+        """
+        return self if self.about is None else get_teller().name_values(self, since)
+
     def as_dict(self) -> dict[str, Any]:
         """Return kind and values as JSON has them; facts among the values likewise."""
         values = {name: _pack(value) for name, value in self.values.items()}
@@ -91,6 +101,9 @@ class Teller(Protocol):
 
     def tell_fact(self, fact: Any) -> str:
         """Return a fact, a fault or a report of the judge in English."""
+
+    def name_values(self, fact: Fact, since: int) -> Fact:
+        """Return a fact about no scenario, as `Fact.detach`."""
 
     def write_message(self, fault: Any) -> str:
         """Return the reason of a fault and its remedy in English."""

@@ -80,6 +80,12 @@ class PackageTeller:
             return "\n".join(list_report_sentences(fact))
         return str(describe_change(fact)["text"])
 
+    def name_values(self, fact: Fact, since: int) -> Fact:
+        """Return a fact about no scenario, with names and quantities as text."""
+        from rightofway.report.facts import FactWriter
+
+        return FactWriter(fact.about).name_values(fact, since)
+
     def summarize_report(self, report: Report) -> str:
         """Return the number of faults of each kind."""
         from rightofway.report.judgement import summarize_report

@@ -34,13 +34,25 @@ def add_job(floor: Floor, name: str) -> None:
     floor.send(floor.operator._run_command({"kind": "add", "name": name, "at": "N12"})[0])
 
 
-def end_round(floor: Floor, meanwhile: Callable[[], None] = lambda: None) -> None:
+def begin_round(floor: Floor, meanwhile: Callable[[], None] = lambda: None) -> None:
+    """Wait until a round is under way."""
+    driver = floor.dispatcher.rounds
+    assert driver is not None
+
+    def has_begun() -> bool:
+        meanwhile()
+        floor.send(driver.go_on())
+        return driver.is_under_way
+
+    wait_for(has_begun, 60, "the begin of the round")
+
+
+def end_round(floor: Floor) -> None:
     """Wait until no round is under way."""
     driver = floor.dispatcher.rounds
     assert driver is not None
 
     def is_over() -> bool:
-        meanwhile()
         floor.send(driver.go_on())
         return not driver.is_under_way
 
@@ -50,8 +62,8 @@ def end_round(floor: Floor, meanwhile: Callable[[], None] = lambda: None) -> Non
 def serve_late(pipe: Connection, time_limit: float, planner: str) -> None:  # noqa: ARG001
     """Start, and never plan a round."""
     pipe.send(None)
-    pipe.recv()
-    time.sleep(3600)
+    while True:
+        pipe.recv()
 
 
 class Clock:
@@ -64,23 +76,36 @@ class Clock:
         return self.now
 
 
-def test_the_start_of_the_process_takes_no_time_from_a_round(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """On a busy machine a start may take a minute; all would be given up then."""
+def test_robots_drive_on_while_the_process_starts(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On a busy machine a start may take minutes; no robot keeps its parts meanwhile."""
     monkeypatch.setattr(round_worker, "time", clock := Clock())
     rounds = ProcessRounds(1.0)
     floor, said = start_shift(rounds)
     add_job(floor, "A1")
-
-    def pass_a_minute_of_the_start() -> None:
-        if not rounds._has_started:
-            clock.now = 60.0
-
-    end_round(floor, pass_a_minute_of_the_start)
-    assert rounds._has_started
+    assert floor.dispatcher.control.kept_parts is None
+    minutes = iter(range(0, 300, 60))
+    begin_round(floor, lambda: setattr(clock, "now", next(minutes, 300)))
+    assert floor.dispatcher.control.kept_parts is not None
+    end_round(floor)
     rounds.close()
     assert not said
+
+
+def test_a_process_that_does_not_start_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(round_worker, "_serve_rounds", print)  # and end
+    rounds = ProcessRounds(1.0)
+    floor, said = start_shift(rounds)
+    add_job(floor, "A1")
+    driver = floor.dispatcher.rounds
+    assert driver is not None
+
+    def is_reported() -> bool:
+        floor.send(driver.go_on())
+        return bool(said)
+
+    wait_for(is_reported, 60, "a report")
+    rounds.close()
+    assert said == ["the old plan stands: its process has ended, or took too long"]
 
 
 def test_a_round_after_one_that_took_too_long_may_take_twice_as_long(
@@ -96,8 +121,7 @@ def test_a_round_after_one_that_took_too_long_may_take_twice_as_long(
     for name in ("A1", "A2", "A3"):
         add_job(floor, name)
         driver.want()
-        floor.send(driver.go_on())
-        wait_for(lambda: rounds.poll() is not None or rounds._waiting is None, 60, "the start")
+        begin_round(floor)
         began = clock.now
         while driver.is_under_way:
             clock.now += 1
@@ -116,15 +140,15 @@ def test_a_round_whose_process_is_killed_is_reported_and_the_next_one_plans() ->
     assert driver is not None
     began = time.monotonic()
     add_job(floor, "A1")
-    assert driver.is_under_way
     assert time.monotonic() - began < 0.5
+    begin_round(floor)
     assert rounds._process is not None
     rounds._process.kill()
 
     end_round(floor)
     assert said == ["the old plan stands: its process has ended, or took too long"]
     driver.want()
-    floor.send(driver.go_on())
+    begin_round(floor)
     end_round(floor)
     assert "A1" not in driver.watch.list_waiting()
     assert said[1:] == ["the rest is replanned"]

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from fractions import Fraction
 from typing import Any
 
 from rightofway.dispatch import FleetView, PooledJob, RobotView, RoundPlanner
 from rightofway.dispatch.round import JOBS_PER_ROBOT, choose_jobs
+from rightofway.facts import read_fact
 from rightofway.model import Job, JobStop, Tick, Track
 from rightofway.site import VertexId
 from tests.builders.shifts import make_scenario
@@ -73,6 +75,30 @@ def test_a_round_without_a_robot_that_drives_keeps_the_old_plan_and_says_why() -
     )
     assert planned.stands
     assert str(planned.facts[0]) == "the old plan stands: no robot can drive"
+
+
+def test_a_round_says_with_names_and_times_of_the_shift_why_no_plan_exists() -> None:
+    """R1 does not go on: R2 is the only robot of the round, and its times begin at 100."""
+    scenario = make_scenario(
+        ["......", "......"],
+        {"R1": "N11", "R2": "N0"},
+        jobs=[],
+        closures=[{"at": "N1", "from": 102}, {"at": "N6", "from": 101}],
+        units={"time": "s"},
+    )
+    stuck = RobotView(kept_track=Track.of([11], [-100]), is_able=False)
+    away = RobotView(kept_track=Track.of([4], [-100]))
+    fleet = FleetView(now=Tick(100), takeover=Tick(100), robots=(stuck, away))
+    jobs = pool(job("J1", robot="R2"))
+    planned = RoundPlanner(scenario).plan(fleet, jobs, over={}, time_limit=None)
+    kept = json.loads(json.dumps(planned.facts[0].as_dict()))
+    reason = kept["values"]["reason"]["values"]["fact"]
+    assert (reason["kind"], reason["values"]["robot"]) == ("closed in", "R2")
+    assert str(read_fact(kept)) == (
+        "the old plan stands: R2 cannot make its trip, even alone: N1 is closed from 1 min 42 s on "
+        "and N6 is closed from 1 min 41 s on (open one of them earlier, or give the robot other "
+        "places)"
+    )
 
 
 def test_a_round_plans_the_route_behind_the_kept_part() -> None:

@@ -20,7 +20,7 @@ from rightofway.control.journal import Entry
 from rightofway.control.laps import LapsToDrive, build_graph_behind_released
 from rightofway.control.ledger import Edge, Ledger
 from rightofway.control.messages import Message
-from rightofway.control.rest import RestPlanner, explain_error
+from rightofway.control.rest import RestPlanner
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.round_driver import RoundDriver
 from rightofway.control.round_worker import Rounds, RoundsAtOnce
@@ -419,7 +419,7 @@ class Dispatcher:
             self._tries_in = self._patience
             if not self._has_failed:
                 self._has_failed = True
-                self.report(Fact("no plan of the rest", reason=explain_error(error)), False)
+                self.report(Fact("no plan of the rest", reason=error.explain().detach()), False)
             return None
         if self._has_failed:
             self._has_failed = False

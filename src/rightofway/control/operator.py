@@ -35,7 +35,6 @@ from rightofway.control.names import (
     list_jobs,
     name_place,
 )
-from rightofway.control.rest import explain_error
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import make_route_from
 from rightofway.errors import GaveUp, InputError, describe_defect, escape_text, quote
@@ -113,7 +112,7 @@ class Operator:
             try:
                 more, reply = self._run_command(read_command(text))
             except (InputError, GaveUp) as error:
-                refusal = Fact("refused", reason=explain_error(error))
+                refusal = Fact("refused", reason=error.explain().detach())
                 more, reply = [], {"done": False, "fact": refusal.as_dict()}
             except UNSOUND:
                 raise

@@ -40,18 +40,10 @@ from rightofway.site import Roadmap
 from rightofway.site.chains import list_next_stops
 from rightofway.solve import solve
 
-__all__ = ["RestPlanner", "explain_error"]
+__all__ = ["RestPlanner"]
 
 SHARE = 50
 """Rights of way are switched where that saves a fiftieth of the flowtime of the rest, or more."""
-
-
-def explain_error(error: Exception) -> Fact | str:
-    """Return the reason of an error as the journal keeps it: a fact with names, or English text."""
-    reason = getattr(error, "reason", None)
-    if isinstance(reason, Fact) and reason.about is None:
-        return reason
-    return str(error)
 
 
 class RestPlanner:
@@ -144,7 +136,7 @@ class RestPlanner:
         moving = [robot for robot, own in enumerate(robots) if not own.is_off]
         standing = [robot for robot in stuck if not robots[robot].is_off]
         passable = self._find_passable(commitments, closed, standing)
-        reason: Fact | str | None = None
+        reason: Fact | None = None
         for attempt in range(MOST_ASIDE + 1):
             try:
                 ways = {
@@ -158,7 +150,7 @@ class RestPlanner:
                     for index, (robot, track) in enumerate(zip(moving, tracks, strict=True))
                 ]
             except (NoPlanExists, GaveUp, InputError) as error:
-                reason = reason or explain_error(error)
+                reason = reason or error.explain().detach()
                 continue
             routes = [own.route.cut_before(own.arrived) for own in robots]
             for robot, route in zip(moving, planned_routes, strict=True):

@@ -123,7 +123,7 @@ class RoundDriver:
             if planned is None:
                 return []
             messages = self._take_over(self._seen, planned)
-        if self.is_wanted and not self._pause and self._seen is None:
+        if self.is_wanted and not self._pause and self._seen is None and self.rounds.prepare():
             self._begin()
         while self._seen is not None and (planned := self.rounds.poll()) is not None:
             messages += self._take_over(self._seen, planned)
@@ -216,7 +216,7 @@ class RoundDriver:
         try:
             messages = control.splice(routes, graph, withdrawn=moved, notes=notes)
         except InputError as error:  # the guard: no round ends the control
-            return self._keep_old(str(error))
+            return self._keep_old(error.explain())
         ends = sum(int(track.enter[-1]) for track in planned.tracks)
         self.watch.take_over(map_later(ledger, seen, planned), seen.view.takeover, ends)
         self._tell_reasons(dict(planned.unserved), planned.postponed)
@@ -235,13 +235,11 @@ class RoundDriver:
                 self.tell(Fact("unserved", job=name, why=Fact(f"unserved {reason}")))
         self.reasons = reasons
 
-    def _keep_old(self, reason: Fact | str) -> list[Message]:
+    def _keep_old(self, reason: Fact) -> list[Message]:
         """Let the old plan go on, and try again later."""
         self.is_wanted, self._pause = True, PAUSE
         self.watch.keep_old()
-        is_general = isinstance(reason, Fact) and reason.about is None  # a journal has no scenario
-        fact = Fact("no plan of the rest", reason=reason if is_general else str(reason))
-        self.report(fact, False)
+        self.report(Fact("no plan of the rest", reason=reason), False)
         return self._control.note()
 
     def _list_unserved(self, planned: Round) -> list[Entry]:

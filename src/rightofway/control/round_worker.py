@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import multiprocessing
 import time
 from collections.abc import Mapping
@@ -56,8 +57,11 @@ class Rounds(Protocol):
     time_limit: float | None
     """The time limit of a round [s]; None for no limit but that of steps."""
 
+    def prepare(self) -> bool:
+        """Return whether a round may begin; until then what plans is starting."""
+
     def begin(self, request: RoundRequest) -> None:
-        """Begin to plan a round."""
+        """Begin to plan a round; call it after `prepare`."""
 
     def poll(self) -> Round | None:
         """Return the plan of the round that was begun, once; None as long as there is none."""
@@ -101,6 +105,10 @@ class RoundsAtOnce:
         self.time_limit = time_limit
         self._planners, self._planned = _Planners(time_limit, planner), list[Round]()
 
+    def prepare(self) -> bool:
+        """Return True: all is in this process."""
+        return True
+
     def begin(self, request: RoundRequest) -> None:
         """Plan a round."""
         self._planned = [self._planners.plan(request)]
@@ -130,17 +138,33 @@ class ProcessRounds:
         self._process: multiprocessing.process.BaseProcess | None = None
         self._pipe: Connection | None = None
         self._has_started = False
-        self._waiting: RoundRequest | None = None  # until the process has started
         self._until, self._grace = 0.0, GRACE
 
-    def begin(self, request: RoundRequest) -> None:
-        """Give a round to the process, as soon as it has started."""
-        if self._process is None or not self._process.is_alive():
+    def prepare(self) -> bool:
+        """Return whether the process has started, or a round has to report that it does not.
+
+        No robot has to keep its parts while a process starts, which takes a busy machine minutes.
+        """
+        if self._process is None or (self._has_started and not self._process.is_alive()):
             self._start()
-        if self._has_started:
-            self._send(request)
-        else:  # a pipe that nobody reads takes no long request
-            self._waiting = request
+        assert self._process is not None
+        assert self._pipe is not None
+        try:
+            if not self._has_started and self._pipe.poll():
+                self._pipe.recv()
+                self._has_started = True
+        except (EOFError, OSError):
+            return True
+        has_failed = not self._process.is_alive() or time.monotonic() > self._until
+        return self._has_started or has_failed
+
+    def begin(self, request: RoundRequest) -> None:
+        """Give a round to the process."""
+        self._until = 0.0
+        if self._has_started and self._pipe is not None:
+            self._until = time.monotonic() + self._limit + self._grace
+            with contextlib.suppress(OSError):  # `poll` reports a process that has ended
+                self._pipe.send(request)
 
     def poll(self) -> Round | None:
         """Return the plan of the round that was begun, once; None as long as there is none.
@@ -148,27 +172,20 @@ class ProcessRounds:
         A process that has ended, or takes too long, has found no plan.
         """
         if self._pipe is None or self._process is None:
-            return None
+            return self._give_up()
         try:
-            if self._pipe.poll():
-                planned: Round | None = self._pipe.recv()
-                if planned is not None:
-                    self._grace = GRACE
-                    return planned
-                self._has_started = True
-                if self._waiting is not None:
-                    self._send(self._waiting)
+            if self._has_started and self._pipe.poll():
+                planned: Round = self._pipe.recv()
+                self._grace = GRACE
+                return planned
         except (EOFError, OSError):
             return self._give_up()
-        if not self._process.is_alive() or time.monotonic() > self._until:
+        if not self._process.is_alive():
+            return self._give_up()
+        if time.monotonic() > self._until:
             self._grace *= 2
             return self._give_up()
         return None
-
-    def _send(self, request: RoundRequest) -> None:
-        assert self._pipe is not None, "a process was started"
-        self._until, self._waiting = time.monotonic() + self._limit + self._grace, None
-        self._pipe.send(request)
 
     def close(self) -> None:
         """End the process."""

@@ -43,7 +43,7 @@ from rightofway.dispatch.view import (
     StopsLater,
     make_whole_tracks,
 )
-from rightofway.errors import GaveUp, InputError, NoPlanExists
+from rightofway.errors import GaveUp, InputError, NoPlanExists, RightOfWayError
 from rightofway.facts import Fact
 from rightofway.model import (
     Assignment,
@@ -501,15 +501,14 @@ def _spare_charge(item: TourItem, battery: BoundBattery) -> TourItem:
     return replace(item, duration=Tick(item.duration - -battery.full // (SPARE * battery.charge)))
 
 
-def _keep_old(view: FleetView, error: Exception) -> Round:
-    """Return the old plan as a round, and why it stands."""
-    reason = getattr(error, "reason", None)
-    fact = reason if isinstance(reason, Fact) else Fact("other", text=str(error))
+def _keep_old(view: FleetView, error: RightOfWayError) -> Round:
+    """Return the old plan as a round, and why it stands; its times begin with the takeover."""
+    reason = error.explain().detach(view.takeover)
     return Round(
         tracks=tuple(own.track or Track.of([own.at], [0]) for own in view.robots),
         steps=tuple(own.steps for own in view.robots),
         stands=True,
-        facts=(Fact("old plan stands", reason=fact),),
+        facts=(Fact("old plan stands", reason=reason),),
     )
 
 

@@ -63,6 +63,10 @@ ROBOTS = {"robot", "robots", "robots_in_turn", "few_robots"}
 VERTICES = {"few_places", "lane", "name", "place", "spot", "spots", "vertex", "vertices"}
 """Forms of values that are robots and vertices."""
 
+MOMENTS = {"moment", "until"}
+QUANTITIES = {*MOMENTS, "duration", "fine_length", "length", "speed", "time"}
+"""Forms of values that are written with the units of a scenario; text is written already."""
+
 
 class FactWriter:
     """Writes facts about one scenario.
@@ -97,6 +101,8 @@ class FactWriter:
 
     def _show(self, form: str, value: Any) -> str:
         """Return a value in a form; all other forms are facts about a number of things."""
+        if form in QUANTITIES and isinstance(value, str):
+            return value
         if form in self._forms:
             return self._forms[form](value)
         return self.write(Fact(form, number=value))
@@ -124,6 +130,30 @@ class FactWriter:
         if isinstance(value, Fraction):
             return value.numerator if value.denominator == 1 else float(value)
         return value
+
+    def name_values(self, fact: Fact, since: int = 0) -> Fact:
+        """Return a fact about no scenario: names for robots and vertices, text for quantities.
+
+        Parameters
+        ----------
+        fact
+            The fact.
+        since
+            Ticks after which its points in time begin to count.
+        """
+        forms = dict(list_forms(find_text(fact.kind, count_things(fact.values))))
+
+        def name_value(form: str, value: Any) -> Any:
+            if isinstance(value, Fact):
+                return self.name_values(value, since)
+            if form in QUANTITIES:
+                return str(self._show(form, value + since if form in MOMENTS else value))
+            if isinstance(value, tuple | list):
+                return tuple(name_value(form, item) for item in value)
+            return self._convert_value(form, value)
+
+        values = {name: name_value(forms.get(name, ""), item) for name, item in fact.values.items()}
+        return Fact(fact.kind, **values)
 
     @property
     def about(self) -> Scenario | Site:
@@ -207,21 +237,27 @@ class FactWriter:
         """Return a length with up to six decimals, and its unit if it has one."""
         return f"{format_decimal(value, 6)} {self.quantities.units.length or ''}".rstrip()
 
-    def name_robot(self, robot: int) -> str:
-        """Return a robot's name."""
+    def name_robot(self, robot: int | str) -> str:
+        """Return a robot's name; a name stays as it is, also of vertices."""
+        if isinstance(robot, str):
+            return robot
         return self.about.robots[robot].name
 
-    def name_vertex(self, vertex: int) -> str:
+    def name_vertex(self, vertex: int | str) -> str:
         """Return the name of a vertex for people, whether the roadmap has it or not."""
+        if isinstance(vertex, str):
+            return vertex
         if 0 <= vertex < self.scenario.roadmap.n_vertices:
             return self._places(vertex)
         return Phrase("vertex by number", number=str(vertex))
 
-    def name_place(self, vertex: int) -> str:
+    def name_place(self, vertex: int | str) -> str:
         """Return the name of a vertex with its use, without the number of a cell.
 
         On an inspected site: ``D1 (station Press)``, ``(2.25, 0.75, home of R1)``.
         """
+        if isinstance(vertex, str):
+            return vertex
         about = self.about
         if isinstance(about, Scenario):
             return self._plain_places(vertex)
@@ -234,15 +270,15 @@ class FactWriter:
         name = about.roadmap.name(vertex)
         return name if use is None else Phrase("name with detail", name=name, what=self.write(use))
 
-    def _write_name(self, vertex: int) -> str:
-        return self.about.roadmap.name(vertex)
+    def _write_name(self, vertex: int | str) -> str:
+        return vertex if isinstance(vertex, str) else self.about.roadmap.name(vertex)
 
     def _name_lane(self, ends: Sequence[int]) -> Phrase:
         tail, head = map(self._write_name, ends)
         return Phrase("lane", tail=tail, head=head)
 
-    def _describe_place(self, vertex: int) -> str:
-        return self._plain_places.describe_place(vertex)
+    def _describe_place(self, vertex: int | str) -> str:
+        return vertex if isinstance(vertex, str) else self._plain_places.describe_place(vertex)
 
     def _write_time(self, value: Fraction) -> str:
         """Return a time [time unit], without words where no unit is known."""
@@ -288,10 +324,7 @@ def pack_summary(summary: str, *kinds: str) -> Any:
 
 def write_blockage(blockage: Blockage) -> str:
     """Return the reason of a blockage, and its remedy if there is one."""
-    reason, remedy = blockage.reason, blockage.remedy
-    about = getattr(reason, "about", None)
-    both = Fact("fact and remedy", about, fact=reason, remedy=remedy)
-    return write_note(both if remedy else reason)
+    return write_note(blockage.explain())
 
 
 def write_notes(notes: Iterable[str | Fact]) -> list[str]:
