@@ -17,20 +17,21 @@ if TYPE_CHECKING:
     from rightofway.metrics.changes import Change, find_changes, find_job_changes
     from rightofway.metrics.collisions import (
         Collision,
-        NamedCollision,
-        NamedCollisions,
-        NearMiss,
         Swap,
         find_collisions,
-        find_near_misses,
         find_swaps,
         free_running,
-        name_collisions,
     )
     from rightofway.metrics.comparison import MAX_COMPARED, Comparison, compare
     from rightofway.metrics.events import Event, list_events, make_event_columns
     from rightofway.metrics.forced_losses import find_forced_losses, find_forced_makespan
     from rightofway.metrics.inspection import inspect
+    from rightofway.metrics.named_collisions import (
+        NamedCollision,
+        NamedCollisions,
+        name_collisions,
+    )
+    from rightofway.metrics.near_misses import NearMiss, find_near_misses
     from rightofway.metrics.site import Finding, Inspection, Site
 
 _MODULES = {
@@ -41,15 +42,10 @@ _MODULES = {
     ),
     "collisions": (
         "Collision",
-        "NamedCollision",
-        "NamedCollisions",
-        "NearMiss",
         "Swap",
         "find_collisions",
-        "find_near_misses",
         "find_swaps",
         "free_running",
-        "name_collisions",
     ),
     "comparison": (
         "MAX_COMPARED",
@@ -63,6 +59,12 @@ _MODULES = {
     ),
     "forced_losses": ("find_forced_losses", "find_forced_makespan"),
     "inspection": ("inspect",),
+    "named_collisions": (
+        "NamedCollision",
+        "NamedCollisions",
+        "name_collisions",
+    ),
+    "near_misses": ("NearMiss", "find_near_misses"),
     "site": (
         "Finding",
         "Inspection",

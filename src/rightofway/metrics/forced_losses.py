@@ -9,7 +9,8 @@ from itertools import chain, product
 from rightofway.deadline import Deadline
 from rightofway.errors import GaveUp
 from rightofway.facts import Fact
-from rightofway.metrics.collisions import find_collisions, find_near_misses, find_swaps
+from rightofway.metrics.collisions import find_collisions, find_swaps
+from rightofway.metrics.near_misses import find_near_misses
 from rightofway.model import (
     Objective,
     Scenario,
