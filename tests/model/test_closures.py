@@ -75,10 +75,10 @@ def test_a_closed_edge_leaves_its_ends_and_the_edges_there_open() -> None:
 def test_a_closed_lane_is_closed_with_all_its_pieces_and_the_vertices_on_it() -> None:
     scenario = line(spacing=2)
     edge = scenario.roadmap.get_vertex("B"), scenario.roadmap.get_vertex("A")
-    pieces = {"A>A-B/1", "A-B/1>B", "B>A-B/1", "A-B/1>A"}
-    assert closed(scenario, Closure(edge=edge)) == {"A-B/1", *pieces}
+    pieces = {"A>A-B/1", "A-B/1>B", "B>B-A/1", "B-A/1>A"}
+    assert closed(scenario, Closure(edge=edge)) == {"A-B/1", "B-A/1", *pieces}
     piece = scenario.roadmap.get_vertex("A"), scenario.roadmap.get_vertex("A-B/1")
-    assert closed(scenario, Closure(edge=piece)) == {"A>A-B/1", "A-B/1>A"}
+    assert closed(scenario, Closure(edge=piece)) == {"A>A-B/1", "B-A/1>A"}
 
 
 @pytest.mark.parametrize(

@@ -86,7 +86,7 @@ def test_the_judge_refuses_a_plan_that_turns_back() -> None:
     names = ["E", *(f"E-B/{k}" for k in range(1, 5)), "B", "B-D/1", "B"]
     track = Track.of([vertex(name) for name in names], [100 * k for k in range(len(names))])
     wrong = replace(plan, tracks=(*plan.tracks[:2], track))
-    assert ("jump", ("B-D/1", "B")) in [
+    assert ("forbidden turn", ("B-D/1", "B")) in [
         (fault.kind, tuple(map(scenario.roadmap.name, fault.vertices)))
         for fault in check(wrong).faults
     ]

@@ -84,6 +84,7 @@ def test_limits_of_types_are_written_and_read_and_kept_by_pieces_of_lanes() -> N
     assert limits == [{"drone": 3, "truck": "1/2"}] * 2  # one for each direction
     assert parse_scenario(document) == limited_by_type()
     document["map"]["spacing"] = 2
+    document["rules"]["occupancy"] = "both"
     roadmap = parse_scenario(document).roadmap
     edge = roadmap.find_edge(*map(roadmap.get_vertex, ("A-B/1", "A-B/2")))
     assert edge is not None
@@ -121,23 +122,23 @@ def test_a_limit_is_above_zero() -> None:
         parse_scenario(document)
 
 
-def test_both_directions_of_a_lane_share_its_pieces() -> None:
+def test_both_directions_of_a_lane_have_vertices_of_their_own() -> None:
     at = {"A": (Fraction(0), Fraction(0)), "B": (Fraction(4), Fraction(3))}
     edges = [
         Edge(tail="B", head="A", length=Fraction(5)),
         Edge(tail="A", head="B", length=Fraction(6)),
     ]
     positions, split, pieces, *_ = split_lanes(at, edges, Fraction(2))
-    assert list(positions) == ["A", "B", "B-A/1", "B-A/2"]
-    assert positions["B-A/1"] == (Fraction(8, 3), Fraction(2))
+    assert list(positions) == ["A", "B", "B-A/1", "B-A/2", "A-B/2", "A-B/1"]
+    assert positions["B-A/1"] == positions["A-B/2"] == (Fraction(8, 3), Fraction(2))
     assert [(one.tail, one.head, one.length) for one in split[3:]] == [
-        ("A", "B-A/2", Fraction(2)),
-        ("B-A/2", "B-A/1", Fraction(2)),
-        ("B-A/1", "B", Fraction(2)),
+        ("A", "A-B/1", Fraction(2)),
+        ("A-B/1", "A-B/2", Fraction(2)),
+        ("A-B/2", "B", Fraction(2)),
     ]
     assert pieces == {
         ("B", "A"): [("B", "B-A/1"), ("B-A/1", "B-A/2"), ("B-A/2", "A")],
-        ("A", "B"): [("A", "B-A/2"), ("B-A/2", "B-A/1"), ("B-A/1", "B")],
+        ("A", "B"): [("A", "A-B/1"), ("A-B/1", "A-B/2"), ("A-B/2", "B")],
     }
 
 
@@ -157,13 +158,13 @@ def names(roadmap: Roadmap, vertices: Iterable[int]) -> list[str]:
 def test_a_roadmap_keeps_the_pieces_of_each_lane_that_it_split() -> None:
     roadmap = split_both_ways().roadmap
     assert [names(roadmap, lane.vertices) for lane in roadmap.lanes] == [
-        ["A", "B-1-A/2", "B-1-A/1", "B-1"],
+        ["A", "A-B-1/1", "A-B-1/2", "B-1"],
         ["B-1", "B-1-A/1", "B-1-A/2", "A"],
         ["B-1", "B-1-C/1", "C"],
     ]
     back = roadmap.lanes[0]
     assert names(roadmap, back.ends) == ["A", "B-1"]
-    assert names(roadmap, back.joints) == ["B-1-A/2", "B-1-A/1"]
+    assert names(roadmap, back.joints) == ["A-B-1/1", "A-B-1/2"]
     assert all(
         roadmap.find_edge(*piece) is not None for lane in roadmap.lanes for piece in lane.pieces
     )
@@ -190,9 +191,11 @@ def test_the_ways_along_the_ends_of_a_lane_are_its_drawings() -> None:
     roadmap = split_both_ways().roadmap
     a, b, joint = map(roadmap.get_vertex, ("A", "B-1", "B-1-A/1"))
     assert [names(roadmap, way) for way in roadmap.find_ways_along((b, a))] == [
-        ["A", "B-1-A/2", "B-1-A/1", "B-1"]
+        ["A", "A-B-1/1", "A-B-1/2", "B-1"],
+        ["B-1", "B-1-A/1", "B-1-A/2", "A"],
     ]
-    assert roadmap.find_ways_along((joint, b)) == [(joint, b)]
+    back = roadmap.get_vertex("A-B-1/2")
+    assert roadmap.find_ways_along((joint, b)) == [(joint, b), (back, b)]
     assert roadmap.find_ways_along((a, roadmap.get_vertex("C"))) == []
 
 
@@ -310,4 +313,4 @@ def test_lanes_of_a_graph_without_positions_are_split_by_their_lengths_alone() -
     graph = nx.Graph()
     graph.add_edge("A", "B", length=40)
     roadmap = FleetBuilder(graph=graph, spacing=2).build_roadmap()
-    assert roadmap.n_vertices == 21
+    assert roadmap.n_vertices == 2 + 2 * 19

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import cached_property
-from itertools import pairwise
+from itertools import pairwise, product
 from math import ceil, floor
 from typing import Any, NamedTuple
 
@@ -114,7 +114,7 @@ class _Shut:
     def __init__(self, closure: Closure, roadmap: Roadmap) -> None:
         self.closure, self.roadmap = closure, roadmap
         ends = closure.edge or ()
-        self.ends = frozenset((*ends, *(roadmap.opposite.get(end, end) for end in ends)))
+        self.ends = frozenset(at for end in ends for at in roadmap.list_place(end))
         self.ways = list(self._list_ways())
 
     def _list_ways(self) -> Iterator[list[int]]:
@@ -125,14 +125,14 @@ class _Shut:
             return
         drawn = self.roadmap.passing or self.roadmap
         indptr, heads = drawn.indptr, drawn.heads
-        opposite = [self.roadmap.opposite.get(end, end) for end in self.closure.edge]
-        for ends in dict.fromkeys((tuple(self.closure.edge), tuple(opposite))):
+        places = [self.roadmap.list_place(end) for end in self.closure.edge]
+        for ends in product(*places):
             if any(
                 head in heads[indptr[tail] : indptr[tail + 1]] for tail, head in (ends, ends[::-1])
             ):
                 yield [*ends]
         for lane in self.roadmap.lanes:
-            if {lane.vertices[0], lane.vertices[-1]} == {*self.closure.edge}:
+            if lane.ends in {*product(*places), *product(*places[::-1])}:
                 yield list(lane.vertices)
 
     @cached_property
@@ -140,7 +140,7 @@ class _Shut:
         """The closure's own places: the vertex; or the pieces of the lane, and what joins them."""
         if self.closure.at is not None:
             at = self.closure.at
-            return {(vertex, vertex) for vertex in (at, self.roadmap.opposite.get(at, at))}
+            return {(vertex, vertex) for vertex in self.roadmap.list_place(at)}
         joints = {(vertex, vertex) for path in self.ways for vertex in path[1:-1]}
         lanes = (ends for path in self.ways for ends in pairwise(path))
         return joints | {(min(ends), max(ends)) for ends in lanes}

@@ -19,6 +19,7 @@ FaultKind = Literal[
     "wrong home",
     "backwards",
     "jump",
+    "forbidden turn",
     "too fast",
     "turn cut short",
     "work cut short",
@@ -63,6 +64,7 @@ FaultKind = Literal[
 ``wrong home``       the first visit is not at home, or not from tick 0
 ``backwards``        a visit ends before it begins
 ``jump``             no edge joins two visits, or one vertex is entered twice in a row
+``forbidden turn``   a robot turns inside a lane, or at a vertex where it may not
 ``too fast``         an edge is driven in less than the robot's ticks for it
 ``turn cut short``   a change of heading takes less than the robot's ticks for it
 ``work cut short``   a stop is visited, but never for long enough to work and turn

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from heapq import heappop, heappush
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -19,7 +20,7 @@ from rightofway.site import VertexId
 
 
 def judge_drives(visits: Visits) -> Iterator[FaultGroup]:
-    """Find unknown vertices, jumps, drives that are too fast and times that go backwards."""
+    """Find unknown vertices, jumps, forbidden turns, too fast drives, and times out of order."""
 
     def group(
         kind: FaultKind, broken: NDArray[np.bool_], describe: Callable[[int], Mapping[str, Any]]
@@ -55,8 +56,29 @@ def judge_drives(visits: Visits) -> Iterator[FaultGroup]:
         moves & (stay < 0),
         lambda visit: {"enter": int(visits.enter[visit]), "leave": int(visits.leave[visit])},
     )
-    yield group("jump", moves & both_known & ~joined, lambda _: {})
+    broken = moves & both_known & ~joined
+    turned = _find_forbidden_turns(visits, broken)
+    yield group("jump", broken & ~turned, lambda _: {})
+    yield group("forbidden turn", turned, lambda _: {})
     yield group("too fast", joined & (stay >= 0) & (stay < visits.drive), describe_drive)
+
+
+def _find_forbidden_turns(visits: Visits, broken: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return the moves without an edge that have one from, or to, another vertex of the place.
+
+    Such a robot has come to the place in another direction, and has turned there.
+    """
+    turned, roadmap = np.zeros(len(broken), bool), visits.scenario.roadmap
+    for visit in np.flatnonzero(broken).tolist() if roadmap.has_shared_places else ():
+        at, following = (VertexId(vertex) for vertex in visits.vertex[visit : visit + 2].tolist())
+        turned[visit] = at != following and (
+            following in roadmap.list_place(at)
+            or any(
+                roadmap.find_edge(tail, head) is not None
+                for tail, head in product(*map(roadmap.list_place, (at, following)))
+            )
+        )
+    return turned
 
 
 def judge_turns(visits: Visits) -> Iterator[FaultGroup]:

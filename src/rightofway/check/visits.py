@@ -70,8 +70,8 @@ def lay_out_visits(plan: Plan) -> Visits:
         vertex[known] = roadmap.passing.drawn[vertex[known]]
         passed = np.isin(vertex, list(roadmap.passing.vertices))
     place = vertex.copy()
-    if roadmap.opposite:
-        place[known] = [min(at, roadmap.opposite.get(at, at)) for at in vertex[known].tolist()]
+    if roadmap.has_shared_places:
+        place[known] = [min(roadmap.list_place(at)) for at in vertex[known].tolist()]
     leave = np.where(last, enter.max() + 1, np.roll(enter, -1))
     drive, barred = np.maximum(drive, 0), np.array(drive < 0, bool)
     bookings = _book(plan, enter=enter, leave=leave, drive=drive, last=last, passed=passed)

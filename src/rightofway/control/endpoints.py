@@ -279,6 +279,7 @@ class ControlEnd:
         """Take in a message of a robot; return the messages to send because of it."""
         if name == "state":
             state = self._read(robot, vda5050.StateMessage, letter).to_robot_state()
+            state = replace(state, last_place=self._find_vertex(robot, state))
             self._heard.add(robot)
             self.notices.take(robot, state.condition)
             self.notices.end(robot, LOST)
@@ -300,6 +301,18 @@ class ControlEnd:
         document = _parse_document(letter.payload)
         _refuse_header(document, self._maps[robot].identity, letter.name)
         return vda5050.read(model, document, letter.name)
+
+    def _find_vertex(self, robot: int, state: StateReport) -> str:
+        """Return the vertex of the node that a robot names, in the direction in which it came."""
+        vertices = self._maps[robot].list_vertices(state.last_place)
+        if len(vertices) == 1:
+            return state.last_place
+        own = self.control.ledger.robots[robot]
+        if state.order_id in own.orders:
+            visit = own.orders[state.order_id].offset + state.last_sequence_id // 2
+            if own.route.first <= visit < own.route.end and own.route.get_place(visit) in vertices:
+                return own.route.get_place(visit)
+        return next((place for place in own.held if place in vertices), state.last_place)
 
     def take_heard(self) -> set[int]:
         """Return the robots of which a state was used since the last call."""

@@ -128,8 +128,8 @@ def list_edges_into(roadmap: Roadmap, names: Sequence[str]) -> list[Edge]:
     vertices = [roadmap.get_vertex(name) for name in names]
     if len(vertices) == 1:
         tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
-        both = dict.fromkeys((vertices[0], roadmap.opposite.get(vertices[0], vertices[0])))
-        into = [(tail, head) for head in both for tail in tails[roadmap.heads == head].tolist()]
+        same = roadmap.list_place(vertices[0])
+        into = [(tail, head) for head in same for tail in tails[roadmap.heads == head].tolist()]
     else:
         lanes = roadmap.find_ways_along((vertices[0], vertices[-1]))
         if not lanes:

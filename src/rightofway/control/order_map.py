@@ -56,6 +56,8 @@ class OrderLane:
         Angle of the robot against the direction of driving, from -pi to pi [rad]; None for any.
     edge_id
         Its id, which the layout or the scenario gives; None without one.
+    turning
+        Whether the robot may turn along it; None where that is unknown.
     """
 
     length: float
@@ -64,6 +66,7 @@ class OrderLane:
     is_bezier: bool = False
     orientation: float | None = None
     edge_id: str | None = None
+    turning: bool | None = None
 
 
 Shapes = Mapping[tuple[int, int], tuple[tuple[Point, ...], bool]]
@@ -78,6 +81,7 @@ class _LookedUp:
     headings: Mapping[int, Fraction]
     orientations: Mapping[tuple[int, int], Fraction]
     edge_ids: Mapping[tuple[int, int], str]
+    turning: Mapping[tuple[int, int], bool]
     places: dict[str, Place | None] = field(default_factory=dict)
     lanes: dict[tuple[str, str], OrderLane | None] = field(default_factory=dict)
 
@@ -93,6 +97,7 @@ class _LookedUp:
                 for tail, head, orientation in drawing.orientations
             },
             edge_ids={(int(tail), int(head)): own for tail, head, own in drawing.edge_ids},
+            turning={(int(tail), int(head)): own for tail, head, own in drawing.turning},
         )
 
 
@@ -166,6 +171,30 @@ class OrderMap:
             )
         return self._places[name]
 
+    def name_node(self, place: str) -> str:
+        """Return the name of a vertex as robots have it.
+
+        Where they may not turn, one node is a vertex for each direction (`site.directions`).
+
+        Parameters
+        ----------
+        place
+            The name of a vertex.
+        """
+        vertex, roadmap = self._find_vertex(place), self.scenario.roadmap
+        return place if vertex is None else roadmap.name(roadmap.originals.get(vertex, vertex))
+
+    def list_vertices(self, node: str) -> list[str]:
+        """Return the names of the vertices that a node of the robot stands for.
+
+        Parameters
+        ----------
+        node
+            Its name.
+        """
+        vertex, roadmap = self._find_vertex(node), self.scenario.roadmap
+        return [node] if vertex is None else list(map(roadmap.name, roadmap.list_copies(vertex)))
+
     def find_lane(self, tail: str, head: str) -> OrderLane | None:
         """Return how the edge between two vertices is driven; None where there is none.
 
@@ -199,6 +228,7 @@ class OrderMap:
             is_bezier=shape is not None and shape[1],
             orientation=self._find_orientation(start, end),
             edge_id=self._known.edge_ids.get((int(start), int(end))),
+            turning=self._known.turning.get((int(start), int(end))),
         )
 
     def _find_vertex(self, name: str) -> VertexId | None:

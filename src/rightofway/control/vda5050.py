@@ -136,6 +136,7 @@ class _Edge(_Model):
     )
     length: float | None = None
     orientation: float | None = None  # against the direction of driving
+    rotationAllowed: bool | None = None  # before 3.0
     trajectory: _Trajectory | None = None
     actions: tuple[_Action, ...] = Field(default=(), strict=False)
 
@@ -176,7 +177,7 @@ class OrderMessage(_Model):
             done = set(order.nodes[0].actions)
         nodes = tuple(
             _Node(
-                nodeId=node.place,
+                nodeId=order_map.name_node(node.place),
                 sequenceId=node.sequence_id,
                 released=True,
                 nodePosition=_make_position(
@@ -265,15 +266,17 @@ def _make_work(action_id: str, item: str, task: ActionToDo, identity: Identity) 
 
 def _make_edge(tail: str, head: str, sequence_id: int, order_map: OrderMap) -> _Edge:
     lane = order_map.find_lane(tail, head)
+    start, end = order_map.name_node(tail), order_map.name_node(head)
     return _Edge(
-        edgeId=name_edge(tail, head, lane),
+        edgeId=name_edge(start, end, lane),
         sequenceId=sequence_id,
         released=True,
-        startNodeId=tail,
-        endNodeId=head,
+        startNodeId=start,
+        endNodeId=end,
         maxSpeed=None if lane is None else lane.max_speed,
         length=None if lane is None else lane.length,
         orientation=None if lane is None else lane.orientation,
+        rotationAllowed=None if lane is None else lane.turning,
         trajectory=_make_trajectory(lane),
     )
 
@@ -659,7 +662,7 @@ _LEFT_OUT: dict[str, dict[str, Any]] = {
     "2.1.0": {"actions": {"__all__": {"actionName"}}},
     "3.0.0": {
         "actions": {"__all__": {"actionName"}},
-        "edges": {"__all__": {"startNodeId", "endNodeId"}},
+        "edges": {"__all__": {"startNodeId", "endNodeId", "rotationAllowed"}},
     },
 }
 """Keys that a version does not have, as pydantic leaves them out."""

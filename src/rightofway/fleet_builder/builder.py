@@ -198,6 +198,7 @@ class FleetBuilder:
         surcharge: Number = 0,
         is_passed: bool = False,
         heading: Number | None = None,
+        turning: bool = True,
     ) -> Self:
         """Add a vertex to the roadmap.
 
@@ -214,7 +215,9 @@ class FleetBuilder:
         is_passed
             Whether robots only drive through, without a stop.
         heading
-            Heading of robots that work there, for orders: from x to y [degrees]; None for any.
+            Heading of robots that work there: from x to y [degrees]; None for any.
+        turning
+            Whether robots may turn on the spot there.
 
         Raises
         ------
@@ -224,7 +227,14 @@ class FleetBuilder:
         """
         self._refuse_fixed_map(f"vertex {quote(name)}")
         self._drawn.add_vertex(
-            name, x, y, barred=barred, surcharge=surcharge, is_passed=is_passed, heading=heading
+            name,
+            x,
+            y,
+            barred=barred,
+            surcharge=surcharge,
+            is_passed=is_passed,
+            heading=heading,
+            turning=turning,
         )
         return self
 
@@ -241,6 +251,7 @@ class FleetBuilder:
         surcharge: Number = 0,
         orientation: Number | None = None,
         edge_id: str | None = None,
+        turning: bool | None = None,
     ) -> Self:
         """Add an edge between two vertices.
 
@@ -267,6 +278,9 @@ class FleetBuilder:
             backwards [degrees]; None for any. Both directions have the same.
         edge_id
             Its id in orders to robots; None for the names of its ends with a hyphen between.
+        turning
+            Whether robots may turn on the spot along it, and so may enter it from a vertex where
+            they may not turn; None where that is unknown.
 
         Raises
         ------
@@ -287,6 +301,7 @@ class FleetBuilder:
             surcharge=surcharge,
             orientation=orientation,
             edge_id=edge_id,
+            turning=turning,
         )
         return self
 
@@ -657,12 +672,9 @@ class FleetBuilder:
             cut = self._level(has_sizes=True, distance=Fraction(distance))
             roadmap = cut.roadmap
             rules = replace(rules, clearance=rules.clearance + 2 * cut.chord_error)
-        elif radius > 0 and self._drawn.positions and (distance or self._spacing):
+        elif self._drawn.positions and distance:
             roadmap = self._drawn.build_roadmap(
-                spacing=self._spacing,
-                y_up=self._y_up,
-                distance=Fraction(distance),
-                has_sizes=True,
+                spacing=self._spacing, y_up=self._y_up, distance=Fraction(distance)
             )
         robots, _ = deal_homes(self._robots, roadmap, rules)
         if not self._jobs:

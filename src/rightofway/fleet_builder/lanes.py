@@ -28,6 +28,7 @@ from rightofway.site import (
     measure_squared_distance,
     measure_straight_length,
 )
+from rightofway.site.directions import Directions
 from rightofway.site.drawing import Drawing
 from rightofway.site.edges import make_roadmap_of_table
 from rightofway.site.spacing import split_lanes
@@ -46,6 +47,10 @@ class DrawnLanes:
         Tail, head, length if it is given, and the other attributes of each directed edge.
     barred, surcharges, passed
         Properties given for vertices.
+    fixed
+        Vertices at which robots may not turn.
+    turning
+        Whether robots may turn along an edge, by tail and head, where that is known.
     headings, orientations
         Headings at vertices, and orientations along edges by tail and head [degrees].
     edge_ids
@@ -61,6 +66,8 @@ class DrawnLanes:
     barred: dict[str, frozenset[str]] = field(default_factory=dict)
     surcharges: dict[str, Fraction] = field(default_factory=dict)
     passed: list[str] = field(default_factory=list)
+    fixed: list[str] = field(default_factory=list)
+    turning: dict[tuple[str, str], bool] = field(default_factory=dict)
     headings: dict[str, Fraction] = field(default_factory=dict)
     orientations: dict[tuple[str, str], Fraction] = field(default_factory=dict)
     edge_ids: dict[tuple[str, str], str] = field(default_factory=dict)
@@ -77,6 +84,7 @@ class DrawnLanes:
         surcharge: Number,
         is_passed: bool,
         heading: Number | None = None,
+        turning: bool = True,
     ) -> None:
         """Add a vertex, as `FleetBuilder.add_vertex`."""
         place = f"vertex {quote(name)}"
@@ -93,6 +101,8 @@ class DrawnLanes:
             self.passed.append(name)
         if (angle := allow_none(NUMBER).read_at((place, "heading"), heading)) is not None:
             self.headings[name] = angle
+        if not TRUTH.read_at((place, "turning"), turning):
+            self.fixed.append(name)
 
     def add_edge(
         self,
@@ -107,6 +117,7 @@ class DrawnLanes:
         surcharge: Number,
         orientation: Number | None = None,
         edge_id: str | None = None,
+        turning: bool | None = None,
     ) -> None:
         """Add an edge, as `FleetBuilder.add_edge`."""
         place = f"edge {quote(tail)} to {quote(head)}"
@@ -135,6 +146,10 @@ class DrawnLanes:
         if (own := allow_none(NAME).read_at((place, "edge_id"), edge_id)) is not None:
             self.edge_ids[tail, head] = own
             self.edge_ids |= {(head, tail): own} if both_ways else {}
+        may_turn = allow_none(TRUTH).read_at((place, "turning"), turning)
+        if may_turn is not None:
+            self.turning[tail, head] = may_turn
+            self.turning |= {(head, tail): may_turn} if both_ways else {}
         self.edges.append((tail, head, given, more))
         if both_ways:
             self.edges.append((head, tail, given, more))
@@ -145,13 +160,12 @@ class DrawnLanes:
         spacing: Fraction | None,
         y_up: bool,
         distance: Fraction = Fraction(0),
-        has_sizes: bool = False,
     ) -> Roadmap:
         """Return the roadmap; longer edges are split into pieces of at most ``spacing``.
 
         Without a spacing, one is chosen for robots that have to keep a distance above 0. The
-        vertices that were added come first, whatever is split; those that only robots with a size
-        need come last.
+        vertices that were added come first, whatever is split; those of the
+        other direction of a lane come last.
         """
         squares = [
             self._measure_square(tail, head) for tail, head, given, _ in self.edges if given is None
@@ -166,12 +180,17 @@ class DrawnLanes:
             )
             for tail, head, given, more in self.edges
         ]
+        directions = Directions(
+            fixed=self.fixed,
+            turning=self.turning,
+            headings=self.headings,
+            orientations=self.orientations,
+        )
         split = split_lanes(
             self.positions,
             edges,
             spacing,
             distance=distance,
-            has_sizes=has_sizes,
             is_drawn=self.is_drawn,
         )
         roadmap = make_roadmap_of_table(
@@ -183,20 +202,11 @@ class DrawnLanes:
             barred=self.barred,
             surcharges=self.surcharges,
             passed=self.passed,
+            directions=directions,
         )
-        at = roadmap.get_vertex
         drawing = Drawing(
-            headings=tuple((at(name), heading) for name, heading in self.headings.items()),
-            orientations=tuple(
-                (*ends, orientation)
-                for (tail, head), orientation in self.orientations.items()
-                for ends in roadmap.list_pieces((at(tail), at(head)))
-            ),
-            edge_ids=tuple(
-                (at(tail), at(head), own)
-                for (tail, head), own in self.edge_ids.items()
-                if roadmap.is_drawn(at(tail), at(head))
-            ),
+            **directions.collect(roadmap),
+            edge_ids=roadmap.list_whole_edges(self.edge_ids),
         )
         return replace(roadmap, drawing=drawing)
 

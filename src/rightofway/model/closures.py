@@ -247,7 +247,7 @@ def _list_closed_resources(plane: _Plane, closure: Closure, reach: Fraction | No
     closed: set[int] = {roadmap.n_vertices + edge for edge in edges}
     closed.update(place for lane in ways for place in lane[1:-1])
     if closure.at is not None:
-        closed.update({closure.at, roadmap.opposite.get(closure.at, closure.at)})
+        closed.update(roadmap.list_place(closure.at))
     copies = {} if roadmap.passing is None else roadmap.passing.copies
     closed.update(at for place in [*closed] for at in copies.get(place, ()))
     if reach:
@@ -258,7 +258,8 @@ def _list_closed_resources(plane: _Plane, closure: Closure, reach: Fraction | No
         ends = [
             at
             for end in closure.edge or ()
-            for at in (end, roadmap.opposite.get(end, end), *copies.get(end, ()))
+            for own in roadmap.list_place(end)
+            for at in (own, *copies.get(own, ()))
         ]
         closed.update(plane.find_near(segments, reach, ends))
     return closed if roadmap.passing is None else closed | _list_along_chains(roadmap, closed)

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from rightofway.deadline import check_work
 from rightofway.errors import InputError, quote
 from rightofway.facts import Fact
-from rightofway.site import Roadmap, measure_squared_distance
+from rightofway.site import Roadmap, VertexId, measure_squared_distance
 from rightofway.site.nearness import Lines, PointGrid
 from rightofway.site.zone_guard import ZoneGuard
 from rightofway.site.zones import Zone
@@ -120,13 +120,37 @@ class ClosePairs:
 
 
 def close_pairs(roadmap: Roadmap, distance: Fraction) -> ClosePairs:
-    """Return the vertices and lanes nearer than a distance, and lanes that cross; exact."""
+    """Return the vertices and lanes nearer than a distance, and lanes that cross; exact.
+
+    Vertices of one place are not near to each other.
+    """
     pairs = _Drawing(roadmap, [distance]).close_pairs(distance)
+    if roadmap.has_shared_places:
+        pairs = _merge_copies(roadmap, pairs)
     if not pairs.crossings or not roadmap.zones:
         return pairs
     guard = ZoneGuard(roadmap)
     open_pairs = [lanes for lanes in pairs.crossings if not guard.are_apart(lanes[:1], lanes[1:])]
     return replace(pairs, crossings=open_pairs)
+
+
+def _merge_copies(roadmap: Roadmap, pairs: ClosePairs) -> ClosePairs:
+    """Return pairs without those of one place; copies of a vertex count as the vertex."""
+    drawn = {at: roadmap.originals.get(VertexId(at), at) for at in range(roadmap.n_vertices)}
+
+    def merge(lane: tuple[int, int]) -> tuple[int, int]:
+        return drawn[lane[0]], drawn[lane[1]]
+
+    vertices = [
+        merge(pair)
+        for pair in pairs.vertices
+        if pair[1] not in roadmap.list_place(VertexId(pair[0]))
+    ]
+    return ClosePairs(
+        vertices=list(dict.fromkeys(min(pair, pair[::-1]) for pair in vertices)),
+        beside=list(dict.fromkeys((drawn[at], merge(lane)) for at, lane in pairs.beside)),
+        crossings=list(dict.fromkeys((merge(a), merge(b)) for a, b in pairs.crossings)),
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, weakref_slot=True)
@@ -146,8 +170,8 @@ class Resources:
     n_vertices, n_edges
         Vertices and edges of the roadmap.
     are_points
-        Whether no robot has a size, and there is neither a zone nor a passed vertex, nor a lane
-        whose directions have vertices of their own: a vertex excludes itself.
+        Whether no robot has a size, and there is neither a zone nor a passed vertex, nor a place
+        of several vertices: a vertex excludes itself.
     """
 
     roadmap: Roadmap
@@ -162,7 +186,7 @@ class Resources:
         object.__setattr__(self, "n_vertices", self.roadmap.n_vertices)
         object.__setattr__(self, "n_edges", self.roadmap.n_edges)
         roadmap = self.roadmap
-        is_plain = not roadmap.zones and roadmap.passing is None and not roadmap.opposite
+        is_plain = not (roadmap.zones or roadmap.passing or roadmap.has_shared_places)
         object.__setattr__(self, "are_points", not any(self.sizes) and is_plain)
 
     @property
@@ -219,8 +243,8 @@ def make_points(roadmap: Roadmap, n_robots: int) -> Resources:
     """Return the resources of a fleet of points."""
     return Resources(
         roadmap=(
-            replace(roadmap, zones=(), passing=None, lanes=())
-            if roadmap.zones or roadmap.passing is not None or roadmap.opposite
+            replace(roadmap, zones=(), passing=None, lanes=(), originals={})
+            if roadmap.zones or roadmap.passing is not None or roadmap.has_shared_places
             else roadmap
         ),
         sizes=(Fraction(0),),

@@ -160,7 +160,7 @@ def _resolve_rules(scenario: Scenario) -> Rules:
         return scenario.rules
     has_sizes = any(robot.radius > 0 for robot in scenario.robots)
     roadmap = scenario.roadmap
-    ahead = has_sizes or roadmap.zones or roadmap.passing is not None or roadmap.opposite
+    ahead = has_sizes or roadmap.zones or roadmap.passing or roadmap.has_shared_places
     return replace(scenario.rules, occupancy="both" if ahead else "one")
 
 
@@ -181,8 +181,8 @@ def _find_space_faults(scenario: Scenario) -> Iterator[InputFault]:
     if scenario.roadmap.passing is not None and rules.occupancy == "one":
         message = "'one' does not go with vertices that have pass (give both: robots book ahead)"
         yield InputFault(("rules", "occupancy"), message)
-    if scenario.roadmap.opposite and rules.occupancy == "one":
-        message = "'one' does not go with lanes whose directions have vertices of their own"
+    if scenario.roadmap.has_shared_places and rules.occupancy == "one":
+        message = "'one' does not go with places that have a vertex for each direction"
         yield InputFault(("rules", "occupancy"), f"{message} (give both: robots book ahead)")
     if all(robot.radius <= 0 for robot in scenario.robots):
         if rules.clearance > 0:

@@ -76,6 +76,8 @@ class Drawing:
         the direction of driving, turned as a heading [degrees]; 180 for backwards.
     edge_ids
         Tail and head of each edge that has an id in orders, with the id.
+    turning
+        Tail and head of each edge for which it is known whether robots may turn along it, with it.
     picture
         The picture that lies below the map.
     """
@@ -88,4 +90,5 @@ class Drawing:
     headings: tuple[tuple[VertexId, Fraction], ...] = ()
     orientations: tuple[tuple[VertexId, VertexId, Fraction], ...] = ()
     edge_ids: tuple[tuple[VertexId, VertexId, str], ...] = ()
+    turning: tuple[tuple[VertexId, VertexId, bool], ...] = ()
     picture: Picture | None = None

@@ -19,6 +19,7 @@ from rightofway.deadline import READING, limit_loop
 from rightofway.errors import InputError, quote
 from rightofway.kinds.table import NAMES, NUMBER, TYPE_SPEEDS, TypeSpeeds, allow_none, coerce_fields
 from rightofway.site.chains import unfold
+from rightofway.site.directions import Directions, direct_vertices
 from rightofway.site.geometry import Frame, VertexId, find_fractions
 from rightofway.site.roadmap import EdgeClass, Lane, Roadmap
 from rightofway.site.zones import NamedZone, number_zones
@@ -186,6 +187,7 @@ def make_roadmap(
     barred: Mapping[str, Collection[str]] | None = None,
     surcharges: Mapping[str, Fraction] | None = None,
     passed: Collection[str] = (),
+    directions: Directions | None = None,
 ) -> Roadmap:
     """Make a roadmap of named vertices and directed edges.
 
@@ -212,6 +214,8 @@ def make_roadmap(
         Names of vertices with the time added to the surcharge of each edge into them [time unit].
     passed
         Names of vertices that robots only drive through.
+    directions
+        Where robots may not turn; None for nowhere.
 
     Raises
     ------
@@ -230,6 +234,7 @@ def make_roadmap(
         barred=barred,
         surcharges=surcharges,
         passed=passed,
+        directions=directions,
     )
 
 
@@ -245,6 +250,7 @@ def make_roadmap_of_table(
     barred: Mapping[str, Collection[str]] | None = None,
     surcharges: Mapping[str, Fraction] | None = None,
     passed: Collection[str] = (),
+    directions: Directions | None = None,
 ) -> Roadmap:
     """Make a roadmap of a table of edges; otherwise as `make_roadmap`.
 
@@ -280,7 +286,9 @@ def make_roadmap_of_table(
         zones=number_zones(zones, ids, _list_ends(table), pieces or {}) if zones else (),
         lanes=_list_lanes((pieces or {}).values(), ids),
     )
-    return unfold(roadmap, [VertexId(ids[name]) for name in passed])
+    roadmap = direct_vertices(roadmap, directions or Directions())
+    passed_vertices = [VertexId(ids[name]) for name in passed]
+    return unfold(roadmap, [at for own in passed_vertices for at in roadmap.list_copies(own)])
 
 
 def _list_ends(table: EdgeTable) -> set[tuple[str, str]]:

@@ -16,6 +16,7 @@ from rightofway.deadline import READING, check_work
 from rightofway.errors import InputError, find_nearest, join_names, quote
 from rightofway.facts import Fact, note_pieces
 from rightofway.kinds.arguments import checks_arguments
+from rightofway.site.directions import Directions
 from rightofway.site.drawing import Drawing, Picture
 from rightofway.site.edges import EdgeTable, make_roadmap_of_table
 from rightofway.site.geometry import Point
@@ -54,6 +55,22 @@ class LayoutVertex:
     actions: tuple[tuple[str, str], ...] = ()
 
 
+class Turns(NamedTuple):
+    """Where robots may turn on the spot on a lane.
+
+    Attributes
+    ----------
+    at_begin, at_end
+        Whether they may at its ends.
+    along
+        Whether they may between its ends; None where it is unknown.
+    """
+
+    at_begin: bool = True
+    at_end: bool = True
+    along: bool | None = None
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Station:
     """A named place to work at.
@@ -89,6 +106,8 @@ class Level:
         [degrees].
     edge_ids
         Ids of lanes in orders, by names of tail and head.
+    turns
+        Where robots may turn on a lane, by names of tail and head, then by vehicle types.
     """
 
     name: str
@@ -100,6 +119,7 @@ class Level:
     picture: Picture | None = None
     orientations: Mapping[tuple[str, str], Fraction] = field(default_factory=dict)
     edge_ids: Mapping[tuple[str, str], str] = field(default_factory=dict)
+    turns: Mapping[tuple[str, str], Mapping[str, Turns]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         names = tuple(vertex.name for vertex in self.vertices)
@@ -249,7 +269,10 @@ def build_roadmap_of_level(
     shapes = {
         ends: [(x * metre, y * metre) for x, y in shape.points] for ends, shape in curves.items()
     }
-    split = split_lanes(positions, table, spacing, shapes, distance=distance, has_sizes=has_sizes)
+    split = split_lanes(positions, table, spacing, shapes, distance=distance)
+    bends = {lanes.get_ends(lane): shape.points for lane, shape in lanes.shapes.items()
+             if shape.points}  # fmt: skip
+    directions = _find_directions(level, positions, vehicle_type, bends, metre)
     roadmap = make_roadmap_of_table(
         split.positions,
         split.edges,
@@ -261,10 +284,9 @@ def build_roadmap_of_level(
             for vertex in level.vertices
             if vertex.is_passed and vertex.name in positions
         ],
+        directions=directions,
     )
-    bends = {lanes.get_ends(lane): shape.points for lane, shape in lanes.shapes.items()
-             if shape.points}  # fmt: skip
-    roadmap = replace(roadmap, drawing=_make_drawing(level, roadmap, bends, metre))
+    roadmap = replace(roadmap, drawing=_make_drawing(level, roadmap, directions, metre))
     return LevelRoadmap(
         roadmap=roadmap,
         curves=len(curves),
@@ -355,10 +377,46 @@ def _list_curves(lanes: LaneTable) -> dict[tuple[str, str], LaneShape]:
     }
 
 
+def _find_directions(
+    level: Level,
+    known: Collection[str],
+    vehicle_type: str | None,
+    bends: Mapping[tuple[str, str], Sequence[Point]],
+    metre: Fraction,
+) -> Directions:
+    """Return where robots of a type may not turn; of all types, where one of them may not."""
+    turns = {
+        ends: [turn for name, turn in of_types.items() if vehicle_type in {None, name}]
+        for ends, of_types in level.turns.items()
+        if {*ends} <= {*known}
+    }
+    along = {ends: [own.along for own in lane] for ends, lane in turns.items()}
+    return Directions(
+        fixed_begins=[
+            ends for ends, lane in turns.items() if any(not own.at_begin for own in lane)
+        ],
+        fixed_ends=[ends for ends, lane in turns.items() if any(not own.at_end for own in lane)],
+        turning={ends: all(lane) for ends, lane in along.items() if lane and None not in lane},
+        headings={
+            vertex.name: vertex.heading
+            for vertex in level.vertices
+            if vertex.heading is not None and vertex.name in known
+        },
+        orientations={
+            ends: angle for ends, angle in level.orientations.items() if {*ends} <= {*known}
+        },
+        bends={
+            ends: tuple((x * metre, y * metre) for x, y in points)
+            for ends, points in bends.items()
+            if {*ends} <= {*known}
+        },
+    )
+
+
 def _make_drawing(
     level: Level,
     roadmap: Roadmap,
-    bends: Mapping[tuple[str, str], Sequence[Point]],
+    directions: Directions,
     metre: Fraction,
 ) -> Drawing:
     """Return the places and curves of a level that its roadmap has, and its picture."""
@@ -373,24 +431,10 @@ def _make_drawing(
         stations=tuple(stations.items()),
         parking=tuple(ids[vertex.name] for vertex in known if vertex.is_parking),
         charging=tuple(ids[vertex.name] for vertex in known if vertex.is_charging),
-        curves=tuple(
-            (ids[tail], ids[head], tuple((x * metre, y * metre) for x, y in points))
-            for (tail, head), points in bends.items()
-            if {tail, head} <= ids.keys() and roadmap.is_drawn(ids[tail], ids[head])
-        ),
-        headings=tuple(
-            (ids[vertex.name], vertex.heading) for vertex in known if vertex.heading is not None
-        ),
-        orientations=tuple(
-            (tail, head, orientation)
-            for ends, orientation in level.orientations.items()
-            if ids.keys() >= {*ends}
-            for tail, head in roadmap.list_pieces((ids[ends[0]], ids[ends[1]]))
-        ),
-        edge_ids=tuple(
-            (ids[tail], ids[head], edge_id)
-            for (tail, head), edge_id in level.edge_ids.items()
-            if {tail, head} <= ids.keys() and roadmap.is_drawn(ids[tail], ids[head])
+        curves=roadmap.list_whole_edges(directions.bends),
+        **directions.collect(roadmap),
+        edge_ids=roadmap.list_whole_edges(
+            {ends: own for ends, own in level.edge_ids.items() if {*ends} <= ids.keys()}
         ),
         picture=level.picture and level.picture.scale(metre),
     )

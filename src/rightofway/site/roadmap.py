@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from itertools import pairwise
+from itertools import chain, pairwise, product
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,8 @@ from rightofway.site.drawing import Drawing
 from rightofway.site.geometry import Frame, Point, VertexId, read_shortest
 from rightofway.site.passing import Passing
 from rightofway.site.zones import Zone
+
+T = TypeVar("T")
 
 WHOLE = (int, np.int32, np.int64)
 """Types of numbers of vertices and edges."""
@@ -196,6 +199,11 @@ class Roadmap:
     passing
         The vertices that robots only drive through; None without such vertices. Several vertices
         then represent one passed vertex and have its name.
+    originals
+        The vertices for further directions of a vertex at which robots may not turn, with that
+        vertex (`site.directions`). All are one place, which holds one robot.
+    fixed
+        The vertices at which robots may not turn.
     """
 
     indptr: NDArray[np.int32]
@@ -214,11 +222,14 @@ class Roadmap:
     drawing: Drawing = field(default_factory=Drawing)
     sides: tuple[Fraction, ...] | None = None
     passing: Passing | None = None
+    originals: Mapping[VertexId, VertexId] = field(default_factory=dict)
+    fixed: frozenset[VertexId] = frozenset()
     drawn_sides: NDArray[np.float64] = field(init=False, repr=False)
     opposite: Mapping[VertexId, VertexId] = field(init=False, repr=False)
     _ids: Mapping[str, int] = field(init=False, repr=False)
     _stations: Mapping[str, VertexId] = field(init=False, repr=False)
     _lane_at: Mapping[int, Lane] = field(init=False, repr=False)
+    _places: Mapping[VertexId, tuple[VertexId, ...]] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         for array in (self.indptr, self.heads, self.class_of_edge, self.positions):
@@ -232,21 +243,37 @@ class Roadmap:
         at = {joint: lane for lane in reversed(self.lanes) for joint in lane.joints}
         at |= {joint: at[min(joint, other)] for joint, other in self.opposite.items()}
         object.__setattr__(self, "_lane_at", at)
+        object.__setattr__(self, "_places", self._find_places())
+
+    def _find_places(self) -> dict[VertexId, tuple[VertexId, ...]]:
+        """Return for each vertex that is not alone at its place the vertices of the place."""
+        places: dict[VertexId, tuple[VertexId, ...]] = {}
+        places |= {vertex: (vertex, other) for vertex, other in self.opposite.items()}
+        copies: dict[VertexId, list[VertexId]] = {}
+        for copy, vertex in self.originals.items():
+            copies.setdefault(vertex, [vertex]).append(copy)
+        for same in copies.values():
+            places |= {at: (at, *(other for other in same if other != at)) for at in same}
+        return places
 
     def _find_opposite(self) -> dict[VertexId, VertexId]:
         """Return for each vertex between pieces the one of the other direction at its point."""
         ways: dict[tuple[VertexId, VertexId], list[Lane]] = {}
         for lane in self.lanes:
-            ways.setdefault(lane.ends, []).append(lane)
+            ways.setdefault(self._find_drawn_ends(lane), []).append(lane)
         opposite: dict[VertexId, VertexId] = {}
         for lane in self.lanes:
-            for back in ways.get(lane.ends[::-1], ()):
+            for back in ways.get(self._find_drawn_ends(lane)[::-1], ()):
                 along, across = list(lane.joints), list(back.joints[::-1])
                 if set(along).isdisjoint(across) and np.array_equal(
                     self.positions[along], self.positions[across]
                 ):
                     opposite |= dict(zip(along, across, strict=True))
         return opposite
+
+    def _find_drawn_ends(self, lane: Lane) -> tuple[VertexId, VertexId]:
+        tail, head = lane.ends
+        return self.originals.get(tail, tail), self.originals.get(head, head)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Roadmap):
@@ -256,6 +283,8 @@ class Roadmap:
             and self.barred_vertices == other.barred_vertices
             and self.zones == other.zones
             and self.lanes == other.lanes
+            and self.originals == other.originals
+            and self.fixed == other.fixed
             and self.labels == other.labels
             and self.frame == other.frame
             and _has_same_grid(self.grid, other.grid)
@@ -309,15 +338,16 @@ class Roadmap:
         One way for each drawing of the lane: its directions may be driven along different curves,
         or have vertices of their own. Empty if no edge or lane has these ends.
         """
-        tail, head = (self.opposite.get(end, end) for end in ends)
+        tails, heads = map(self.list_place, ends)
         ways = [
             pair
-            for pair in dict.fromkeys((ends, (tail, head)))
-            if self.is_drawn(*pair) or self.is_drawn(*pair[::-1])
+            for pair in product(tails, heads)
+            if self._has_edge(*pair) or self._has_edge(*pair[::-1])
         ]
+        pairs = {*product(tails, heads), *product(heads, tails)}
         drawn: dict[frozenset[VertexId], tuple[VertexId, ...]] = {}
         for lane in self.lanes:  # both directions of one curve are one way
-            if lane.ends in (ends, ends[::-1]):
+            if lane.ends in pairs:
                 drawn.setdefault(frozenset(lane.vertices), lane.vertices)
         return [*ways, *drawn.values()]
 
@@ -327,17 +357,57 @@ class Roadmap:
 
         Empty if no edge or lane has these ends.
         """
-        if self.is_drawn(*ends):
-            return (ends,)
-        return next((lane.pieces for lane in self.lanes if lane.ends == ends), ())
+        pairs = list(product(self.list_copies(ends[0]), self.list_copies(ends[1])))
+        lanes = (lane.pieces for lane in self.lanes if lane.ends in pairs)
+        edges = tuple(pair for pair in pairs if self._has_edge(*pair))
+        return edges or tuple(dict.fromkeys(chain.from_iterable(lanes)))
+
+    def list_whole_edges(
+        self, values: Mapping[tuple[str, str], T]
+    ) -> tuple[tuple[VertexId, VertexId, T], ...]:
+        """Return tail, head and value of edges; lanes that were split are left out.
+
+        Parameters
+        ----------
+        values
+            Values by the names of tails and heads.
+        """
+        value_of: dict[tuple[VertexId, VertexId], T] = {}
+        for ends, value in values.items():
+            tails, heads = (self.list_copies(self.get_vertex(end)) for end in ends)
+            pairs = product(tails, heads)
+            value_of |= {pair: value for pair in pairs if self._has_edge(*pair)}
+        return tuple((tail, head, value) for (tail, head), value in value_of.items())
 
     @checks_arguments
     def is_along_one_lane(self, vertices: Collection[int]) -> bool:
         """Return whether vertices are joints, or joints and ends, of one lane that was split."""
         lane = next((self._lane_at[vertex] for vertex in vertices if vertex in self._lane_at), None)
         return lane is not None and all(
-            self._lane_at.get(vertex) is lane or vertex in lane.ends for vertex in vertices
+            self._lane_at.get(vertex) is lane
+            or not {*lane.ends}.isdisjoint(self.list_copies(VertexId(vertex)))
+            for vertex in vertices
         )
+
+    @property
+    def has_shared_places(self) -> bool:
+        """Whether several vertices are one place, for robots of different directions."""
+        return bool(self._places)
+
+    def list_place(self, vertex: VertexId) -> tuple[VertexId, ...]:
+        """Return the vertices at the place of a vertex, itself first."""
+        return self._places.get(vertex, (vertex,))
+
+    def list_copies(self, vertex: VertexId) -> tuple[VertexId, ...]:
+        """Return the vertices that are drawn as one with a vertex, itself first.
+
+        Unlike those of `list_place`, lanes lead to them from the same vertices.
+        """
+        return (vertex,) if vertex in self.opposite else self.list_place(vertex)
+
+    def list_shared_places(self) -> list[list[VertexId]]:
+        """Return the places of several vertices, in increasing order."""
+        return [sorted(same) for vertex, same in self._places.items() if vertex == min(same)]
 
     @property
     def n_vertices(self) -> int:
@@ -493,7 +563,12 @@ class Roadmap:
         """Return the same vertices without some edges, and without those at closed vertices."""
         tails = np.repeat(np.arange(self.n_vertices), np.diff(self.indptr))
         copies = {} if self.passing is None else self.passing.copies
-        shut = [at for vertex in closed for at in (vertex, *copies.get(vertex, ()))]
+        shut = [
+            at
+            for vertex in closed
+            for own in self.list_place(VertexId(vertex))
+            for at in (own, *copies.get(own, ()))
+        ]
         is_open = ~(np.isin(tails, shut) | np.isin(self.heads, shut))
         is_open[[edge for ends in edges for edge in self.list_edges(*ends)]] = False
         degree = np.bincount(tails[is_open], minlength=self.n_vertices)
@@ -522,14 +597,22 @@ class Roadmap:
     def list_edges(self, tail: int, head: int) -> list[int]:
         """Return the edges that represent the edge drawn from ``tail`` to ``head``.
 
-        It is that edge, if there is one; of an edge at a passed vertex, one for each chain on it.
+        It is that edge, if there is one; of an edge at a passed vertex, one for each chain on it;
+        of an edge at a vertex where robots may not turn, one for each direction.
         """
-        pairs = [(tail, head)] if self.passing is None else self.passing.list_pairs(tail, head)
-        edges = (self.find_edge(*pair) for pair in pairs)
+        drawn = product(self.list_copies(VertexId(tail)), self.list_copies(VertexId(head)))
+        pairs = (
+            [pair] if self.passing is None else self.passing.list_pairs(*pair) for pair in drawn
+        )
+        edges = (self.find_edge(*pair) for pair in chain.from_iterable(pairs))
         return [edge for edge in edges if edge is not None]
 
     def is_drawn(self, tail: int, head: int) -> bool:
         """Return whether an edge is drawn from one vertex to another."""
+        drawn = product(self.list_copies(VertexId(tail)), self.list_copies(VertexId(head)))
+        return any(self._has_edge(*pair) for pair in drawn)
+
+    def _has_edge(self, tail: int, head: int) -> bool:
         if self.find_edge(tail, head) is not None:
             return True
         return self.passing is not None and self.passing.is_drawn(tail, head)

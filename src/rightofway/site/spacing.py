@@ -82,15 +82,13 @@ def split_lanes(
     shapes: Mapping[tuple[str, str], Sequence[Point]] | None = None,
     *,
     distance: Fraction = Fraction(0),
-    has_sizes: bool = False,
     is_drawn: bool = True,
 ) -> SplitLanes:
     """Split lanes that are longer than the spacing into equal pieces, and curves at their points.
 
-    The new vertices are named by the lane and its direction: ``A-B/1``, ``A-B/2``, …. For robots
-    with a size, each direction has its own, so that no robot turns back inside a lane; ``A-B/1``
-    and the last one of ``B-A`` are at one point. For points, both directions share the vertices,
-    named by the direction that is given first, unless they are driven along different curves.
+    The new vertices are named by the lane and its direction: ``A-B/1``, ``A-B/2``, …. Each
+    direction has its own, so that no robot turns back inside a lane; ``A-B/1`` and the last one of
+    ``B-A`` are at one point.
 
     Without a spacing, but with a distance that two robots keep [length unit], the spacing is chosen
     (`choose_spacing`), and lanes stay whole that are not drawn as long as they are.
@@ -140,7 +138,6 @@ def split_lanes(
                 own,
                 is_chosen=is_chosen,
                 is_drawn=is_drawn,
-                is_shared=not has_sizes,
             )
         lane_way = ways[lane]
         if lane_way is not None:
@@ -248,14 +245,12 @@ def _make_way(
     *,
     is_chosen: bool,
     is_drawn: bool,
-    is_shared: bool,
 ) -> _Way | None:
     """Return the way along a lane in the direction of an edge, and add its new vertices.
 
-    If the vertices are not shared, those of the other direction are added, too. None for a lane
-    that stays whole. Where the spacing is chosen nobody has asked for pieces: a lane stays as it is
-    whose pieces have names of vertices, or that winds more than it is drawn, because nobody knows
-    where it leads.
+    Those of the other direction are added, too. None for a lane that stays whole. Where the spacing
+    is chosen nobody has asked for pieces: a lane stays as it is whose pieces have names of
+    vertices, or that winds more than it is drawn, because nobody knows where it leads.
     """
     length = lanes.get_length(int(lanes.lane_of_edge[edge]))
     tail, head = lanes.get_ends(edge)
@@ -273,7 +268,7 @@ def _make_way(
         inside, parts = _cut(points, lengths, own)
         names = [f"{tail}-{head}/{k}" for k in range(1, len(inside) + 1)]
         back = [f"{head}-{tail}/{k}" for k in range(1, len(inside) + 1)]
-        if is_shared or lanes.n_directions[lanes.lane_of_edge[edge]] == 1:
+        if lanes.n_directions[lanes.lane_of_edge[edge]] == 1:
             back = names[::-1]
         all_names = dict.fromkeys((*names, *back))
         taken = next((name for name in all_names if name in places or name in places_back), None)

@@ -102,20 +102,27 @@ GRAPHML = (
 )
 
 
+ARC = {
+    "knotVector": [0, 0, 1, 1],
+    "controlPoints": [{"x": 0, "y": 0}, {"x": 5, "y": 0}],
+    "degree": 1,
+}
+
+
 @pytest.mark.parametrize(
     ("text", "named"),
     [
         (in_lif(put(*NODE, theta=90)), "theta: A"),
         (in_lif(put(*NODE, actions=[{"actionType": "beep"}])), "action beep: A"),
         (in_lif(put("nodes", 1, region="wet")), "region: B"),
-        (in_lif(put(*EDGE, rotationAllowed=False)), "rotationAllowed: AB"),
+        (in_lif(put(*EDGE, rotationAllowed="no")), "rotationAllowed: AB"),
         (in_lif(put(*EDGE, vehicleOrientation=180)), "vehicleOrientation: AB"),
         (
-            in_lif(put(*EDGE, vehicleOrientation=0, orientationType="GLOBAL")),
+            in_lif(put(*EDGE, vehicleOrientation=0, orientationType="GLOBAL", trajectory=ARC)),
             "vehicleOrientation: AB",
         ),
         (
-            in_lif(put(*EDGE, rotationAtStartNodeAllowed="NONE")),
+            in_lif(put(*EDGE, rotationAtStartNodeAllowed="CCW")),
             "rotationAtStartNodeAllowed: AB",
         ),
         (
@@ -176,6 +183,8 @@ def test_a_member_of_a_block_that_is_not_there_is_named(tmp_path: Path) -> None:
         in_lif(put()),
         in_lif(put(*EDGE, vehicleOrientation=0, orientationType="TANGENTIAL")),
         in_lif(put(*EDGE, vehicleOrientation=3.1416)),
+        in_lif(put(*EDGE, vehicleOrientation=1.5, orientationType="GLOBAL")),
+        in_lif(put(*EDGE, rotationAllowed=False, rotationAtEndNodeAllowed="NONE")),
         in_lif(put(*NODE, theta=-1.57)),
         in_lif(put("stations", 0, stationPosition={"x": 5, "y": 1, "theta": 1.5})),
         PLANT.format('vehicleOrientationAngle="90.0"', "", "", "", ""),

@@ -51,6 +51,11 @@ def known_to(level: Level, says: frozenset[str]) -> list[object]:
         "ids of lanes": level.edge_ids,
         "headings at vertices": [vertex.heading for vertex in level.vertices],
         "orientations along lanes": level.orientations,
+        "forbidden turns": [
+            ends
+            for ends, turns in sorted(level.turns.items())
+            if not all(own.at_begin and own.at_end for own in turns.values())
+        ],
         "zones": level.zones,
     }
     return [own[what] for what in sorted(says - {"levels"})]

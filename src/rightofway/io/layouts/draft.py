@@ -31,6 +31,7 @@ from rightofway.site.layout import (
     LayoutVertex,
     Level,
     Station,
+    Turns,
     describe_lanes,
 )
 from rightofway.site.zones import NamedZone
@@ -130,6 +131,7 @@ class LevelDraft:
     picture: Picture | None = None
     orientations: dict[tuple[str, str], Fraction] = field(default_factory=dict)
     edge_ids: dict[tuple[str, str], str] = field(default_factory=dict)
+    turns: dict[tuple[str, str], dict[str, Turns]] = field(default_factory=dict)
     unused: int = 0  # vertices that are drawn and on no lane, of a format that has other ones, too
 
     def add(self, vertex: LayoutVertex, source: Source) -> None:
@@ -286,6 +288,7 @@ class LayoutDraft:
             picture=level.picture,
             orientations=level.orientations,
             edge_ids=level.edge_ids,
+            turns=level.turns,
         )
 
     def _list_usable_stations(self, level: LevelDraft) -> list[Station]:

@@ -17,7 +17,7 @@ from collections.abc import Collection, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
-from math import degrees
+from math import atan2, degrees
 from typing import Any, get_args
 
 import numpy as np
@@ -30,7 +30,7 @@ from rightofway.io.layouts.nurbs import CHORD_ERROR, Nurbs
 from rightofway.io.source import Source
 from rightofway.model import Blocking
 from rightofway.model.actions import find_load_change, find_use, freeze_value, thaw_value
-from rightofway.site.layout import Layout, LayoutVertex, Station
+from rightofway.site.layout import Layout, LayoutVertex, Station, Turns
 
 NODE_PROPERTIES = ("vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties")
 EDGE_PROPERTIES = ("vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties")
@@ -49,6 +49,7 @@ LOADS = ("pick", "drop")
 
 NODE_KEYS = {"nodeId", "nodeName", "nodeDescription", "mapId", "nodePosition", *NODE_PROPERTIES}
 EDGE_KEYS = {"edgeId", "edgeName", "edgeDescription", "startNodeId", "endNodeId", *EDGE_PROPERTIES}
+TURNS = ("rotationAtStartNodeAllowed", "rotationAtEndNodeAllowed")
 PROPERTY_KEYS = {"vehicleTypeId", "mobileRobotTypes", "orientationType", "trajectory",
                  *ACTIONS, *SPEEDS}  # fmt: skip
 STATION_KEYS = {"stationId", "stationName", "stationDescription", "interactionNodeIds",
@@ -57,13 +58,12 @@ STATION_KEYS = {"stationId", "stationName", "stationDescription", "interactionNo
 
 DEFAULTS: dict[str, tuple[object, ...]] = {
     "vehicleOrientation": (0,),
-    "rotationAllowed": (True,),
-    "rotationAtStartNodeAllowed": ("BOTH",),
-    "rotationAtEndNodeAllowed": ("BOTH",),
+    "rotationAllowed": (True, False),
+    **dict.fromkeys(TURNS, ("BOTH", "NONE")),
     "reentryAllowed": (True,),
     "loadRestriction": ({"unloaded": True, "loaded": True},),
 }
-"""How robots drive anyway: forwards, with or without a load, and they turn where they are."""
+"""How robots drive anyway: forwards, with or without a load. They turn in both ways or not."""
 
 HALF_TURN = Fraction("3.15")
 """No angle is larger; pi may be rounded."""
@@ -210,19 +210,24 @@ def _add_edge(level: LevelDraft, edge: Source, draft: LayoutDraft) -> None:
     if (edge_id := find_name(edge, "edgeId")) is not None:
         level.edge_ids.setdefault((tail, head), edge_id)
     draft.note_unused(edge, name, EDGE_KEYS)
+    direction = _find_direction(level, tail, head)
     for properties in own:
-        _note_unused_properties(properties, name, draft)
+        _note_unused_properties(properties, name, draft, direction=direction)
     if not own:
         mending = Fact("edge without vehicle type")
         draft.repair(mending, name)
         level.connect(edge, tail, head)
     ways: dict[tuple[Fraction | None, Curve | None], set[str]] = {}
+    turns = level.turns.setdefault((tail, head), {})
     for properties in own:
+        for vehicle_type in _list_types(properties):
+            known = turns.get(vehicle_type, Turns())
+            turns[vehicle_type] = _restrict(known, _read_turns(properties))
         speed = properties.get(*SPEEDS)
         limit = None if speed is None else speed.number()
         limit_and_curve = limit, _read_curve(properties, draft, name)
         ways.setdefault(limit_and_curve, set()).update(_list_types(properties))
-    orientations = [_read_orientation(properties) for properties in own]
+    orientations = [_read_orientation(properties, direction) for properties in own]
     orientation = _choose_common(orientations, "vehicleOrientation", name, draft)
     if orientation is not None:
         level.orientations[tail, head] = orientation
@@ -241,10 +246,48 @@ def _read_angle(own: Source, key: str) -> Fraction | None:
     return Fraction(round(degrees(angle) * MICRO), MICRO)
 
 
-def _read_orientation(own: Source) -> Fraction | None:
-    """Return the orientation along an edge, if it is against the direction of driving [degrees]."""
-    is_along = own.value.get("orientationType") != "GLOBAL"
-    return _read_angle(own, "vehicleOrientation") if is_along else None
+def _read_orientation(own: Source, direction: Fraction | None) -> Fraction | None:
+    """Return the orientation against the direction of driving along an edge [degrees].
+
+    One of the site has none along a curve, or where the direction is unknown.
+    """
+    angle = _read_angle(own, "vehicleOrientation")
+    if angle is None or not _is_global(own):
+        return angle
+    if direction is None or own.value.get("trajectory") is not None:
+        return None
+    return (angle - direction + 180) % 360 - 180
+
+
+def _is_global(own: Source) -> bool:
+    """Return whether an orientation along an edge is one of the site."""
+    return bool(own.value.get("orientationType") == "GLOBAL")
+
+
+def _find_direction(level: LevelDraft, tail: str, head: str) -> Fraction | None:
+    """Return the direction of driving along a straight edge [degrees]; None to other levels."""
+    begin, end = level.vertices.get(tail), level.vertices.get(head)
+    if begin is None or end is None or begin.at == end.at:
+        return None
+    x, y = (float(b - a) for a, b in zip(begin.at, end.at, strict=True))
+    return Fraction(round(degrees(atan2(y, x)) * MICRO), MICRO)
+
+
+def _read_turns(own: Source) -> Turns:
+    """Return where robots of a type may turn on an edge."""
+    along = own.value.get("rotationAllowed")
+    at_begin, at_end = (own.value.get(key) != "NONE" for key in TURNS)
+    return Turns(at_begin, at_end, along if isinstance(along, bool) else None)
+
+
+def _restrict(first: Turns, other: Turns) -> Turns:
+    """Return where robots may turn on each of two parallel edges."""
+    along = [turn for turn in (first.along, other.along) if turn is not None]
+    return Turns(
+        first.at_begin and other.at_begin,
+        first.at_end and other.at_end,
+        all(along) if along else None,
+    )
 
 
 def _choose_common(
@@ -301,19 +344,23 @@ def _read_nurbs(trajectory: Source) -> Nurbs:
 
 
 def _note_unused_properties(
-    own: Source, name: str, draft: LayoutDraft, taken: Collection[str] = ()
+    own: Source,
+    name: str,
+    draft: LayoutDraft,
+    taken: Collection[str] = (),
+    direction: Fraction | None = None,
 ) -> None:
     """Note the properties for one type of robots that have no effect on plans and orders.
 
     False and 0 have a meaning here. Defaults have an effect on no plan.
     """
     properties = own.read_mapping()
-    is_along = properties.get("orientationType") != "GLOBAL"
     used = {"theta"} if _read_angle(own, "theta") is not None else set[str]()
-    if _read_orientation(own) is not None:
+    if _read_orientation(own, direction) is not None:
         used.add("vehicleOrientation")
     for key, value in properties.items():
-        is_default = value in DEFAULTS.get(key, ()) and (is_along or key != "vehicleOrientation")
+        is_default = value in DEFAULTS.get(key, ())
+        is_default &= not (key == "vehicleOrientation" and _is_global(own))
         if key not in PROPERTY_KEYS | used and value is not None and not is_default:
             draft.note_unused_key(key, name)
     for action in own.read_items_under(*ACTIONS):

@@ -18,7 +18,7 @@ from rightofway.io.json_text import format_json_line
 from rightofway.kinds.table import make_words
 from rightofway.site.geometry import Point, measure_squared_distance
 from rightofway.site.lane_table import LayoutEdge
-from rightofway.site.layout import Layout, LayoutVertex, Level, name_lanes
+from rightofway.site.layout import Layout, LayoutVertex, Level, Turns, name_lanes
 
 LISTS = {"layouts", "nodes", "edges", "stations", "features"}
 """Keys of lists that are spread over lines."""
@@ -95,6 +95,7 @@ def list_losses(layout: Layout, says: frozenset[str]) -> Iterator[Fact]:
         "ids of lanes": [
             own for level in levels for ends, own in level.edge_ids.items() if own != "-".join(ends)
         ],
+        "forbidden turns": [name for level in levels for name in name_lanes(_list_fixed(level))],
         "lanes longer than the straight line": [
             name for level in levels for name in _name_curved(level)
         ],
@@ -263,6 +264,7 @@ def _make_lif_edge(
     more: dict[str, Any] = {}
     if (edge.tail, edge.head) in level.orientations:
         more["vehicleOrientation"] = _convert_to_radians(level.orientations[edge.tail, edge.head])
+    turns = level.turns.get((edge.tail, edge.head), {})
     if edge.max_speed is not None:
         more["maxSpeed"] = float(edge.max_speed)
     if edge.chord_error is not None:
@@ -271,8 +273,25 @@ def _make_lif_edge(
         "startNodeId": edge.tail,
         "endNodeId": edge.head,
         "vehicleTypeEdgeProperties": [
-            {"vehicleTypeId": name, "rotationAllowed": True, **more} for name in types
+            {"vehicleTypeId": name, **_write_turns(turns.get(name, Turns())), **more}
+            for name in types
         ],
+    }
+
+
+def _list_fixed(level: Level) -> Iterator[tuple[str, str]]:
+    """Yield the lanes at whose ends some type of robots may not turn."""
+    for ends, turns in level.turns.items():
+        if not all(own.at_begin and own.at_end for own in turns.values()):
+            yield ends
+
+
+def _write_turns(turns: Turns) -> dict[str, Any]:
+    """Return where robots may turn; what LIF requires is allowed where it is unknown."""
+    ends = {"rotationAtStartNodeAllowed": turns.at_begin, "rotationAtEndNodeAllowed": turns.at_end}
+    return {
+        "rotationAllowed": turns.along is not False,
+        **{key: "NONE" for key, is_allowed in ends.items() if not is_allowed},
     }
 
 
@@ -428,7 +447,8 @@ LAYOUT_WRITERS: dict[str, LayoutWriter] = {
         says=frozenset({"names of vertices", "levels", "stations", "charging places",
                         "actions of vertices", "vehicle types", "ids of lanes",
                         "curves that robots drive along",
-                        "headings at vertices", "orientations along lanes"}),
+                        "headings at vertices", "orientations along lanes",
+                        "forbidden turns"}),
     ),
     "nav2": LayoutWriter(
         summary="route graph of Nav2, GeoJSON", write=_write_nav2, says=frozenset({"drawn curves"}),

@@ -38,6 +38,7 @@ from rightofway.site import (
     measure_straight_length,
 )
 from rightofway.site.clustering import MAX_CELLS, free_cells
+from rightofway.site.directions import Directions
 from rightofway.site.drawing import Drawing
 from rightofway.site.edges import make_roadmap_of_table
 from rightofway.site.spacing import find_pieces, refuse_many_pieces, split_lanes
@@ -275,9 +276,7 @@ def _map_of_roadmap(
     distance = on.choose_distance(fleet.distance) if document.sides is None else Fraction(0)
     is_split = on.longest_piece is not None or is_cut or distance > 0
     shapes = _cut_shapes(curves, positions, on.longest_piece, has_sizes) if is_split else {}
-    split = split_lanes(
-        positions, edges, on.longest_piece, shapes, distance=distance, has_sizes=has_sizes
-    )
+    split = split_lanes(positions, edges, on.longest_piece, shapes, distance=distance)
     written_pieces = {
         ends: [part for piece in pieces for part in split.pieces.get(piece, (piece,))]
         for ends, pieces in find_pieces(
@@ -287,6 +286,7 @@ def _map_of_roadmap(
     left, low = on.origin if on.origin and on.yaw else (Fraction(0), Fraction(0))
     drawn = {name: (x - left, y - low) for name, (x, y) in split.positions.items()}
     frame = Frame(x=left, y=low, y_up=on.y_up, yaw=on.yaw or Fraction(0))
+    directions = _read_directions(document, curves)
     rounded = sum((lengths[index] or 0) ** 2 != square for index, square in squares.items())
     roadmap = make_roadmap_of_table(
         drawn,
@@ -301,11 +301,13 @@ def _map_of_roadmap(
             name: vertex.surcharge for name, vertex in document.vertices.items() if vertex.surcharge
         },
         passed=[name for name, vertex in document.vertices.items() if vertex.is_passed],
+        directions=directions,
     )
     drawing = replace(
         _read_places(document, roadmap),
         **_collect_bends(curves, roadmap),
-        **_collect_headings(document, roadmap),
+        **directions.collect(roadmap),
+        edge_ids=roadmap.list_whole_edges(_collect_edge_ids(document)),
     )
     error = max(curve.error for curve in curves.values()) if is_cut else Fraction(0)
     return LoadedMap(
@@ -339,41 +341,43 @@ def _cut_shapes(
 
 def _collect_bends(curves: Mapping[tuple[str, str], LaneCurve], roadmap: Roadmap) -> dict[str, Any]:
     """Return the points and the control points of the curves that are one edge each."""
-    whole = [
-        (roadmap.get_vertex(tail), roadmap.get_vertex(head), curve)
-        for (tail, head), curve in curves.items()
-        if roadmap.is_drawn(roadmap.get_vertex(tail), roadmap.get_vertex(head))
-    ]
+    whole = roadmap.list_whole_edges(curves)
     return {
         "curves": tuple((tail, head, curve.points) for tail, head, curve in whole),
         "controls": tuple((tail, head, curve.controls) for tail, head, curve in whole),
     }
 
 
-def _collect_headings(document: RoadmapDocument, roadmap: Roadmap) -> dict[str, Any]:
-    """Return headings of vertices, orientations along edges and pieces of lanes, and edge ids."""
-    at = roadmap.get_vertex
+def _collect_edge_ids(document: RoadmapDocument) -> dict[tuple[str, str], str]:
+    """Return the ids of edges in orders, by their ends."""
     return {
-        "headings": tuple(
-            (at(name), vertex.heading)
-            for name, vertex in document.vertices.items()
-            if vertex.heading is not None
-        ),
-        "orientations": tuple(
-            (tail, head, edge.orientation)
-            for edge in document.edges
-            if edge.orientation is not None
-            for ends in ((edge.tail, edge.head), (edge.head, edge.tail))[: 1 + edge.both_ways]
-            for tail, head in roadmap.list_pieces((at(ends[0]), at(ends[1])))
-        ),
-        "edge_ids": tuple(
-            (at(tail), at(head), edge.edge_id)
-            for edge in document.edges
-            if edge.edge_id is not None
-            for tail, head in ((edge.tail, edge.head), (edge.head, edge.tail))[: 1 + edge.both_ways]
-            if roadmap.is_drawn(at(tail), at(head))
-        ),
+        ends: edge.edge_id
+        for edge in document.edges
+        if edge.edge_id is not None
+        for ends in ((edge.tail, edge.head), (edge.head, edge.tail))[: 1 + edge.both_ways]
     }
+
+
+def _read_directions(
+    document: RoadmapDocument, curves: Mapping[tuple[str, str], LaneCurve]
+) -> Directions:
+    """Return where robots may not turn, and how they are turned."""
+    vertices = document.vertices.items()
+    directed = [
+        (ends, edge)
+        for edge in document.edges
+        if edge.orientation is not None or edge.turning is not None
+        for ends in ((edge.tail, edge.head), (edge.head, edge.tail))[: 1 + edge.both_ways]
+    ]
+    return Directions(
+        fixed=[name for name, vertex in vertices if not vertex.turning],
+        turning={ends: edge.turning for ends, edge in directed if edge.turning is not None},
+        headings={name: vertex.heading for name, vertex in vertices if vertex.heading is not None},
+        orientations={
+            ends: edge.orientation for ends, edge in directed if edge.orientation is not None
+        },
+        bends={ends: curve.points for ends, curve in curves.items()},
+    )
 
 
 def _read_places(document: RoadmapDocument, roadmap: Roadmap) -> Drawing:

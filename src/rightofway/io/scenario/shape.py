@@ -114,6 +114,10 @@ class EdgeDocument(Document):
     edge_id: Name = make_optional(
         "its id in orders to robots; by default that of its ends with a hyphen between", alias="id"
     )
+    turning: bool | None = make_optional(
+        "true or false: may robots turn on the spot along it? Then they may enter it from a vertex"
+        " without turning; unknown by default"
+    )
 
     @model_validator(mode="before")
     @classmethod
@@ -154,7 +158,10 @@ class VertexDocument(Document):
         description="true or false: do robots only drive through, without a stop?",
     )
     heading: Angle = make_optional(
-        "heading of robots that work there, for orders: from x to y [degrees]; any by default"
+        "heading of robots that work there: from x to y [degrees]; any by default"
+    )
+    turning: bool = Field(
+        default=True, description="true or false: may robots turn on the spot there?"
     )
 
     @model_validator(mode="before")

@@ -204,11 +204,17 @@ def _write_roadmap(roadmap: Roadmap) -> dict[str, Any]:
         own = vertices[name(vertex)]
         own = own if isinstance(own, dict) else {"at": own}
         vertices[name(vertex)] = own | {"heading": format_number(heading)}
-    orientations = {
+    for vertex in sorted(roadmap.fixed):
+        own = vertices[name(vertex)]
+        own = own if isinstance(own, dict) else {"at": own}
+        vertices[name(vertex)] = own | {"turning": False}
+    orientations: dict[tuple[int, int], dict[str, Any]] = {
         (int(tail), int(head)): {"orientation": format_number(orientation)}
         for tail, head, orientation in roadmap.drawing.orientations
     }
     ids = {(int(tail), int(head)): {"id": own} for tail, head, own in roadmap.drawing.edge_ids}
+    for tail, head, may_turn in roadmap.drawing.turning:
+        orientations.setdefault((int(tail), int(head)), {})["turning"] = may_turn
     curves = {
         (int(tail), int(head)): {
             "curve": [[format_number(part) for part in point] for point in points]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from rightofway.model.resources import close_pairs
 from rightofway.model.work import Work
-from rightofway.site import Grid, Point, Roadmap, VertexId
+from rightofway.site import Grid, Point, Roadmap
 from rightofway.viz.page.background import Background, find_background, make_background_data
 from rightofway.viz.page.schema import CloseData, FrameData, MapData, ObstacleRow
 from rightofway.viz.placement import Plane, lay_out_roadmap
@@ -165,11 +165,7 @@ def _close(roadmap: Roadmap, room: Fraction) -> CloseData:
         "crossings": [(*first, *other) for first, other in pairs.crossings[:MOST_CLOSE]],
         "beside": [(vertex, *lane) for vertex, lane in pairs.beside[:MOST_CLOSE]],
         "vertices": [
-            pair
-            for pair in pairs.vertices
-            if pair not in joined
-            and pair[::-1] not in joined
-            and roadmap.opposite.get(VertexId(pair[0])) != pair[1]
+            pair for pair in pairs.vertices if pair not in joined and pair[::-1] not in joined
         ][:MOST_CLOSE],
     }
     return cast("CloseData", {key: value for key, value in data.items() if value})
