@@ -49,8 +49,8 @@ def _read_share(
 @click.option("--report", metavar="REPORT", callback=require_writable(".html", ".md", stdout=False),
               help="Write a report with plots (HTML or Markdown) at the end.")  # fmt: skip
 @click.option("--in-time", callback=_read_share, metavar="SHARE",
-              help="Say how many robots have this share of jobs in time, like 95%, in suites of"
-              " shifts.")  # fmt: skip
+              help="In suites of shifts, report the smallest number of robots with this share of"
+              " jobs in time, like 95%.")  # fmt: skip
 @click.option("--jobs", type=Whole(1), metavar="N",
               help="Number of cases that run at a time; by default one for each core.")  # fmt: skip
 @click.option("--dask", metavar="ADDRESS",

@@ -70,8 +70,8 @@ def collisions(
     """List the collisions and swaps of free-running robots, which never wait for another robot.
 
     Robots that are too near for their sizes are listed, too. The robots of a scenario drive their
-    shortest routes. Those of a plan drive the routes of the plan; the decisions of its planner
-    follow, with the conflicts before and after each. A file of - is standard input.
+    shortest routes, those of a plan the routes of the plan. For a plan, the decisions of its
+    planner follow, with the conflicts before and after each. A file of - is standard input.
     """
     from rightofway.deadline import limit_work
     from rightofway.metrics import free_running, name_collisions

@@ -100,14 +100,14 @@ def convert(
 ) -> None:
     """Write the scenario, plan or layout SOURCE in another format.
 
-    A scenario is written as .yaml, .json, .xlsx, or .scen with its .map. A .yaml, .json or
-    .xlsx file contains the map. A .scen file has no speeds, work times, turning times and ways
-    home; the command reports which of these it left out. A plan is written as .json, or with
-    --to for a program on the site or another planner; a shift, as what its robots have done. A
-    layout of another program (LIF, Nav2, Open-RMF, ROS map, openTCS, GraphML, CSV) becomes a
-    scenario, .yaml or .json, that has the layout as its map and a few robots to begin with.
-    With --to, or to a file that ends in .geojson (Nav2), .graphml or .lif.json, it is written
-    for another program, and a message names the parts that its format cannot hold.
+    A scenario is written as .yaml, .json, .xlsx, or .scen with its .map. A .yaml, .json or .xlsx
+    file contains the map. A .scen file has no speeds, work times, turning times and ways home;
+    the command reports the omitted ones. A plan is written as .json, or with --to for a
+    program on the site or another planner. A shift is written as the plan that its robots have
+    driven. A layout of another program (LIF, Nav2, Open-RMF, ROS map, openTCS, GraphML, CSV) is
+    converted into a scenario (.yaml or .json) with the layout as its map and a few robots. With
+    --to, or to a file that ends in .geojson (Nav2), .graphml or .lif.json, it is written for
+    another program, and a message names the parts that its format cannot contain.
     """
     from rightofway.model import Plan
 

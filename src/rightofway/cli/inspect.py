@@ -47,7 +47,7 @@ Examples:
     metavar="FILE",
     type=click.Path(),
     shell_complete=complete_files(".yaml", ".yml", ".json", ".csv"),
-    help="Judge the robots of this file: a scenario, a list of robots, or a CSV.",
+    help="Inspect the site for the robots of this file: a scenario, a list of robots, or a CSV.",
 )
 @jobs_option
 @click.option("--level", metavar="NAME", help="Inspect only this level of a layout.")
@@ -84,11 +84,10 @@ def inspect(
 ) -> None:
     """Report the kind and size of FILE, repairs made while reading, and problems.
 
-    FILE is a layout of another program in any format that is known, a map or a scenario. Each
-    finding has a place and a remedy: places that cannot be reached or left, vertices and lanes that
-    are too near for the robots, lanes that cross without a vertex, places on the only way to
-    others, corridors without a passing place, bottlenecks, and jobs that no robot can do alone.
-    Nothing is planned.
+    FILE is a scenario, a map, or a layout of another program. Each finding has a place and a
+    remedy: places that cannot be reached or left, vertices and lanes that are too near for the
+    robots, lanes that cross without a vertex, places on the only way to others, corridors without
+    a passing place, bottlenecks, and jobs that no robot can do alone. Nothing is planned.
     """
     from rightofway.io.sites import Choice, read_sites
     from rightofway.metrics import inspect as inspected

@@ -102,11 +102,11 @@ def laps(
 ) -> int:
     """Let every robot of a SCENARIO repeat its round trip until the motion is periodic.
 
-    Prints for each group of robots that meet: the period, the mean lap of each robot, which robot
-    waits where for which other, and the bottleneck. Exit code 1 if a group ends in a deadlock, 3 if
-    time ran out for one.
+    Prints for each group of robots that meet: the period, the mean lap of each robot, the waits
+    with place and robot waited for, and the bottleneck. Exit code 1 if a group ends in a
+    deadlock, 3 if time ran out for one.
 
-    Where a scenario names no unit of time, throughput_per_hour of --json is laps in 3600 time
+    If a scenario has no unit of time, throughput_per_hour of --json is laps in 3600 time
     units.
     """
     from rightofway.cyclic import (

@@ -151,12 +151,12 @@ def _add_planning_options(planner: str) -> Callable[[Callable[..., Any]], Callab
 @count_option
 @jobs_option
 @click.option("--start", type=click.Path(), metavar="PLAN", shell_complete=complete_files(*PLANS),
-              help="Start from the PLAN of this SCENARIO before it was changed.")  # fmt: skip
+              help="Start from the PLAN of an earlier version of this SCENARIO.")  # fmt: skip
 @_add_planning_options(DEFAULT_PLANNER)
 def plan(*, scenario: str, count: int | None, jobs: str | None, **given: Any) -> int:
     """Plan a SCENARIO (YAML, JSON, .xlsx or .scen) and check the plan.
 
-    Prints the costs of the plan, and which robots wait for which others. A SCENARIO of - is
+    Prints the costs of the plan and the waits with the robots waited for. A SCENARIO of - is
     standard input.
     """
     from rightofway.solve import solve
@@ -201,10 +201,9 @@ def bound(
 ) -> None:
     """Print lower bounds of the flowtime and makespan of all plans of a SCENARIO.
 
-    Both follow from the times at which the robots would be done if each drove alone. With a time
-    limit, conflict-based search and prices of places then raise the bound of the flowtime, and
-    robots are listed that lose time to each other in every plan. A SCENARIO of - is
-    standard input.
+    Both follow from the completion times of the robots if each drove alone. With a time limit,
+    conflict-based search and prices of places raise the bound of the flowtime. The report then
+    lists robots that lose time to each other in every plan. A SCENARIO of - is standard input.
     """
     from rightofway.deadline import limit_work
     from rightofway.io.plan.writer import make_forced_losses

@@ -73,17 +73,18 @@ def _list_known_and_delays(formatter: click.HelpFormatter) -> None:
 @click.option("--until", type=Time(), metavar="T",
               help="End of the shift [time unit]; by default when all jobs are done.")  # fmt: skip
 @click.option("--reveal", type=Whole(1), metavar="N",
-              help="Jobs become known when they are among the first N unfinished ones; those with"
-              " a robot are counted for each robot.")  # fmt: skip
+              help="A job becomes known when it is among the first N unfinished jobs; jobs with a"
+              " robot are counted for each robot.")  # fmt: skip
 @click.option("--known", metavar="KNOWN",
-              help="When jobs become known, see below; by default at their earliest.")  # fmt: skip
+              help="Times at which jobs become known, see below; by default at their"
+              " earliest.")  # fmt: skip
 @make_delays_option("none")
 @seed_option
 @click.option("--round-time", default="1", show_default=True, callback=_read_round_time,
-              metavar="SECONDS", help="How long the planning of a round may take.")  # fmt: skip
+              metavar="SECONDS", help="Time limit of the planning of a round.")  # fmt: skip
 @click.option("--lead", type=Time(), metavar="T",
-              help="How long robots drive while a round is planned [time unit]; 0: robots stand"
-              " still meanwhile. By default as long as --round-time.")  # fmt: skip
+              help="Time that robots drive by the old plan while a round is planned [time unit]; 0:"
+              " they do not move. By default the same as --round-time.")  # fmt: skip
 @make_output_option("the whole shift", ".json")
 @make_page_option("the shift")
 @ticks_option

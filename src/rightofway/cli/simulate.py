@@ -48,13 +48,13 @@ Examples:
               help="Number of runs.")  # fmt: skip
 @seed_option
 @click.option("--switch", is_flag=True,
-              help="Let a robot that is early go before one that is late, where this is expected"
-              " to save time.")  # fmt: skip
+              help="Let an early robot go before a late one if this is expected to"
+              " save time.")  # fmt: skip
 @click.option("--replan", is_flag=True,
-              help="Replan the rest of the work where this is expected to save time, and when a"
-              " robot breaks down permanently.")  # fmt: skip
+              help="Replan the remaining routes if this is expected to save time, and when a robot"
+              " breaks down permanently.")  # fmt: skip
 @make_output_option("the outcome", ".json")
-@make_page_option("one run beside the plan")
+@make_page_option("one run next to the plan")
 @click.option("--run", type=Whole(0), metavar="K",
               help="Run that the page plays, from 0; by default the one of median lateness.",
               )  # fmt: skip

@@ -130,9 +130,9 @@ def table(
 ) -> None:
     """Print the time/space table of a PLAN: the vertex of each robot at each time.
 
-    Planned rows have the routes of the plan without waits, with the collisions marked; a route may
-    be a detour that the robot would not take alone. Final rows are those of the plan. A long table
-    is cut. A PLAN of - is standard input.
+    Planned rows show the routes of the plan without waits, and mark collisions. Such a route may
+    have a detour that the robot would not take alone. Final rows are those of the plan. A long
+    table is cut. A PLAN of - is standard input.
     """
     if events + everything + (decision is not None) > 1:
         raise click.UsageError("--all, --events and --decision are different: choose one")

@@ -79,8 +79,8 @@ def check(*, plans: tuple[str, ...], limit: int, in_ticks: bool, as_json: bool) 
     The check shares no code with the planners. It finds jumps, drives that are too fast, work cut
     short, missed stops, wrong homes and ends, vertex and swap conflicts, headways that are too
     short and, where they are forbidden, rotations. A PLAN of - is standard input. With several
-    plans, --json prints a list, and a plan that cannot be read (exit code 2) does not keep the
-    others from being checked.
+    plans, --json prints a list. If a plan cannot be read (exit code 2), the others are checked
+    all the same.
     """
     from rightofway.check import check as judge
     from rightofway.report.plan import report_check
@@ -141,8 +141,8 @@ def _report_data(plan: Plan, report: Report, quantities: Quantities) -> dict[str
               )  # fmt: skip
 @click.option("--tick", type=Whole(0), metavar="TICK", help="The same as a tick.")
 @click.option("--background", type=click.Path(), metavar="FILE",
-              help="Under the map of the page: a ROS map or a building (.yaml), whose picture lies"
-              " where the file says; or a picture, its lower left corner on the map's.",
+              help="Picture under the map of the page: a ROS map or a building (.yaml) with its own"
+              " position, or a picture whose lower left corner is that of the map.",
               )  # fmt: skip
 @click.option("--background-scale", type=float, metavar="LENGTH",
               help="Length of a pixel of a picture; by default it is as wide as the map.",
@@ -159,7 +159,7 @@ def show(
     background: str | None,
     background_scale: float | None,
 ) -> None:
-    """Show a plan as a page that plays it, a picture or a film.
+    """Write a plan as a page that plays it, a picture or a film.
 
     A scenario is planned first, as by `rightofway plan`. With other plans, up to eight in all, the
     page shows them side by side: figures, maps, diagrams, and which robots gain or lose. Robots are

@@ -295,7 +295,7 @@ class Dispatcher:
         return self.ledger.closed_edges | self._planned_round
 
     def switch(self) -> list[Message]:
-        """Switch rights of way where robots have come so far that another order is better.
+        """Exchange rights of way when another order shortens the remaining drive of the fleet.
 
         A robot that is lost, faulty, on hold or not fit lets others go first, where they can.
         """

@@ -32,7 +32,7 @@ class ShiftSettings:
     delays
         Causes of delay, as `read_delays` reads them.
     round_time
-        How long the planning of a round may take [s], positive.
+        Time limit of the planning of a round [s], positive.
     lead
         How long robots drive while a round is planned [time unit]; None: as long as the round may
         take, where a time unit that is not known counts as a second.

@@ -24,16 +24,18 @@ Examples:
 @click.argument("path", type=click.Path(), default=".", metavar="[FILE|FOLDER]",
                 shell_complete=complete_files(*SCENARIOS))  # fmt: skip
 @click.option("--host", default="127.0.0.1", show_default=True, metavar="ADDRESS",
-              help="Address to listen on. Other machines than this one need the token that is"
-              " in the printed address.")  # fmt: skip
+              help="Address to listen on. Other machines need the token in the"
+              " printed address.")  # fmt: skip
 @click.option("--port", type=Whole(1, 65535), metavar="PORT",
               help="Port to listen on; a free one by default.")  # fmt: skip
 @click.option("--certificate", type=click.Path(dir_okay=False), metavar="FILE",
               help="Certificate in PEM format: the connection is encrypted (https).")  # fmt: skip
 @click.option("--key", type=click.Path(dir_okay=False), metavar="FILE",
-              help="Private key of the certificate, where it is in a file of its own.")  # fmt: skip
+              help="Private key of the certificate; by default in the file of the"
+              " certificate.")  # fmt: skip
 @click.option("--planners", type=Whole(1, 64), default=1, show_default=True, metavar="N",
-              help="Plans to work on at once, each in a process of its own.")  # fmt: skip
+              help="Number of plans that are made at the same time, each in a"
+              " process of its own.")  # fmt: skip
 @click.option("--no-browser", is_flag=True, help="Do not open a browser.")
 @click.option("--api-only", is_flag=True, help="Serve the API without the page.")
 @click.option("--no-history", is_flag=True,
@@ -50,10 +52,10 @@ def studio(
     api_only: bool,
     no_history: bool,
 ) -> None:
-    """Serve a page to draw, plan, watch and compare, and the API behind it.
+    """Serve a page to draw floors and to make, play and compare plans, and its API.
 
-    The studio sees the files of one FOLDER, or of the folder of FILE, and no others. It needs the
-    extra `studio`.
+    The studio has access to the files of FOLDER, or of the folder of FILE, and to no others. It
+    needs the extra `studio`.
     """
     if not (find_spec("fastapi") and find_spec("uvicorn")):
         message = "needs packages that are not installed (pip install 'rightofway[studio]')"

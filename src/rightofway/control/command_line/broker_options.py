@@ -53,8 +53,8 @@ LOGIN = (
     click.option("--cert-file", metavar="FILE",
                  help="The certificate of this client, for a broker that asks for one (PEM)."),
     click.option("--key-file", metavar="FILE",
-                 help="The key of that certificate, without a password, if it is in a file of"
-                 " its own (PEM)."),
+                 help="The private key of that certificate (PEM), without a password; by default in"
+                 " the file of the certificate."),
 )  # fmt: skip
 """The options that become a `Login`."""
 

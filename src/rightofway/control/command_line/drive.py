@@ -83,27 +83,27 @@ def _count(_context: click.Context, _parameter: click.Parameter, given: str | No
 @click.argument("plan", type=click.Path(), shell_complete=complete_files(*PLANS))
 @add_foreign_options
 @click.option("--demo", is_flag=True,
-              help="Have simulated robots drive it, in this process and without a network.",
+              help="Drive simulated robots in this process, without a network.",
               )  # fmt: skip
 @add_broker_options
 @click.option("--journal", metavar="FILE",
-              help="What has happened, kept on the disk: a start with the same journal goes on. By"
+              help="File with all events of the run: a start with the same journal continues it. By"
               " default the name of the plan with .journal.")  # fmt: skip
 @click.option("--dry-run", is_flag=True,
-              help="Connect to nobody: print what robots would be sent that do what they are asked,"
-              " a topic and a message a line.")  # fmt: skip
+              help="Open no connection: print the messages to robots that follow their orders, a"
+              " topic and a message in each line.")  # fmt: skip
 @click.option("--replay", is_flag=True,
-              help="Drive nothing: serve the page of what the journal of the plan has, also while"
-              " a control writes it; with --page, write it as a file.")  # fmt: skip
+              help="Drive no robots: serve the page of the journal of the plan, also while a"
+              " control writes it; with --page, write the page to a file.")  # fmt: skip
 @click.option("--live", is_flag=True,
-              help="Serve a page on which to watch the robots and to hold them; it stays when they"
-              " have ended, until Ctrl-C.")  # fmt: skip
+              help="Serve a page that shows the robots and can hold them; after the drive it stays"
+              " until Ctrl-C.")  # fmt: skip
 @add_page_options
 @click.option("--metrics", type=Whole(1, 65535), metavar="PORT",
               help="Serve metrics for Prometheus, and health for a supervisor, at this port of"
               " --host.")  # fmt: skip
 @click.option("--stay", is_flag=True,
-              help="Go on when all robots have come to the end of their way.")  # fmt: skip
+              help="Keep running when all robots are at the end of their routes.")  # fmt: skip
 @click.option("--hold", is_flag=True,
               help="At a broker, begin a new journal with all robots on hold; `rightofway jobs` and"
               " the page release them.")  # fmt: skip
@@ -114,18 +114,18 @@ def _count(_context: click.Context, _parameter: click.Parameter, given: str | No
 @add_log_options
 @click.option("--time-scale", default="10", show_default=True, callback=_read_factor,
               metavar="FACTOR",
-              help="With --demo, seconds of the plan in each second, or its time units where it has"
-              " no unit; inf for no pause.")  # fmt: skip
+              help="With --demo: seconds of the plan (time units, if it has no unit) that pass in"
+              " one second; inf for no pause.")  # fmt: skip
 @make_delays_option("none")
 @seed_option
 @click.option("--laps", metavar="COUNT", callback=_count,
               help="Repeat the laps of the plan until each robot has made COUNT; inf: until"
               " interrupted.")  # fmt: skip
 @click.option("--switch", is_flag=True,
-              help="Switch rights of way where robots have come so far that another order is"
-              " better.")  # fmt: skip
+              help="Exchange rights of way when another order shortens the remaining drive of the"
+              " fleet.")  # fmt: skip
 @make_page_option(
-    "what robots of a demo did beside the plan, or with --broker and --replay what a journal has"
+    "the drive of a demo, or with --broker and --replay that of a journal, next to the plan"
 )
 @ticks_option
 @as_json_option("outcome")
@@ -157,11 +157,11 @@ def drive(
     in_ticks: bool,
     as_json: bool,
 ) -> int:
-    """Have robots drive a PLAN by right of way, and report events.
+    """Drive robots along a PLAN by right of way, and report events.
 
-    Robots get orders of VDA 5050, whose released part grows when others have left: never by the
-    clock. A late robot makes others wait; nothing collides. Events go to standard error,
-    the report to standard output. A PLAN of - is standard input.
+    Robots get orders of VDA 5050. A further part of an order is released when the robots that go
+    first have left it, never by the clock. A late robot makes others wait; nothing collides.
+    Events go to standard error, the report to standard output. A PLAN of - is standard input.
     """
     if [demo, login.broker is not None, dry_run, replay].count(True) != 1:
         raise click.UsageError("give one of --broker, --demo, --dry-run and --replay")

@@ -31,8 +31,8 @@ def add_log_options(command: Any) -> Any:
     level = click.option("--log-level", type=click.Choice(LEVELS), default="info",
                          metavar="LEVEL",
                          show_default=True,
-                         help="The least level of the log: debug has each message, info each event,"
-                         " warning trouble that begins.")  # fmt: skip
+                         help="Level of the log: debug (each message), info (each event) or warning"
+                         " (trouble that begins).")  # fmt: skip
     return form(level(command))
 
 

@@ -80,36 +80,40 @@ def _add_job_options(command: Any) -> Any:
     for option in reversed(
         (
             click.option("--at", metavar="PLACE",
-                         help="Where the job is, or the robot: a vertex or a station."),
+                         help="Place of the job or of the robot: a vertex or a station."),
             click.option("--from", "pickup", metavar="PLACE",
-                         help="Where a load is picked up (plans with jobs)."),
+                         help="Place where a load is picked up (plans with jobs)."),
             click.option("--to", metavar="PLACE",
-                         help="Where it is dropped off; or the other end of a lane, to close or"
-                         " open it."),
+                         help="Place where the load is dropped off; with close and open, the other"
+                         " end of a lane."),
             click.option("--load", type=Whole(1), metavar="NUMBER",
-                         help="How much is picked up; 1 by default."),
+                         help="Size of the load; 1 by default."),
             click.option("--load-id", metavar="NAME",
                          help="The name of the load, for the actions that pick and drop it."),
-            click.option("--load-type", metavar="NAME", help="Its type, likewise."),
+            click.option("--load-type", metavar="NAME",
+                         help="The type of the load, for the same actions."),
             click.option("--work", metavar="TIME", callback=_read_duration,
-                         help="How long it lasts, at both places of a load [time unit, or with s,"
-                         " min or h]."),
+                         help="Work time at each place of the job [time unit, or with s, min or"
+                         " h]."),
             click.option("--earliest", metavar="TIME", callback=_read_moment,
-                         help="When it may begin: from now on, or a time of day like 10:30."),
+                         help="Earliest begin of the job: a time from now on, or a time of day like"
+                         " 10:30."),
             click.option("--due", metavar="TIME", callback=_read_moment,
-                         help="When it should be done, likewise: later costs more."),
+                         help="Time by which the job should end, in the same form; a later end"
+                         " costs more."),
             click.option("--latest", metavar="TIME", callback=_read_moment,
-                         help="When it has to be done, likewise. If no robot can do it by then, it"
-                         " is not done at all."),
-            click.option("--urgent", is_flag=True, help="Due at once: it comes before others."),
+                         help="Latest end of the job, in the same form. If no robot can do it by"
+                         " then, the job is not done."),
+            click.option("--urgent", is_flag=True,
+                         help="Due immediately: the job is assigned before others."),
             click.option("--weight", metavar="FACTOR",
-                         help="How much it counts compared with other jobs; 1 by default."),
+                         help="Weight of the job compared with other jobs; 1 by default."),
             click.option("--robot", metavar="ROBOT",
-                         help="Whose job it is; by default that of the robot which drives least"
-                         " more."),
+                         help="The robot of the job; by default the one with the shortest detour."),
             click.option("--after", metavar="JOB", multiple=True,
-                         help="A job that ends before it begins; can be repeated. In a plan without"
-                         " jobs, one that its robot does directly before it, as R1/job2."),
+                         help="A job that ends before this one begins; may be repeated. In a plan"
+                         " without jobs, the job that its robot does directly before this one,"
+                         " like R1/job2."),
         )
     ):  # fmt: skip
         command = option(command)
@@ -122,7 +126,7 @@ def _add_job_options(command: Any) -> Any:
 @click.argument("name", required=False)
 @_add_job_options
 @click.option("--wait", metavar="SECONDS", type=click.FloatRange(min=0), default=10,
-              show_default=True, help="How long to wait for the answer.")  # fmt: skip
+              show_default=True, help="Time to wait for the answer.")  # fmt: skip
 @as_json_option("answer")
 def jobs(
     *,
@@ -133,14 +137,15 @@ def jobs(
     as_json: bool,
     **options: Any,
 ) -> int:
-    """Ask the control that drives with a JOURNAL for an ACTION.
+    """Send an ACTION to the control that has the JOURNAL open.
 
-    Released parts stay, the rest is replanned and judged before it counts. Where no plan is
-    found, the old one stands and the command is refused: exit code 1. A control that does not run
-    carries the command out at its next start.
+    Released parts do not change. The remaining routes are replanned, and the judge checks the new
+    plan before it is used. If no plan is found, the old plan stays valid and the command is
+    refused (exit code 1). If the control does not run, it executes the command at its next start.
 
-    In a plan with jobs, NAME is that of a job: added twice, it is one job. The next round plans it.
-    With - as NAME, jobs come from standard input: a CSV table, or a JSON object a line.
+    In a plan with jobs, NAME identifies a job: a job that is added twice is one job. The next
+    round plans it. With - as NAME, jobs come from standard input: a CSV table, or a JSON object a
+    line.
     """
     if not Path(journal).exists():
         raise InputError.at(journal, "there is no such file (name the journal of rightofway drive)")

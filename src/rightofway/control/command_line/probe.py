@@ -42,8 +42,8 @@ Examples:
 @click.option("--robot", metavar="NAME", help="The robot in the plan.")
 @add_look_ahead_option
 @click.option("--order", "node", metavar="NODE",
-              help="Send the orders of the probe without asking, at this node. By default the"
-              " command asks first, and takes the node where the robot is.")  # fmt: skip
+              help="Send the orders without asking, with this node. By default the command asks"
+              " first, and uses the node of the robot.")  # fmt: skip
 @as_json_option("findings")
 def probe(
     *,
@@ -56,11 +56,11 @@ def probe(
     node: str | None,
     as_json: bool,
 ) -> int:
-    """Ask one robot for its state and its factsheet, and give it a first order.
+    """Request the state and the factsheet of one robot, and send it a first order.
 
-    The orders have a single node, the present one, so the robot does not move. The report lists the
-    features of the robot and its departures from the norm. Exit code 1: it departs, or the control
-    cannot drive it.
+    The orders have a single node, the present one, so the robot does not move. The report lists
+    the features of the robot and its departures from the norm. Exit code 1: the robot departs
+    from the norm, or the control cannot drive it.
     """
     from rightofway.control.probe import Probe
 

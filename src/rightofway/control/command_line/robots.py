@@ -35,8 +35,9 @@ Examples:
               help="The version of VDA 5050 of robots without --identities: 2.0.0, 2.1.0 or"
               " 3.0.0.")  # fmt: skip
 @click.option("--trouble", "troubles", multiple=True, metavar="KIND:SHARE",
-              help="What goes wrong: late:0.5 (half as long again, on average), stop, error,"
-              " offline or reset with the share of drives. Can be repeated.")  # fmt: skip
+              help="Random trouble: late:0.5 (drives take half as long again on average), or stop,"
+              " error, offline or reset with their share of drives. May be"
+              " repeated.")  # fmt: skip
 @click.option("--time-scale", type=click.FloatRange(0, 100, min_open=True), default=1,
               show_default=True, metavar="FACTOR",
               help="Seconds of robot time in each second, up to 100.")  # fmt: skip
@@ -54,8 +55,8 @@ def robots(
 ) -> None:
     """Simulate the robots of a PLAN at a broker, until interrupted.
 
-    They stand at their homes and carry out orders of VDA 5050, each with a connection of its
-    own. The PLAN gives their homes and how long they work; lengths and speeds are in the orders.
+    They begin at their homes and execute orders of VDA 5050, each with a connection of its own.
+    The PLAN gives their homes and work times; lengths and speeds are in the orders.
     """
     from rightofway.control.identities import (
         format_identities,

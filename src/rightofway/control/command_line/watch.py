@@ -27,11 +27,11 @@ def add_page_options(command: Any) -> Any:
     for option in reversed(
         (
             click.option("--host", default="127.0.0.1", show_default=True, metavar="ADDRESS",
-                         help="Where the page of --live or --replay listens, and --metrics. Other"
-                         " machines than this one need the token of the page that is in the printed"
-                         " address."),
+                         help="Address on which the page of --live or --replay and --metrics"
+                         " listen. Other machines need the token in the printed address of the"
+                         " page."),
             click.option("--port", type=Whole(1, 65535), metavar="PORT",
-                         help="The port of that page; a free one by default."),
+                         help="Port of the page; a free one by default."),
         )
     ):  # fmt: skip
         command = option(command)
