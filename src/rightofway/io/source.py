@@ -13,7 +13,7 @@ from functools import lru_cache
 from typing import Any
 
 from rightofway.errors import InputError, Location, Steps, is_printable, quote
-from rightofway.kinds.numbers import DIGITS, read_coordinate
+from rightofway.kinds.numbers import read_coordinate
 
 BILLION = 10**9
 
@@ -94,11 +94,15 @@ class Source:
             raise self.make_fault(f"{quote(self.value)} is no name (give printable text)")
         return value
 
-    def number(self) -> Fraction:
-        """Return the value as a number, to a billionth; text counts where a number is written."""
+    def number(self, most: int = BILLION) -> Fraction:
+        """Return the value as a number, to a billionth; text counts where a number is written.
+
+        ``most`` is the largest number.
+        """
         value = self.value
+        read = _number if isinstance(value, Hashable) else _number.__wrapped__
         try:
-            return _number(value) if isinstance(value, Hashable) else _number.__wrapped__(value)
+            return read(value, most)
         except ValueError as error:
             raise self.make_fault(str(error)) from None
 
@@ -120,9 +124,9 @@ class Source:
 
 
 @lru_cache(maxsize=2**16, typed=True)  # the numbers of a site repeat
-def _number(value: Hashable) -> Fraction:
+def _number(value: Hashable, most: int) -> Fraction:
     number = read_coordinate(value.strip() if isinstance(value, str) else value)
-    if abs(number.numerator) > 10 ** (DIGITS // 2) * number.denominator:
+    if abs(number.numerator) > most * number.denominator:
         raise ValueError(f"{quote(value)} is out of range (check the unit)")
     return (
         number if BILLION % number.denominator == 0 else Fraction(round(number * BILLION), BILLION)

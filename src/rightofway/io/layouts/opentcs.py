@@ -27,6 +27,9 @@ VERSIONS = ("0.0.2", "0.0.3", "0.0.4", "0.0.5", "6", "7")
 """The versions that are read; a whole number stands for all versions that begin with it."""
 
 MILLIMETRE = Fraction(1, 1000)
+MOST = 10**12
+"""The largest position [mm]; UTM coordinates have ten digits."""
+
 X, Y = ("positionX", "xPosition"), ("positionY", "yPosition")
 
 CHARGE = re.compile(r"(?<!dis)charg", re.IGNORECASE)
@@ -114,7 +117,7 @@ def _is_locked(element: Element) -> bool:
 
 
 def _add_point(level: LevelDraft, point: Element, draft: LayoutDraft) -> None:
-    x, y = read_both(lambda: point.need(*X).number(), lambda: point.need(*Y).number())
+    x, y = read_both(lambda: point.need(*X).number(MOST), lambda: point.need(*Y).number(MOST))
     level.add(
         LayoutVertex(
             name=point.need("name").read_text(),
