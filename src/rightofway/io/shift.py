@@ -29,14 +29,14 @@ REASON = "robot, way, battery, latest, after or not found"
 class FactDocument(Document):
     """Something that happened, for reports to make a sentence of."""
 
-    kind: Name = Field(description="a word for what happened")
+    kind: Name = Field(description="the kind of the event")
     values: dict[str, Any] = Field(description="a mapping of numbers, names and other facts")
 
 
 class TimedFactDocument(FactDocument):
     """A fact of a shift."""
 
-    at: Ticks = Field(description="when it happened, a whole number of ticks")
+    at: Ticks = Field(description="the time, a whole number of ticks")
 
 
 class RobotRecordDocument(Document):
@@ -53,8 +53,8 @@ class RobotRecordDocument(Document):
     soc: list[SocPoint] = Field(
         description="a list of [tick, state of charge], from 0 to 1; empty without a battery"
     )
-    drives: Amount = Field(description="how long it drove, a whole number of ticks")
-    turns: Amount = Field(description="how long it turned on the spot, a whole number of ticks")
+    drives: Amount = Field(description="driving time, a whole number of ticks")
+    turns: Amount = Field(description="time of turning on the spot, a whole number of ticks")
     waits: list[WaitForRobot] = Field(
         description="a list of [index of another robot, ticks]: how long it waited for it"
     )
@@ -68,10 +68,10 @@ class JobRecordDocument(Document):
     """The course of a job that became known."""
 
     job: JobDocument = Field(description="the job, as in scenario files")
-    known: Ticks = Field(description="when it became known, a whole number of ticks")
+    known: Ticks = Field(description="time at which it became known, a whole number of ticks")
     robot: Amount | None = Field(description="the index of the robot that has begun it, or null")
-    begun: Ticks | None = Field(description="when its first work began, a tick, or null")
-    ended: Ticks | None = Field(description="when its last work ended, a tick, or null")
+    begun: Ticks | None = Field(description="begin of its first work, a tick, or null")
+    ended: Ticks | None = Field(description="end of its last work, a tick, or null")
     reason: Annotated[str, UNSERVED_REASON] | None = Field(
         description=f"why no robot does it: {REASON}; or null"
     )
@@ -80,10 +80,10 @@ class JobRecordDocument(Document):
 class RoundDocument(Document):
     """A round of the shift."""
 
-    begin: Ticks = Field(description="when it began, a whole number of ticks")
-    takeover: Ticks = Field(description="when its plan took over, a whole number of ticks")
-    seconds: NotNegative = Field(description="how long it took [s]")
-    jobs: Amount = Field(description="how many jobs it was given")
+    begin: Ticks = Field(description="the begin, a whole number of ticks")
+    takeover: Ticks = Field(description="takeover of its plan, a whole number of ticks")
+    seconds: NotNegative = Field(description="computing time [s]")
+    jobs: Amount = Field(description="number of jobs in the round")
     stands: bool = Field(description="true or false: did the old plan stay?")
     facts: list[FactDocument] = Field(description="a list of {kind, values}")
     reasons: list[FactDocument] = Field(description="why it began: a list of {kind, values}")
@@ -97,11 +97,11 @@ class EventDocument(Document):
     ] = Field(
         description="job known, job changed, job withdrawn, stop begun, stop done, or job unserved"
     )
-    at: Ticks = Field(description="when it happened, a whole number of ticks")
+    at: Ticks = Field(description="the time, a whole number of ticks")
     job: JobDocument = make_optional("the job, of job known and job changed")
     name: Name = make_optional("the name of the job, of all other kinds")
     robot: Amount = make_optional("the index of the robot, of stop begun and stop done")
-    stop: Amount = make_optional("which of its stops, from 0, of stop begun and stop done")
+    stop: Amount = make_optional("number of the stop, from 0, of stop begun and stop done")
     reason: Annotated[str, UNSERVED_REASON] = make_optional(f"of job unserved: {REASON}")
 
 
@@ -110,12 +110,12 @@ class ShiftFrame(Document):
 
     format: Literal["rightofway-shift/1"] = Field(description="rightofway-shift/1")
     scenario: Any = Field(description="the scenario, its map inlined")
-    tick: TickLength = Field(description="how long a tick is [time unit]")
-    until: Ticks = Field(description="when the shift ended, a whole number of ticks")
+    tick: TickLength = Field(description="length of a tick [time unit]")
+    until: Ticks = Field(description="end of the shift, a whole number of ticks")
     robots: list[RobotRecordDocument] = Field(description="one for each robot of the scenario")
     jobs: list[JobRecordDocument] = Field(description="the jobs that became known, in order")
     rounds: list[RoundDocument] = Field(description="the rounds, in order")
-    events: list[EventDocument] = Field(description="what happened to jobs, in order")
+    events: list[EventDocument] = Field(description="events of jobs, in order")
     facts: list[TimedFactDocument] = Field(description="standstills and lost robots, in order")
 
 

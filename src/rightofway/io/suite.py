@@ -133,7 +133,7 @@ class SuiteFleetDocument(RuleAttributes):
         " robots of a scenario keep theirs",
     )
     chargers: Amount = make_optional(
-        "how many charging places a scenario keeps, the first ones; all by default"
+        "number of charging places of a scenario, the first ones; all by default"
     )
 
 

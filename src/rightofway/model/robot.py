@@ -167,21 +167,22 @@ class Robot:
         default=None,
         metadata=make_attribute(
             COUNT,
-            "how often it makes its round trip, 1 or more",
+            "number of its round trips, 1 or more",
         ),
     )
     turn_rate: Fraction | None = field(
         default=None,
         metadata=make_attribute(
             POSITIVE,
-            "how fast it turns on the spot [degrees per time unit]; by default in no time",
+            "speed of turning on the spot [degrees per time unit]; by default turning takes "
+            "no time",
         ),
     )
     weight: Fraction = field(
         default=Fraction(1),
         metadata=make_attribute(
             POSITIVE,
-            "how much its completion time counts beside the others', above 0",
+            "weight of its completion time compared with those of others, above 0",
         ),
     )
     start: RobotState | None = None
@@ -279,7 +280,7 @@ class Rules:
     laps: int = field(
         default=1,
         metadata=make_attribute(
-            COUNT, "how often each robot makes its round trip, 1 or more", always=True
+            COUNT, "number of round trips of each robot, 1 or more", always=True
         ),
     )
     rotations: bool = field(
@@ -307,7 +308,8 @@ class Rules:
         default=None,
         metadata=make_attribute(
             POSITIVE,
-            "how fast robots turn on the spot [degrees per time unit]; by default in no time",
+            "speed of turning on the spot [degrees per time unit]; by default turning takes "
+            "no time",
             unset="none",
         ),
     )

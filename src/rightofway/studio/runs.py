@@ -256,7 +256,7 @@ class Runs:
         return await self._end(number, "stopped")
 
     async def cancel(self, number: int) -> Run:
-        """End a run at once."""
+        """End a run immediately."""
         return await self._end(number, "cancelled")
 
     async def _end(self, number: int, wanted: Literal["stopped", "cancelled"]) -> Run:

@@ -27,7 +27,7 @@ UNSERVED_REASON = make_words(*get_args(UnservedReason))
 class DecisionDocument(Document):
     """The right of way between two robots that would have met, with its reason."""
 
-    tick: Ticks = Field(description="when they would have met, a whole number of ticks")
+    tick: Ticks = Field(description="time of the avoided meeting, a whole number of ticks")
     kind: Literal["vertex", "head-on", "following", "crossing"] = Field(
         description="vertex, head-on, following, or crossing"
     )
@@ -35,7 +35,7 @@ class DecisionDocument(Document):
     robots: PairOfNames = Field(description="the names of the two robots")
     waits: Name = Field(description="the name of the one that waits")
     waits_at: Name = Field(description="the name of the vertex it waits in")
-    ticks: Ticks = Field(description="how much later it leaves there, a whole number of ticks")
+    ticks: Ticks = Field(description="delay of its leave there, a whole number of ticks")
     level: Literal["node", "robot", "settled", "priority", "only"] = Field(
         description="node, robot, settled, priority, or only"
     )
@@ -64,8 +64,8 @@ class RerouteDocument(Document):
 class StartDocument(Document):
     """Numbers of kept routes and tracks of the plan of another scenario."""
 
-    routes: int = Field(ge=0, description="how many robots have the same route")
-    tracks: int = Field(ge=0, description="how many of these have it at the same times")
+    routes: int = Field(ge=0, description="number of robots with the same route")
+    tracks: int = Field(ge=0, description="number of these robots with the same times")
 
 
 class OutcomeDocument(Document):
@@ -81,13 +81,13 @@ class OutcomeDocument(Document):
         "makespan",
         "makespan and flowtime",
         "service",
-    ] = Field(default="flowtime", description="what the planner minimized")
+    ] = Field(default="flowtime", description="the objective of the planner")
     bound: Ticks | None = Field(
         default=None,
         description="no plan has a smaller one: a whole number of ticks, or null",
     )
     factor: NotNegative | None = Field(
-        default=None, description="how far a bounded plan is above the least, at most; or null"
+        default=None, description="proven factor of a bounded plan above the least cost; or null"
     )
 
 
@@ -98,8 +98,8 @@ class ForcedLossDocument(Document):
         min_length=1, description="names of two robots or more; of the makespan also of one"
     )
     ticks: Annotated[int, Field(ge=1)] = Field(
-        description="what they lose together at least, or before which tick not all of them can"
-        " have completed; a whole number of ticks above 0"
+        description="their least common loss, or the tick before which not all of them can have "
+        "completed; a whole number of ticks above 0"
     )
     vertex: str = Field(
         description="the name of the vertex where two of them would meet; of one robot, its last"
@@ -108,8 +108,8 @@ class ForcedLossDocument(Document):
     objective: Literal["flowtime", "flowtime and surcharges", "weighted flowtime", "makespan"] = (
         Field(
             default="flowtime",
-            description="what is lost: flowtime, flowtime and surcharges, weighted flowtime, or"
-            " makespan",
+            description="the measure of the loss: flowtime, flowtime and surcharges, "
+            "weighted flowtime, or makespan",
         )
     )
 
@@ -132,7 +132,7 @@ class PlannerDocument(Document):
     status: StatusDocument | None = Field(
         default=None, description="{kind, counts} of the method, or null"
     )
-    seconds: NotNegative | None = Field(default=None, description="how long it took, or null")
+    seconds: NotNegative | None = Field(default=None, description="computing time [s], or null")
     decisions: list[DecisionDocument] = Field(default=[], description="a list of decisions")
     reroutes: list[RerouteDocument] = Field(default=[], description="a list of {robot, because}")
     start: StartDocument | None = Field(
@@ -152,10 +152,10 @@ class TourItemDocument(Document):
 
     visit: Amount = Field(description="the visit of the robot, from 0")
     job: Name = make_optional("the name of the job; none for a charge")
-    stop: Amount = make_optional("which of the stops of the job, from 0")
+    stop: Amount = make_optional("number of the stop of the job, from 0")
     charge: Literal[True] = make_optional("true for a charge")
-    begin: Ticks = Field(description="when it begins, a whole number of ticks")
-    end: Ticks = Field(description="when it ends, a whole number of ticks")
+    begin: Ticks = Field(description="the begin, a whole number of ticks")
+    end: Ticks = Field(description="the end, a whole number of ticks")
 
     @model_validator(mode="after")
     def _check_kind(self) -> Self:
@@ -192,7 +192,7 @@ class VisitDocument(Document):
     """One visit of a robot."""
 
     robot: Name = Field(description="the name of the robot")
-    visit: int = Field(description="which of its visits, from 0")
+    visit: int = Field(description="number of its visit, from 0")
 
 
 class SteadyDocument(Document):
@@ -214,7 +214,7 @@ class PlanFrame(Document):
         description="rightofway-plan/1, or rightofway-plan/2 for a scenario with jobs"
     )
     scenario: Any = Field(description="a scenario, its map inlined")
-    tick: TickLength = Field(description="how long a tick is [time unit]")
+    tick: TickLength = Field(description="length of a tick [time unit]")
     planner: Any = make_optional("{name, options, seed, status, seconds}")
     metrics: dict[str, Any] = Field(
         default={}, description="a mapping of numbers, for readers; they are not read back"
@@ -228,7 +228,7 @@ class PlanDocument(PlanFrame):
     """A plan: routes and times for all robots of the scenario inside it."""
 
     scenario: ScenarioDocument = Field(description="the problem, its map inlined")
-    planner: PlannerDocument = make_optional("how the plan came about; unknown by default")
+    planner: PlannerDocument = make_optional("the origin of the plan; unknown by default")
     robots: list[TrackDocument] = Field(description="one for each robot of the scenario")
     unserved: list[UnservedDocument] = make_optional(
         "a list of {job, reason}: jobs that no robot does"

@@ -63,7 +63,7 @@ MAX_CELLS_ALLOWED = 10_000_000
 class ObstacleDocument(Document):
     """A rectangle of a floor that robots cannot enter."""
 
-    name: Words = Field(default="", description="what it is, for messages and the map")
+    name: Words = Field(default="", description="the name, for messages and the map")
     rect: Rectangle = Field(
         description="[x, y, width, height]; x and y are the least that it covers [length unit]"
     )
@@ -105,11 +105,11 @@ class EdgeDocument(Document):
     )
     barred: list[Name] = Field(default=[], description=BARRED)
     surcharge: NotNegative = make_optional(
-        "what makes it less liked, not slower [time unit]; 0 by default"
+        "cost added to it, without making it slower [time unit]; 0 by default"
     )
     orientation: Angle = make_optional(
-        "how robots are turned against the direction of driving, for orders, like 180 for backwards"
-        " [degrees]; the same in both directions"
+        "orientation of robots relative to the direction of driving, for orders, like 180"
+        " for backwards [degrees]; the same in both directions"
     )
     edge_id: Name = make_optional(
         "its id in orders to robots; by default that of its ends with a hyphen between", alias="id"
@@ -150,7 +150,7 @@ class VertexDocument(Document):
     at: Position = Field(description="[x, y] [length unit]")
     barred: list[Name] = Field(default=[], description=BARRED)
     surcharge: NotNegative = make_optional(
-        "what makes each edge into it less liked, not slower [time unit]; 0 by default"
+        "cost added to each edge into it, without making it slower [time unit]; 0 by default"
     )
     is_passed: bool = Field(
         alias="pass",
@@ -205,7 +205,7 @@ class PictureDocument(Document):
         "[x, y] of its lower left corner on the site [length unit]; by default that of the map"
     )
     yaw: Angle = make_optional("angle by which it is turned about that corner, from x to y [rad]")
-    opacity: Share = make_optional("how strong it is, from 0 to 1; 0.6 by default")
+    opacity: Share = make_optional("the opacity, from 0 to 1; 0.6 by default")
 
 
 class RoadmapDocument(Document):
@@ -271,8 +271,10 @@ class MapDocument(Document):
     floor: FloorDocument = make_optional("{size, obstacles}")
     roadmap: RoadmapDocument = make_optional("{vertices, edges}")
     layout: Name = make_optional("a layout of another program, relative to the scenario's own file")
-    level: Name = make_optional("which level of a layout; needed where it has several")
-    vehicle_type: Name = make_optional("whose lanes of a layout; needed where they differ")
+    level: Name = make_optional("the level of a layout; required if it has several")
+    vehicle_type: Name = make_optional(
+        "the vehicle type whose lanes of a layout are used; required if they differ"
+    )
     unknown: Literal["blocked", "free"] = Field(
         default="blocked", description="blocked, or free: pixels of a picture that are not known"
     )
@@ -296,8 +298,8 @@ class MapDocument(Document):
     )
     spacing: Spacing = Field(
         default="auto",
-        description="how edges of a roadmap are split into pieces: longer ones than a length"
-        " [length unit]; auto: long ones, for robots with a size; whole: none",
+        description="edges of a roadmap that are split into pieces: those longer than a length "
+        "[length unit]; auto: long ones, for robots with a size; whole: none",
     )
     picture: PictureDocument = make_optional(
         "{file, scale, origin, opacity}: a picture below the map"
@@ -453,7 +455,7 @@ class FleetDocument(Document):
     """Robots R1, R2, ... from the rows of a MovingAI .scen file."""
 
     scen: Name = Field(description="a .scen file, relative to the scenario's own")
-    count: Count = make_optional("how many of its rows to take, 1 or more; all by default")
+    count: Count = make_optional("number of rows to use, 1 or more; all by default")
     speeds: list[Positive] = make_optional(
         "speeds to deal out in turn: first, second, ...", min_length=1
     )
@@ -475,12 +477,12 @@ class RulesDocument(RuleAttributes):
     """Rules of the whole fleet."""
 
     objective: Objective = make_optional(
-        "service, flowtime, makespan or both: what plans minimize, for jobs; service by default"
+        "the objective of plans of jobs: service, flowtime, makespan or both; service by default"
     )
     late: NotNegative = make_optional("the cost of a time unit after due, for jobs; 10 by default")
     patience: NotNegative = make_optional(
-        "how long after earliest a job without due is overdue in a shift [time unit], for jobs;"
-        " 1800 by default"
+        "time after earliest from which a job without due is overdue in a shift [time "
+        "unit]; 1800 by default"
     )
 
 
@@ -498,12 +500,12 @@ class ClosureDocument(Document):
         max_length=2,
     )
     from_: Moment = make_optional(
-        "when it begins [time unit], or a time of day; 0 by default", alias="from"
+        "the begin [time unit], or a time of day; 0 by default", alias="from"
     )
-    until: End = make_optional("when it ends [time unit], or a time of day; left out: never")
+    until: End = make_optional("the end [time unit], or a time of day; by default it never ends")
     radius: NotNegative = make_optional(
-        "what is nearer than this, a robot's radius and the clearance is closed for that robot,"
-        " too [length unit]"
+        "vertices and edges nearer than this radius plus the robot's radius and the "
+        "clearance are closed for that robot, too [length unit]"
     )
 
     @model_validator(mode="after")
@@ -526,7 +528,7 @@ class ScenarioFrame(Document):
 
     format: Literal["rightofway-scenario/1"] = Field(description="rightofway-scenario/1")
     map: Any = Field(description=f"one of {', '.join(MAPS)}")
-    units: Any = make_optional("{length, time}: how reports write quantities")
+    units: Any = make_optional("{length, time}: the units of the numbers, for reports")
     start: Any = make_optional("the instant of time 0, like 2026-11-28T06:00, for times of day")
     homes: Literal["parking"] = make_optional(
         "parking: robots without a home start from the parking and charging places of a layout"
@@ -549,10 +551,10 @@ class ScenarioFrame(Document):
 
 
 class ScenarioDocument(ScenarioFrame):
-    """A scenario: where the fleet drives, its robots, its rules."""
+    """A scenario: the map on which the fleet drives, its robots, its rules."""
 
-    map: MapDocument = Field(description="where the fleet drives")
-    units: UnitsDocument = make_optional("how reports write quantities")
+    map: MapDocument = Field(description="the map on which the fleet drives")
+    units: UnitsDocument = make_optional("the units of the numbers, for reports")
     start: Name = make_optional(
         "the instant of time 0, like 2026-11-28T06:00, perhaps with an offset like +01:00: other"
         " times may be times of day"
@@ -563,9 +565,9 @@ class ScenarioDocument(ScenarioFrame):
     rules: Literal["classic"] | RulesDocument = make_optional(
         "classic (no turning, no way back), or rules for the whole fleet"
     )
-    closures: list[ClosureDocument] = make_optional("what nobody may use for a while")
+    closures: list[ClosureDocument] = make_optional("places and edges that are closed for a time")
     actions: dict[Name, PlaceActionsDocument] = make_optional(
-        "for places, by name, what robots do at stops without actions of their own"
+        "actions at places, by name, for stops without actions of their own"
     )
     batteries: dict[Name, BatteryDocument] = make_optional(
         "for each battery its name and its shares"

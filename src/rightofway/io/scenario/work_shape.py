@@ -26,12 +26,12 @@ from rightofway.site.places import list_kinds_of_places
 
 PLACES = list_kinds_of_places(None)
 WORK = "work time there [time unit], 0 by default"
-EARLIEST = "when the work begins at the earliest [time unit], or a time of day; 0 by default"
+EARLIEST = "earliest begin of the work [time unit], or a time of day; 0 by default"
 ACTIONS = (
     "the actions at the stop: one or a list, each its type or {action,"
     " parameters, blocking, retriable, description}; those of the place by default"
 )
-LATEST = "when the work ends at the latest [time unit], or a time of day; none by default"
+LATEST = "latest end of the work [time unit], or a time of day; none by default"
 
 
 class JobStopDocument(Document):
@@ -93,17 +93,15 @@ class JobDocument(Document):
         "one or more {at, work, load, earliest, latest, actions}, in order", min_length=1
     )
     earliest: Moment = make_optional(
-        "when the work of the first stop begins at the earliest [time unit], or a time of day;"
-        " 0 by default"
+        "earliest begin of the work of the first stop [time unit], or a time of day; 0 by default"
     )
     latest: Moment = make_optional(
-        "when the work of the last stop ends at the latest [time unit], or a time of day;"
-        " none by default"
+        "latest end of the work of the last stop [time unit], or a time of day; none by default"
     )
     due: Moment = make_optional(
         "completion after this time costs more [time unit], or a time of day; none by default"
     )
-    weight: Positive = make_optional("how much it counts compared with other jobs, above 0")
+    weight: Positive = make_optional("the weight compared with other jobs, above 0")
     types: list[Name] = make_optional("a list of types of the robots that may do it")
     robot: Name = make_optional("the name of the only robot that may do it")
     after: list[Name] = make_optional("a list of names of jobs that end before it begins")

@@ -271,7 +271,7 @@ export interface FileList {
   is_whole: boolean;
 }
 
-/** A right of way that is to be flipped. */
+/** A right of way to reverse. */
 export interface Flip {
   waits: string;
   goes_first: string;
@@ -403,7 +403,7 @@ export interface MovementGroups {
   sums: Array<PhraseData>;
 }
 
-/** How simulated robots are to drive a plan. */
+/** Settings of a drive of simulated robots. */
 export interface NewDrive {
   delays?: Array<string>;
   seed?: number;

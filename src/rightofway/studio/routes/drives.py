@@ -29,7 +29,7 @@ async def list_drives(studio: InStudio) -> dict[str, Any]:
 
 @api.post("/runs/{number}/drives", status_code=201)
 async def start_drive(studio: InStudio, number: RunNumber, new: NewDrive) -> dict[str, Any]:
-    """Have simulated robots drive the plan of a run by right of way, as by `drive --demo`.
+    """Drive simulated robots along the plan of a run by right of way, like `drive --demo`.
 
     ``page`` is where to watch them, to hold them and to give other orders.
     """
@@ -47,7 +47,7 @@ async def get_drive(studio: InStudio, number: DriveNumber) -> dict[str, Any]:
 
 @api.post("/drives/{number}/stop")
 async def stop_drive(studio: InStudio, number: DriveNumber) -> dict[str, Any]:
-    """End a drive at once; its page plays the past."""
+    """End a drive immediately; its page plays the past."""
     return (await studio.drives.stop(number)).describe()
 
 

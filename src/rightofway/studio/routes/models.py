@@ -87,9 +87,9 @@ class DraftBody(Model):
 class Survey(Placed):
     """A document that somebody changes."""
 
-    inspects: bool = Field(True, description="whether findings are wanted, which take longest")
+    inspects: bool = Field(True, description="whether findings are requested, which take longest")
     identifies: bool = Field(
-        False, description="whether the digest is wanted that plans of this scenario have"
+        False, description="whether the digest of plans of this scenario is requested"
     )
 
 
@@ -149,7 +149,9 @@ class NewPlan(Search):
     source: str = Field("", max_length=500, description="file that the document is from, if any")
     name: Name = ""
     based_on: int | None = Field(None, description="run that it is a change of, if any")
-    start: int | None = Field(None, description="run whose plan it starts from, if any")
+    start: int | None = Field(
+        None, description="number of the run with the plan to start from, if any"
+    )
 
 
 class NewImprovement(Search):
@@ -216,7 +218,7 @@ class OtherLaps(Model):
 
 
 class NewDrive(Model):
-    """How simulated robots are to drive a plan."""
+    """Settings of a drive of simulated robots."""
 
     delays: list[str] = Field([], max_length=50, description="as in rightofway drive --delays")
     seed: int = Field(0, ge=0, lt=2**32, description="a whole number from 0 to 4294967295")
@@ -233,10 +235,10 @@ class Rename(Model):
 
 
 class Flip(Model):
-    """A right of way that is to be flipped."""
+    """A right of way to reverse."""
 
     waits: str = Field(description="name of the robot that waits")
     goes_first: str = Field(description="name of the robot that it waits for")
-    tick: int = Field(ge=0, description="when the wait ends, in ticks")
+    tick: int = Field(ge=0, description="end of the wait, in ticks")
     time_limit: float = Field(2, gt=0, le=30, description="seconds, up to 30")
     name: Name = ""

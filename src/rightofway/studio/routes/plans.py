@@ -56,7 +56,7 @@ async def get_run_payload(
         int | None, Query(ge=0, description="run of a simulation to play, from 0")
     ] = None,
 ) -> Response:
-    """Return the playback of the viewer: the plan, or the plan so far, perhaps beside others."""
+    """Return the playback of the viewer: the plan, or the plan so far, perhaps next to others."""
     run = studio.runs.get(number)
     if replay is not None:
         content = await _make_replay(studio, run, replay)
@@ -85,14 +85,14 @@ async def get_run_page(
     number: RunNumber,
     other: Others = [],  # noqa: B006 (FastAPI copies it)
 ) -> Response:
-    """Return the page of the plan, perhaps beside others, as `rightofway show` writes it."""
+    """Return the page of the plan, perhaps next to others, as `rightofway show` writes it."""
     content = await _make_played(studio, "page", studio.runs.get(number), other)
     headers = {"content-security-policy": ALONE}
     return answer_zipped(request, content, "text/html; charset=utf-8", headers)
 
 
 async def _make_played(studio: Studio, task: str, run: Run, others: Sequence[int]) -> bytes:
-    """Return the payload or the page of the plan that a run has now, perhaps beside others."""
+    """Return the payload or the page of the plan that a run has now, perhaps next to others."""
     runs = [run, *map(studio.runs.get, others)]
     shown = describe_shown(runs)
 

@@ -27,7 +27,7 @@ async def get_run_losses(
     number: RunNumber,
     robot: Annotated[str | None, Query(max_length=200)] = None,
 ) -> Response:
-    """Tell why robots lose time: each wait in a sentence, with the decision behind it."""
+    """List the lost time of robots: each wait in a sentence, with its decision."""
     plan = await studio.runs.read_blob(number, "plan")
     _, blobs = await studio.ask("losses", plan, robot=robot)
     return answer_zipped(request, blobs[0])
@@ -51,7 +51,7 @@ async def get_run_decision(
 
 @router.post("/runs/{number}/laps", tags=["questions"])
 async def change_laps(studio: InStudio, number: RunNumber, asked: OtherLaps) -> dict[str, Any]:
-    """Let robots repeat their trips in a new order, with another speed, work time or headway."""
+    """Compute laps with another speed, work time or headway, in a new order."""
     run = studio.runs.get(number)
     if run.kind != "laps":
         raise Refused(f"run {number} has no laps (queue a run of the kind laps)", 404)
@@ -63,7 +63,7 @@ async def change_laps(studio: InStudio, number: RunNumber, asked: OtherLaps) -> 
 
 @router.post("/runs/{number}/flip", tags=["questions"])
 async def flip(studio: InStudio, number: RunNumber, flipped: Flip) -> dict[str, Any]:
-    """Let a robot that waits go first, and keep the timetable that follows as a run."""
+    """Let a waiting robot go first, and keep the resulting timetable as a run."""
     plan = await studio.runs.read_blob(number, "plan")
     request = flipped.model_dump(exclude={"name"})
     result, blobs = await studio.ask("flip", plan, **request)

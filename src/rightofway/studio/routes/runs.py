@@ -84,20 +84,20 @@ async def rename_run(studio: InStudio, number: RunNumber, rename: Rename) -> dic
 
 @router.delete("/runs/{number}", tags=["runs"])
 async def delete_run(studio: InStudio, number: RunNumber) -> dict[str, Any]:
-    """Cancel a run where it is not over, and forget it."""
+    """Cancel a run if it has not ended, and delete it."""
     await studio.runs.delete(number)
     return {"number": number}
 
 
 @router.post("/runs/{number}/stop", tags=["runs"])
 async def stop_run(studio: InStudio, number: RunNumber) -> dict[str, Any]:
-    """Ask a run to end with the best plan that it has; its state changes when it has."""
+    """End a run with its best plan so far; its state changes when it has ended."""
     return Runs.data(await studio.runs.stop(number))
 
 
 @router.post("/runs/{number}/cancel", tags=["runs"])
 async def cancel_run(studio: InStudio, number: RunNumber) -> dict[str, Any]:
-    """End a run at once."""
+    """End a run immediately."""
     return Runs.data(await studio.runs.cancel(number))
 
 
