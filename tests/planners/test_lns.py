@@ -14,6 +14,7 @@ from rightofway.facts import Fact
 from rightofway.metrics import measure
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Status, Track, compute_cost
 from rightofway.planners import Deadline, PlanRequest, PrioritizedOptions
+from rightofway.planners.lacam import plan_fleet
 from rightofway.planners.lns import lns
 from rightofway.planners.prioritized import prioritized
 from rightofway.search import FleetSearch
@@ -125,6 +126,23 @@ def test_robots_that_find_no_way_at_their_own_speeds_find_one_at_one_pace(
         plan = Plan(scenario=fleet, tracks=draft.tracks, run=PlannerRun(name="prioritized"))
         assert rightofway.check(plan).ok
         assert draft.status == Status("in turn at one pace")
+
+
+def test_an_order_found_at_one_pace_is_kept_where_planning_in_turn_fails(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Planning in turn at own speeds may search for no robot; 30 robots fill a third of a grid."""
+    monkeypatch.setattr("rightofway.planners.rivals.SEARCHES", 0)
+    request = PlanRequest(scenario=CROWDED, options={"iterations": 0})
+    together = plan_fleet(request)
+    drafts = [lns(request) for _ in range(2)]
+    assert drafts[0].tracks == drafts[1].tracks
+    assert str(drafts[0].status).endswith(
+        "(first plan: one after another at one pace, each then at its own)"
+    )
+    assert compute_cost(CROWDED, drafts[0].tracks) < compute_cost(CROWDED, together.tracks)
+    plan = Plan(scenario=CROWDED, tracks=drafts[0].tracks, run=PlannerRun(name="lns"))
+    assert rightofway.check(plan).ok
 
 
 def test_without_time_it_gives_up() -> None:

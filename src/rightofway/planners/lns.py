@@ -16,8 +16,7 @@ Moscato & Norman, *A memetic approach for the traveling salesman problem*, 1992.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import replace
 
 from rightofway.errors import GaveUp
@@ -26,11 +25,10 @@ from rightofway.model import Improvement, Objective, Status, Tick, Track
 from rightofway.planners.lacam import plan_by_instants, plan_fleet
 from rightofway.planners.prioritized import (
     MOST_ROBOTS,
-    SEARCHES,
-    choose_order,
     plan_in_turn,
     plan_whole_fleet,
 )
+from rightofway.planners.rivals import UNLIMITED, Rival
 from rightofway.precedence import build_graph_of_plan
 from rightofway.repair.fleet_search import make_fleet_search
 from rightofway.repair.plan_request import Draft, PlanRequest
@@ -60,18 +58,11 @@ RETIMING = 0.9e-6
 RETIMING_AMONG_CLOSURES = 15e-6
 """The same with closures, where a precedence graph does it [s]."""
 
-UNLIMITED = 2**62
-
 ITERATIONS_PER_TURN = 1
 """Neighbourhoods for each robot from one look at the proof to the next."""
 
-SHARE_OF_GREEDY = 0.5
-"""The most of the time left for a greedy plan, which takes a small part of it as a rule."""
-
-FIRST_TURN, TURN, TURN_OF_IMPROVEMENT = 0.3, 1.0, 0.2
-"""How long prioritized planning goes on at first and then, and the improvement in between [s]: what
-prioritized planning ends with is better, as a rule, than what the improvement comes to meanwhile.
-"""
+TURN_OF_IMPROVEMENT = 0.2
+"""How long the improvement goes on between two turns of prioritized planning [s]."""
 
 IsEnough = Callable[[Tick], bool]
 """Tells whether a plan of some value is good enough; it may search for the proof each time."""
@@ -169,51 +160,6 @@ def _plan_in_turn(request: PlanRequest, search: FleetSearch, *, has_plan: bool) 
     return draft
 
 
-class _Rival:
-    """Prioritized planning that takes turns with the improvement, until it has a plan or fails.
-
-    Without a limit of time it plans to its end first.
-    """
-
-    def __init__(self, request: PlanRequest, search: FleetSearch, *, competes: bool) -> None:
-        self._request, self._search, self._competes = request, search, competes
-        self._order = choose_order(request.scenario, search, "shortest", request.seed)
-        self._searches = SEARCHES * len(self._order)
-        self.is_over = not competes or len(self._order) > MOST_ROBOTS
-        self.has_won = False  # the search goes on from a plan of prioritized planning
-
-    def begin(self) -> None:
-        """Plan for a moment, which is enough for most fleets; then greedily, if it was not."""
-        self.go_on(FIRST_TURN)
-        left = self._request.deadline.shorten(SHARE_OF_GREEDY).measure_seconds_left()
-        if self._competes and (not self.is_over or len(self._order) > MOST_ROBOTS):
-            with self._watch():
-                self._search.hurry(self._order, searches=self._searches, time_limit=left)
-
-    def go_on(self, seconds: float) -> None:
-        """Plan for a while."""
-        left = self._request.deadline.measure_seconds_left()
-        if self.is_over or left == 0:
-            return
-        limit = None if left is None else min(left, seconds)
-        began = time.perf_counter()
-        with self._watch():
-            self.is_over = self._search.compete(
-                self._order, searches=self._searches, time_limit=limit
-            )
-        has_given_up = limit is None or time.perf_counter() - began < limit / 2
-        self.is_over = self.is_over or has_given_up
-
-    @contextmanager
-    def _watch(self) -> Iterator[None]:
-        """Note, and hand over, a plan that the search takes over."""
-        before = self._search.value, self._search.cost
-        yield
-        if (self._search.value, self._search.cost) < before:
-            self.has_won = True
-            self._request.better(self._search.list_tracks)
-
-
 def _run_improvement(
     request: PlanRequest,
     search: FleetSearch,
@@ -228,8 +174,7 @@ def _run_improvement(
     """
     request.better(lambda: first.tracks)
     search.start(first.tracks)
-    rival = _Rival(request, search, competes=competes)
-    rival.begin()
+    rival = Rival(request, search, competes=competes)
     is_open = request.scenario.problem.closures is None
     retiming = RETIMING if is_open else RETIMING_AMONG_CLOSURES
     deadline = request.deadline.bring_forward(retiming * sum(map(len, first.tracks)))
@@ -247,6 +192,8 @@ def _run_improvement(
     turn = ITERATIONS_PER_TURN * len(request.scenario.robots) if is_enough else iterations
     done, look, is_interrupted = 0, 0, False
     try:
+        rival.begin()
+        before = search.value, search.cost
         # A report on progress comes by the clock; it is no look at the proof.
         while done < iterations and not _is_over(search, goal, is_enough if done >= look else None):
             look += turn if done >= look else 0
@@ -259,7 +206,7 @@ def _run_improvement(
                 pause=BETWEEN_REPORTS if rival.is_over else TURN_OF_IMPROVEMENT,
             )
             rate = (done - done_before) / (time.perf_counter() - began)
-            rival.go_on(TURN)
+            rival.go_on()
             if (search.value, search.cost) < reached:
                 request.better(search.list_tracks)
             request.report(_describe_progress(request, search, bound, rate))
@@ -269,8 +216,8 @@ def _run_improvement(
         if not request.keep_best:
             raise
         is_interrupted = True
-    if rival.has_won:
-        first = replace(first, status=Status("in turn"))
+    if rival.status is not None:
+        first = replace(first, status=rival.status)
     tracks = _take_found(
         request, search, first.tracks, is_better=(search.value, search.cost) < before
     )

@@ -148,7 +148,7 @@ def _plan_at_own_speeds(request: PlanRequest, search: FleetSearch) -> Draft:
 def _plan_at_one_pace(request: PlanRequest, turns: Sequence[int]) -> Draft | None:
     if request.deadline.measure_seconds_left() == 0:
         return None
-    paced = _make_paced(request.scenario)
+    paced = make_paced(request.scenario)
     # One thread: the greedy attempt is not needed here, and would slow this one on a busy machine.
     search = FleetSearch(paced.problem, seed=request.seed, threads=1)
     searches = SEARCHES_AT_ONE_PACE * len(turns)
@@ -162,7 +162,7 @@ def _plan_at_one_pace(request: PlanRequest, turns: Sequence[int]) -> Draft | Non
     return Draft(tracks=tuple(tracks), status=status)
 
 
-def _make_paced(scenario: Scenario) -> Scenario:
+def make_paced(scenario: Scenario) -> Scenario:
     """Return the same trips for robots of one speed that do not work and book one vertex.
 
     The order of visits in a plan of these is possible for the real robots, too: the headway keeps
