@@ -133,7 +133,7 @@ class SuiteFleetDocument(RuleAttributes):
         " robots of a scenario keep theirs",
     )
     chargers: Amount = make_optional(
-        "number of charging places of a scenario, the first ones; all by default"
+        "the number of charging places of a scenario, the first ones; all by default"
     )
 
 

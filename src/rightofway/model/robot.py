@@ -167,14 +167,14 @@ class Robot:
         default=None,
         metadata=make_attribute(
             COUNT,
-            "number of its round trips, 1 or more",
+            "the number of its round trips, 1 or more",
         ),
     )
     turn_rate: Fraction | None = field(
         default=None,
         metadata=make_attribute(
             POSITIVE,
-            "speed of turning on the spot [degrees per time unit]; by default turning takes "
+            "the speed of turning on the spot [degrees per time unit]; by default turning takes "
             "no time",
         ),
     )
@@ -182,7 +182,7 @@ class Robot:
         default=Fraction(1),
         metadata=make_attribute(
             POSITIVE,
-            "weight of its completion time compared with those of others, above 0",
+            "the weight of its completion time compared with those of others, above 0",
         ),
     )
     start: RobotState | None = None
@@ -280,7 +280,7 @@ class Rules:
     laps: int = field(
         default=1,
         metadata=make_attribute(
-            COUNT, "number of round trips of each robot, 1 or more", always=True
+            COUNT, "the number of round trips of each robot, 1 or more", always=True
         ),
     )
     rotations: bool = field(
@@ -308,7 +308,7 @@ class Rules:
         default=None,
         metadata=make_attribute(
             POSITIVE,
-            "speed of turning on the spot [degrees per time unit]; by default turning takes "
+            "the speed of turning on the spot [degrees per time unit]; by default turning takes "
             "no time",
             unset="none",
         ),

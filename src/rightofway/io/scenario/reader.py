@@ -182,7 +182,7 @@ def read_classic(path: Path, count: int | None) -> Loaded:
     rows = load_scen(path)
     with name_file(str(path)):
         if count is not None and count < 1:
-            message = f"{quote(count)} does not fit (give how many of its rows to take, 1 or more)"
+            message = f"{quote(count)} does not fit (give the number of its rows to use, 1 or more)"
             raise InputError.at("count", message)
         fleet = FleetRows(file=path, rows=take_rows(rows, count, path))
         file = _find_map_beside(path, rows[0])

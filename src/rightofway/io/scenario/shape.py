@@ -105,10 +105,10 @@ class EdgeDocument(Document):
     )
     barred: list[Name] = Field(default=[], description=BARRED)
     surcharge: NotNegative = make_optional(
-        "cost added to it, without making it slower [time unit]; 0 by default"
+        "the cost added to it, without making it slower [time unit]; 0 by default"
     )
     orientation: Angle = make_optional(
-        "orientation of robots relative to the direction of driving, for orders, like 180"
+        "the orientation of robots relative to the direction of driving, for orders, like 180"
         " for backwards [degrees]; the same in both directions"
     )
     edge_id: Name = make_optional(
@@ -150,7 +150,7 @@ class VertexDocument(Document):
     at: Position = Field(description="[x, y] [length unit]")
     barred: list[Name] = Field(default=[], description=BARRED)
     surcharge: NotNegative = make_optional(
-        "cost added to each edge into it, without making it slower [time unit]; 0 by default"
+        "the cost added to each edge into it, without making it slower [time unit]; 0 by default"
     )
     is_passed: bool = Field(
         alias="pass",
@@ -455,7 +455,7 @@ class FleetDocument(Document):
     """Robots R1, R2, ... from the rows of a MovingAI .scen file."""
 
     scen: Name = Field(description="a .scen file, relative to the scenario's own")
-    count: Count = make_optional("number of rows to use, 1 or more; all by default")
+    count: Count = make_optional("the number of rows to use, 1 or more; all by default")
     speeds: list[Positive] = make_optional(
         "speeds to deal out in turn: first, second, ...", min_length=1
     )
@@ -481,7 +481,7 @@ class RulesDocument(RuleAttributes):
     )
     late: NotNegative = make_optional("the cost of a time unit after due, for jobs; 10 by default")
     patience: NotNegative = make_optional(
-        "time after earliest from which a job without due is overdue in a shift [time "
+        "the time after earliest from which a job without due is overdue in a shift [time "
         "unit]; 1800 by default"
     )
 

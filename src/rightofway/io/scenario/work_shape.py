@@ -26,12 +26,12 @@ from rightofway.site.places import list_kinds_of_places
 
 PLACES = list_kinds_of_places(None)
 WORK = "work time there [time unit], 0 by default"
-EARLIEST = "earliest begin of the work [time unit], or a time of day; 0 by default"
+EARLIEST = "the earliest begin of the work [time unit], or a time of day; 0 by default"
 ACTIONS = (
     "the actions at the stop: one or a list, each its type or {action,"
     " parameters, blocking, retriable, description}; those of the place by default"
 )
-LATEST = "latest end of the work [time unit], or a time of day; none by default"
+LATEST = "the latest end of the work [time unit], or a time of day; none by default"
 
 
 class JobStopDocument(Document):
@@ -93,10 +93,11 @@ class JobDocument(Document):
         "one or more {at, work, load, earliest, latest, actions}, in order", min_length=1
     )
     earliest: Moment = make_optional(
-        "earliest begin of the work of the first stop [time unit], or a time of day; 0 by default"
+        "the earliest begin of the work of the first stop [time unit], or a time of day; "
+        "0 by default"
     )
     latest: Moment = make_optional(
-        "latest end of the work of the last stop [time unit], or a time of day; none by default"
+        "the latest end of the work of the last stop [time unit], or a time of day; none by default"
     )
     due: Moment = make_optional(
         "completion after this time costs more [time unit], or a time of day; none by default"
