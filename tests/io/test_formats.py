@@ -8,7 +8,7 @@ from typing import Any
 import jsonschema
 import pytest
 
-from rightofway.dispatch import ShiftRecord
+from rightofway.dispatch import ShiftRecord, record_file
 from rightofway.dispatch.record_file import dump_shift, parse_shift
 from rightofway.errors import InputError
 from rightofway.io import dump_plan, load, make_schema, parse_plan
@@ -74,6 +74,22 @@ def test_every_shift_that_is_written_fits(shift: ShiftRecord) -> None:
     document = json.loads(json.dumps(dump_shift(shift)))
     assert fits(document, "shift")
     assert dump_shift(parse_shift(document)) == document
+
+
+def test_jobs_of_a_shift_that_are_those_of_its_scenario_are_read_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A file of 21 MB has 10 000 jobs, each of them up to three times."""
+    document = json.loads(json.dumps(dump_shift(make_shift())))
+    read, own = list[str](), record_file.read_job
+    monkeypatch.setattr(
+        record_file, "read_job", lambda data, on: read.append(data["name"]) or own(data, on)
+    )
+    parse_shift(document)
+    assert not read
+    document["jobs"][1]["job"]["due"] = 77
+    changed = parse_shift(document).jobs[document["jobs"][1]["job"]["name"]]
+    assert (read, changed.job.due) == ([changed.job.name], 77)
 
 
 def test_a_shift_is_refused_with_every_fault_and_its_place() -> None:

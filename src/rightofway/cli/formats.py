@@ -139,13 +139,14 @@ def _read_shift(source: str) -> Plan | None:
     """Return what robots have done in a shift as a plan, or None for any other file."""
     from rightofway.dispatch.record_file import parse_shift
     from rightofway.errors import name_file
+    from rightofway.io.collector import pause_garbage_collection
     from rightofway.io.content import read_text
     from rightofway.io.formats import SHIFT_FORMAT
     from rightofway.io.json_text import parse_json
 
     if not source.lower().endswith(".json"):
         return None
-    with name_file(source):
+    with name_file(source), pause_garbage_collection():
         text = read_text(Path(source))
         if f'"{SHIFT_FORMAT}"' not in text[:BEGIN]:
             return None

@@ -7,7 +7,7 @@ nothing, because each names its job, and a job that has left the pool never come
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Literal, get_args
 
@@ -74,8 +74,13 @@ class PoolEvent:
         return document
 
     @classmethod
-    def of_document(cls, document: Mapping[str, Any], roadmap: Roadmap) -> PoolEvent:
-        """Return the event of a document.
+    def of_document(
+        cls,
+        document: Mapping[str, Any],
+        roadmap: Roadmap,
+        read: Callable[[Any, LoadedMap], Job] = read_job,
+    ) -> PoolEvent:
+        """Return the event of a document; ``read`` returns the job of one.
 
         Raises
         ------
@@ -88,7 +93,7 @@ class PoolEvent:
             raise InputError.at("kind", message)
         values = {key: document[key] for key in KEYS[kind]}
         if "job" in values:
-            values["job"] = read_job(values["job"], LoadedMap(roadmap=roadmap))
+            values["job"] = read(values["job"], LoadedMap(roadmap=roadmap))
             values["name"] = values["job"].name
         return cls(kind=kind, at=Tick(document["at"]), **values)
 

@@ -19,6 +19,7 @@ from rightofway.dispatch.record import (
 )
 from rightofway.errors import InputError, name_file
 from rightofway.facts import read_fact
+from rightofway.io.collector import pause_garbage_collection
 from rightofway.io.content import read_text
 from rightofway.io.faults import validate
 from rightofway.io.formats import SHIFT_FORMAT, check_format
@@ -29,7 +30,7 @@ from rightofway.io.scenario.work import read_job
 from rightofway.io.scenario.work_writer import dump_job
 from rightofway.io.scenario.writer import dump_scenario
 from rightofway.kinds.numbers import format_number
-from rightofway.model import Tick
+from rightofway.model import Job, Scenario, Tick
 from rightofway.site import Roadmap
 
 __all__ = ["dump_shift", "load_shift", "parse_shift"]
@@ -134,10 +135,10 @@ def parse_shift(document: Mapping[str, Any]) -> ShiftRecord:
 def _parse(document: Mapping[str, Any]) -> ShiftRecord:
     scenario = parse_scenario(document["scenario"])
     roadmap = scenario.roadmap
-    on = LoadedMap(roadmap=roadmap)
+    on, read = LoadedMap(roadmap=roadmap), _JobReader(scenario, document["scenario"]).read
     jobs = {}
     for own in document["jobs"]:
-        job = read_job(own["job"], on)
+        job = read(own["job"], on)
         values = {key: own[key] for key in ("robot", "begun", "ended", "reason")}
         jobs[job.name] = JobRecord(job=job, known=Tick(own["known"]), **values)
     return ShiftRecord(
@@ -156,14 +157,36 @@ def _parse(document: Mapping[str, Any]) -> ShiftRecord:
             )
             for own in document["rounds"]
         ),
-        events=tuple(PoolEvent.of_document(event, roadmap) for event in document["events"]),
+        events=tuple(PoolEvent.of_document(event, roadmap, read) for event in document["events"]),
         facts=tuple((Tick(own["at"]), read_fact(own, scenario)) for own in document["facts"]),
     )
 
 
+class _JobReader:
+    """A reader of jobs that reads each document once: files have those of a scenario thrice."""
+
+    def __init__(self, scenario: Scenario, document: Mapping[str, Any]) -> None:
+        documents = document.get("jobs") or ()
+        pairs = zip(documents, scenario.jobs or (), strict=True)
+        self._known = {job.name: (own, job) for own, job in pairs}
+
+    def read(self, document: Any, on: LoadedMap) -> Job:
+        """Return the job of a document, as `read_job`."""
+        name = document.get("name") if isinstance(document, dict) else None
+        known = self._known.get(name) if isinstance(name, str) else None
+        return known[1] if known and known[0] == document else read_job(document, on)
+
+
+def _read_share(text: int | str) -> Fraction:
+    """Return a fraction as `format_number` writes it."""
+    numerator, _, denominator = str(text).partition("/")
+    return Fraction(int(numerator), int(denominator or 1))
+
+
 def _parse_robot(own: Mapping[str, Any], roadmap: Roadmap) -> RobotRecord:
+    vertices = {name: roadmap.get_vertex(name) for name in set(own["vertices"])}
     return RobotRecord(
-        vertices=array("i", map(roadmap.get_vertex, own["vertices"])),
+        vertices=array("i", map(vertices.__getitem__, own["vertices"])),
         enter=array("q", own["enter"]),
         steps=[
             DoneStep(
@@ -171,7 +194,7 @@ def _parse_robot(own: Mapping[str, Any], roadmap: Roadmap) -> RobotRecord:
             )
             for step in own["tour"]
         ],
-        soc=[(tick, Fraction(soc)) for tick, soc in own["soc"]],
+        soc=[(tick, _read_share(soc)) for tick, soc in own["soc"]],
         drives=own["drives"],
         turns=own["turns"],
         waits=Counter(dict(own["waits"])),
@@ -193,5 +216,5 @@ def load_shift(path: Path | str) -> ShiftRecord:
     InputError
         As `parse_shift`, with the file.
     """
-    with name_file(str(path)):
+    with name_file(str(path)), pause_garbage_collection():
         return parse_shift(parse_json(read_text(Path(path))))

@@ -401,6 +401,8 @@ POSITIVE: Kind[Fraction] = make_kind(
 
 
 def _read_not_negative(value: object) -> Fraction:
+    if type(value) is Fraction and value.numerator >= 0:  # a shift has a million
+        return value
     number = read_number(value)
     if number < 0 or (number == 0 and str(value).startswith("-")):
         raise ValueError(f"{quote(value)} is negative (give 0 or more)")
