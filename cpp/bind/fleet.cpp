@@ -30,11 +30,13 @@ alone : int64[R] or None
     What `alone` returned for the same trips. [ticks]
 objective : Objective
     What `improve` minimizes.
+horizon : int or None
+    Tracks may conflict after it; None: they never do. [ticks]
 
 Raises
 ------
 ValueError
-    For an objective with a makespan where edges have surcharges.)";
+    For an objective with a makespan where edges have surcharges, or a horizon outside 0..2^62.)";
 
 constexpr auto alone_doc =
     R"(Return the least completion of each robot without the others, int64[R]. [ticks]
@@ -193,8 +195,8 @@ TrackArrays tracks(const FleetSearch& self) {
 
 void init_fleet(FleetSearch* self, const Problem& problem, std::uint64_t seed,
                 std::size_t n_threads, const std::optional<ArrayIn<Tick>>& alone,
-                Objective objective) {
-    new (self) FleetSearch(problem, seed, n_threads, objective);
+                Objective objective, std::optional<Tick> horizon) {
+    new (self) FleetSearch(problem, seed, n_threads, objective, horizon.value_or(never));
     if (alone) {
         try {
             self->take_alone(view(*alone));
@@ -215,7 +217,7 @@ void bind_fleet(nb::module_& module) {
     nb::class_<FleetSearch>(module, "FleetSearch", fleet_doc)
         .def("__init__", &init_fleet, nb::arg("problem"), nb::arg("seed"), nb::arg("n_threads"),
              nb::arg("alone").none() = nb::none(), nb::arg("objective") = Objective::flowtime,
-             nb::keep_alive<1, 2>())
+             nb::arg("horizon").none() = nb::none(), nb::keep_alive<1, 2>())
         .def(
             "alone",
             [](FleetSearch& self,

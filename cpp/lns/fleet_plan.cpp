@@ -10,9 +10,10 @@
 
 namespace rightofway {
 
-FleetPlan::FleetPlan(const Problem& problem, Objective objective)
+FleetPlan::FleetPlan(const Problem& problem, Objective objective, Tick horizon)
     : problem_(&problem),
       objective_(objective),
+      horizon_(horizon),
       bookings_(problem.n_rows()),
       tracks_(static_cast<std::size_t>(problem.n_robots())),
       held_(tracks_.size(), 0),
@@ -173,10 +174,22 @@ Tracks FleetPlan::tracks() const {
     return tracks;
 }
 
+// Books a time by the horizon. A robot that is somewhere then stays there for one more tick: so no
+// other one comes there by the horizon.
+void FleetPlan::insert(std::int32_t row, Booking time, RobotId robot) {
+    if (time.start > horizon_) {
+        return;
+    }
+    if (horizon_ != never) {
+        time.end = std::min(time.end, horizon_ + 1);
+    }
+    bookings_.insert(row, time, robot);
+}
+
 void FleetPlan::book(RobotId robot, const TimedTrack& track, std::size_t first, std::size_t end) {
     for (std::size_t k = first; k < end; ++k) {
         for_each_row(robot, track, k, [&](std::int32_t row, const Booking& time) {
-            for_each_mark(row, [&](std::int32_t mark) { bookings_.insert(mark, time, robot); });
+            for_each_mark(row, [&](std::int32_t mark) { insert(mark, time, robot); });
         });
     }
 }
@@ -235,7 +248,7 @@ void FleetPlan::open_window(RobotId robot, std::size_t first, std::size_t last, 
     windows_[index(robot)] = {first, last, true, true};
     Booking stay = booking(own, first);
     stay.end = until + problem_->rules().headway + 1;
-    bookings_.insert(problem_->vertex_row(robot, own.visits[first].vertex), stay, robot);
+    insert(problem_->vertex_row(robot, own.visits[first].vertex), stay, robot);
     book(robot, own, last, last + 1);
 }
 
@@ -264,7 +277,7 @@ void FleetPlan::close_window(RobotId robot) {
 }
 
 void FleetPlan::retime(const StopCondition& interrupt) {
-    if (problem_->has_arcs()) {
+    if (problem_->has_arcs() || horizon_ != never) {
         return;
     }
     Tracks all = tracks();
@@ -291,7 +304,7 @@ void FleetPlan::hold_home(RobotId robot, Tick until) {
     }
     held = until;
     if (held > 0) {
-        for_each_mark(row, [&](std::int32_t mark) { bookings_.insert(mark, {0, held}, robot); });
+        for_each_mark(row, [&](std::int32_t mark) { insert(mark, {0, held}, robot); });
     }
 }
 

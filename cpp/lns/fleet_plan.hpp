@@ -1,6 +1,11 @@
 // The tracks of a fleet with their bookings and costs. A robot may have no track. The bookings
 // begin with the closures of the problem.
 //
+// With a horizon, visits that begin later are not booked, and no stay is booked any longer: tracks
+// may conflict behind it. Each track, cut at its last visit that begins by the horizon, then ends
+// where its robot can stay (Li, Tinka, Kiesel, Durham, Kumar & Koenig, "Lifelong multi-agent path
+// finding in large-scale warehouses", AAAI 2021).
+//
 // A stage may have to end before a stage of another robot begins. Then the two robots conflict if
 // their tracks break that. A track is planned between the limits that the tracks of the others set
 // (`find_limits`); for stages of robots without a track, their latest known ends count.
@@ -32,7 +37,8 @@ struct StageLimits {
 
 class FleetPlan {
   public:
-    explicit FleetPlan(const Problem& problem, Objective objective = Objective::flowtime);
+    explicit FleetPlan(const Problem& problem, Objective objective = Objective::flowtime,
+                       Tick horizon = never);
 
     RobotId n_robots() const { return problem_->n_robots(); }
     const BookingTable& bookings() const { return bookings_; }
@@ -40,6 +46,7 @@ class FleetPlan {
     bool has_track(RobotId robot) const { return !track(robot).visits.empty(); }
     Tick cost() const { return cost_; }  // the weighted sum over all tracks
     Objective objective() const { return objective_; }
+    Tick horizon() const { return horizon_; }
     Worth worth() const;
     // The latest completion of a robot; for objectives without surcharges.
     Tick makespan() const;
@@ -91,8 +98,8 @@ class FleetPlan {
 
     // Shifts each visit to the earliest time that keeps the order of bookings that exclude each
     // other. Needs all tracks, and a problem without closures. Changes nothing where stages of two
-    // robots follow each other. An exception of `interrupt`, which is polled, leaves the plan as it
-    // was.
+    // robots follow each other, and with a horizon. An exception of `interrupt`, which is polled,
+    // leaves the plan as it was.
     void retime(const StopCondition& interrupt = {});
 
     // The booking of visit k of a track.
@@ -106,6 +113,7 @@ class FleetPlan {
         bool is_held = false;
     };
 
+    void insert(std::int32_t row, Booking time, RobotId robot);
     void book(RobotId robot, const TimedTrack& track, std::size_t first, std::size_t end);
     void erase(RobotId robot, const TimedTrack& track, std::size_t first, std::size_t end);
     template <class Use>
@@ -120,6 +128,7 @@ class FleetPlan {
 
     const Problem* problem_;
     Objective objective_;
+    Tick horizon_;
     BookingTable bookings_;
     std::vector<TimedTrack> tracks_;
     std::vector<Tick> held_;

@@ -27,14 +27,17 @@ void require_count(const char* name, std::int64_t count) {
 }  // namespace
 
 FleetSearch::FleetSearch(const Problem& problem, std::uint64_t seed, std::size_t n_threads,
-                         Objective objective)
+                         Objective objective, Tick horizon)
     : problem_(problem),
       distances_(problem),
-      plan_(problem, objective),
+      plan_(problem, objective, horizon),
       seed_(seed),
       n_threads_(n_threads) {
     if (objective != Objective::flowtime && problem.has_surcharges()) {
         throw std::invalid_argument("objective: a makespan has no surcharges (minimize flowtime)");
+    }
+    if (horizon < 0 || horizon > never) {
+        reject("horizon", horizon, "is not in 0..2^62");
     }
     if (n_threads < 1 || n_threads > most_threads) {
         reject("n_threads", static_cast<std::int64_t>(std::min(n_threads, std::size_t{1} << 62)),
@@ -104,7 +107,8 @@ bool FleetSearch::compete(std::span<const RobotId> order, std::int64_t n_searche
     require_each_once(order);
     require_all_tracks("compete");
     if (!rival_) {
-        rival_ = std::make_unique<Rival>(distances_, problem_, plan_.objective(), order);
+        rival_ = std::make_unique<Rival>(distances_, problem_, plan_.objective(), plan_.horizon(),
+                                         order);
     }
     if (rival_->portfolio.run(n_searches, n_threads_ > 1, deadline, deadline)) {
         take_if_better(rival_->portfolio.best());
@@ -122,7 +126,7 @@ void FleetSearch::hurry(std::span<const RobotId> order, std::int64_t n_searches,
     require_length("order", order.size(), n_robots());
     require_each_once(order);
     require_all_tracks("hurry");
-    FleetPlan plan(problem_, plan_.objective());
+    FleetPlan plan(problem_, plan_.objective(), plan_.horizon());
     TrackPrices prices = greedy;
     prices.states_between_raises *= problem_.n_robots();
     Prioritized planner(distances_, plan, prices);
@@ -309,7 +313,7 @@ std::int64_t FleetSearch::restore(const GivenTracks& given, const StopCondition&
     improvement_.reset();
     Poll poll(interrupt);
     std::vector<TimedTrack> old = tracks_of(given);
-    FleetPlan together(problem_);
+    FleetPlan together(problem_, plan_.objective(), plan_.horizon());
     for (RobotId robot = 0; robot < problem_.n_robots(); ++robot) {
         if (old[index(robot)].visits.empty()) {
             reject("robot", robot, "has an empty track");
@@ -492,7 +496,7 @@ void FleetSearch::drop_searches() {
 
 void FleetSearch::clear() {
     drop_searches();
-    plan_ = FleetPlan(problem_, plan_.objective());
+    plan_ = FleetPlan(problem_, plan_.objective(), plan_.horizon());
     if (problem_.has_arcs()) {
         plan_.expect_ends(distances_.least_ends());
     }

@@ -34,9 +34,9 @@ struct GivenTracks {
 class FleetSearch {
   public:
     // Borrows the problem. 1 to 1024 threads. Surcharges count in no makespan: only for the
-    // flowtime.
+    // flowtime. Tracks may conflict after the horizon.
     FleetSearch(const Problem& problem, std::uint64_t seed, std::size_t n_threads,
-                Objective objective = Objective::flowtime);
+                Objective objective = Objective::flowtime, Tick horizon = never);
 
     // The least completion of each robot without the others, -1 if it cannot get to a stage; null
     // if there was no time.
@@ -117,9 +117,9 @@ class FleetSearch {
     Tick bound_ = 0;
     std::optional<PrioritizedPortfolio> portfolio_;
     struct Rival {
-        Rival(SharedDistances& distances, const Problem& problem, Objective objective,
+        Rival(SharedDistances& distances, const Problem& problem, Objective objective, Tick horizon,
               std::span<const RobotId> order)
-            : plan(problem, objective), portfolio(distances, plan, order) {}
+            : plan(problem, objective, horizon), portfolio(distances, plan, order) {}
 
         FleetPlan plan;
         PrioritizedPortfolio portfolio;

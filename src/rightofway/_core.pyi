@@ -832,14 +832,16 @@ class FleetSearch:
         What `alone` returned for the same trips. [ticks]
     objective : Objective
         What `improve` minimizes.
+    horizon : int or None
+        Tracks may conflict after it; None: they never do. [ticks]
 
     Raises
     ------
     ValueError
-        For an objective with a makespan where edges have surcharges.
+        For an objective with a makespan where edges have surcharges, or a horizon outside 0..2^62.
     """
 
-    def __init__(self, problem: Problem, seed: int, n_threads: int, alone: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, objective: Objective = Objective.flowtime) -> None: ...
+    def __init__(self, problem: Problem, seed: int, n_threads: int, alone: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None = None, objective: Objective = Objective.flowtime, horizon: int | None = None) -> None: ...
 
     def alone(self, time_limit: float | None = None) -> Annotated[NDArray[numpy.int64], dict(shape=(None,))] | None:
         """

@@ -621,6 +621,7 @@ CALLS: dict[str, Callable[[random.Random], Arguments]] = {
     "FleetSearch": lambda rng: {
         "problem": _problem(rng, rng.choice((*KINDS, "times"))), "seed": rng.randrange(99),
         "n_threads": rng.randrange(1, 4), "alone": rng.choice((None, int64(14, 17, 7))),
+        "horizon": rng.choice((None, 0, 5, 2**62)),
     },
     "FleetSearch.alone": _timed(),
     "FleetSearch.start": _always(**TRACKS),

@@ -13,9 +13,8 @@ from rightofway.model import Job, JobStop, Tick, Track
 from rightofway.site import VertexId
 from tests.builders.shifts import make_scenario
 
-SCENARIO = make_scenario(
-    ["....."], {"R1": "N0", "R2": "N4"}, jobs=[], rules={"return": "none", "rotations": False}
-)
+HOMES = {"R1": "N0", "R2": "N4"}
+SCENARIO = make_scenario(["....."], HOMES, jobs=[], rules={"return": "none", "rotations": False})
 
 
 def make_job(name: str, at: int, robot: str | None = None) -> PooledJob:
@@ -39,6 +38,10 @@ def look(vertices: list[int], job: str | None = None, later: StopsLater = ()) ->
     )
 
 
+JOBS_OF_CROWD = {"J1": make_job("J1", 2, "R1"), "J2": make_job("J2", 1, "R2")}
+CROWD = FleetView(now=Tick(0), takeover=Tick(0), robots=(look([0, 1, 2], "J1"), look([4])))
+
+
 @pytest.fixture
 def no_repair(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let no robot lose its track to another one."""
@@ -48,15 +51,29 @@ def no_repair(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.usefixtures("no_repair")
 def test_a_robot_that_finds_no_route_waits_and_others_go_on_with_the_old_plan() -> None:
     # R1 drives to N2 and stays there, so R2 does not come to N1 unless R1 makes room.
-    jobs = {"J1": make_job("J1", 2, "R1"), "J2": make_job("J2", 1, "R2")}
-    view = FleetView(now=Tick(0), takeover=Tick(0), robots=(look([0, 1, 2], "J1"), look([4])))
-    planned = RoundPlanner(SCENARIO).plan(view, jobs, over={}, time_limit=None)
+    closed = [{"at": "N0", "from": 1000, "until": 1001}]
+    scenario = make_scenario(
+        ["....."], HOMES, jobs=[], rules={"return": "none", "rotations": False}, closures=closed
+    )
+    planned = RoundPlanner(scenario).plan(CROWD, JOBS_OF_CROWD, over={}, time_limit=None)
     assert not planned.stands
     assert [[step.job for step in steps] for steps in planned.steps] == [["J1"], []]
     assert planned.tracks[0].vertices.tolist() == [0, 1, 2]
     assert planned.later == ((), (("J2", 0),))
     assert planned.is_hurried
     assert str(planned.facts[0]) == "old tours are kept (1 robot): no route was found in time"
+
+
+@pytest.mark.usefixtures("no_repair")
+def test_where_robots_may_end_anywhere_a_robot_without_a_route_drives_as_far_as_it_can() -> None:
+    # R2 waits for R1 at N3, next to its stop, and its job stays in its tour.
+    planned = RoundPlanner(SCENARIO).plan(CROWD, JOBS_OF_CROWD, over={}, time_limit=None)
+    assert [[step.job for step in steps] for steps in planned.steps] == [["J1"], []]
+    assert planned.tracks[0].vertices.tolist() == [0, 1, 2]
+    assert planned.tracks[1].vertices.tolist() == [4, 3]
+    assert planned.later == ((), (("J2", 0),))
+    assert not planned.is_hurried
+    assert planned.facts == ()
 
 
 @pytest.mark.usefixtures("no_repair")

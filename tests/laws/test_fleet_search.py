@@ -5,12 +5,13 @@ from __future__ import annotations
 import random
 from fractions import Fraction
 
+import numpy as np
 import pytest
 from hypothesis import strategies as st
 
 from rightofway.check import check
 from rightofway.metrics.alone import compute_alone_completions
-from rightofway.model import Plan, PlannerRun, Rules, Scenario, Track, compute_completions
+from rightofway.model import Plan, PlannerRun, Rules, Scenario, Tick, Track, compute_completions
 from rightofway.precedence import build_graph_of_plan
 from rightofway.search import FleetSearch
 from rightofway.site import make_grid_roadmap
@@ -191,3 +192,33 @@ def test_tracks_that_are_taken_over_never_overlap_and_serve_their_stages(
     again.start(tracks)  # refuses tracks that miss stages or overlap
     if not left:
         assert judged(scenario, search.list_tracks())
+
+
+BEHIND_HORIZON = {"stop missed", "wrong end"}
+"""Faults of tracks that are cut: robots do not come to their last stops, or home."""
+
+
+@law(FLEETS, st.integers(0, 99), st.integers(0, 12))
+def test_tracks_cut_at_the_horizon_exclude_each_other_permanently(
+    scenario: Scenario, seed: int, horizon: int
+) -> None:
+    search = FleetSearch(scenario.problem, seed=seed, threads=1, horizon=Tick(horizon))
+    assert search.prioritize(range(len(scenario.robots)), searches=500, time_limit=None)
+    search.improve(50, patience=50)
+    search.retime()
+    tracks = list[Track]()
+    for track in search.list_tracks():
+        n_visits = int(np.searchsorted(track.enter, horizon, side="right"))
+        tracks.append(Track(vertices=track.vertices[:n_visits], enter=track.enter[:n_visits]))
+    judged = check(Plan(scenario=scenario, tracks=tuple(tracks), run=PlannerRun(name="any")))
+    assert BEHIND_HORIZON.issuperset(judged.counts), str(judged)
+
+
+@law(FLEETS, st.integers(0, 12))
+def test_with_a_horizon_every_robot_finds_a_track_around_the_others(
+    scenario: Scenario, horizon: int
+) -> None:
+    # All robots stand at their homes: each one can wait there until the horizon.
+    homes = [Track.of([itinerary.home], [0]) for itinerary in scenario.problem.itineraries]
+    search = FleetSearch(scenario.problem, threads=1, horizon=Tick(horizon))
+    assert search.take_over(homes, range(len(homes)), time_limit=None) == ()

@@ -4,17 +4,52 @@ Tours look far ahead, routes need not: later rounds plan what comes behind the h
 takes longer to improve the longer it is. A tour is cut behind its first stops; the robot then goes
 home, or stays where its last stop is, and the next round goes on from there. The end of the last
 stop before the cut counts as much as all ends of jobs behind it.
+
+In a crowded fleet there may be no such tracks, or none that are found in time: each must end where
+its robot can stay permanently, and pass all others that stay. Then tracks end at a time instead.
+They may conflict later, and are cut there; the rest of the tours is left to later rounds.
+
+References
+----------
+Li, Tinka, Kiesel, Durham, Kumar & Koenig, *Lifelong multi-agent path finding in large-scale
+warehouses*, AAAI 2021: conflicts are resolved up to a time, and plans replaced before it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 
-from rightofway.model import Assignment, Itinerary, Scenario, Tick, Tour, Work, assign_tours
+import numpy as np
 
-__all__ = ["STOPS_AHEAD", "CutTours", "cut_tours", "make_cut"]
+from rightofway.model import (
+    Assignment,
+    Itinerary,
+    Plan,
+    PlannerRun,
+    Scenario,
+    Tick,
+    Tour,
+    Track,
+    Work,
+    assign_tours,
+)
+
+__all__ = [
+    "STOPS_AHEAD",
+    "Crowding",
+    "CutTours",
+    "cut_tours",
+    "cut_tracks",
+    "find_horizon",
+    "make_cut",
+    "may_stay_anywhere",
+]
+
+FIRST_PAUSE, LONGEST_PAUSE = 8, 128
+"""Rounds of a crowded fleet that end at a time before whole tracks are tried again; twice as many
+after each trial that fails."""
 
 STOPS_AHEAD = 2
 """Stops of each tour that get routes in a round; a robot that has fewer of them left, and more
@@ -77,6 +112,34 @@ def cut_tours(
     return make_cut(scenario, firsts, later)
 
 
+def cut_tracks(
+    cut: CutTours, tracks: Sequence[Track], horizon: Tick
+) -> tuple[CutTours, list[Track]]:
+    """Return tours and tracks that end at a horizon: each robot stays where it is then.
+
+    Parameters
+    ----------
+    cut
+        Tours of robots that end anywhere.
+    tracks
+        Their tracks, without conflicts until the horizon. The cut ones have no conflicts: where a
+        robot is at the horizon no other one arrives until then, and none moves afterwards.
+    horizon
+        When tracks end at the latest [ticks].
+    """
+    tours = Plan(scenario=cut.toured, tracks=tuple(tracks), run=PlannerRun()).tours or ()
+    firsts, later, ended = list[Tour](), list[Tour](), list[Track]()
+    for tour, rest, items, track in zip(
+        cut.toured.tours or (), cut.later, tours, tracks, strict=True
+    ):
+        n_visits = int(np.searchsorted(track.enter, horizon, side="right"))
+        n_items = sum(item.visit < n_visits for item in items)
+        firsts.append(tour[:n_items])
+        later.append((*tour[n_items:], *rest))
+        ended.append(Track(vertices=track.vertices[:n_visits], enter=track.enter[:n_visits]))
+    return make_cut(cut.toured, firsts, later), ended
+
+
 def make_cut(scenario: Scenario, firsts: Sequence[Tour], later: Sequence[Tour]) -> CutTours:
     """Return a scenario whose tours are cut.
 
@@ -114,3 +177,76 @@ def _weigh_last(itinerary: Itinerary, n_stops: int, weight: int) -> Itinerary:
     stages = list(itinerary.stages)
     stages[n_stops - 1] = replace(stages[n_stops - 1], weight=stages[n_stops - 1].weight + weight)
     return replace(itinerary, stages=tuple(stages))
+
+
+# --- crowded fleets ------------------------------------------------------------------------------
+
+
+class Crowding:
+    """Whether a fleet was too crowded for whole tracks in its last rounds."""
+
+    def __init__(self) -> None:
+        self._pause = 0  # rounds between two trials of whole tracks
+        self._left = 0  # until the next one
+
+    def list_attempts(
+        self, n_stops: int | None, horizon: Tick | None
+    ) -> Iterator[tuple[int | None, Tick | None]]:
+        """Yield the attempts of a round: stops of each tour, and when tracks are cut.
+
+        Parameters
+        ----------
+        n_stops
+            How many stops of a tour get routes; None for all.
+        horizon
+            When tracks of a crowded fleet are cut [ticks]; None if they cannot be.
+        """
+        if horizon is None or not self._left:
+            yield n_stops, None
+        if horizon is not None:
+            yield n_stops, horizon
+        if n_stops is not None:
+            yield None, None
+
+    def note(self, *, is_crowded: bool, is_cut: bool) -> None:
+        """Note an attempt: many robots keep their old tours, or tracks are cut."""
+        if is_cut:
+            self._left = max(self._left - 1, 0)
+        elif is_crowded:
+            self._pause = min(max(2 * self._pause, FIRST_PAUSE), LONGEST_PAUSE)
+            self._left = self._pause
+        else:
+            self._pause = 0
+
+
+def may_stay_anywhere(scenario: Scenario) -> bool:
+    """Return whether a robot may end its track at any vertex, at any time.
+
+    Parameters
+    ----------
+    scenario
+        The scenario of a round.
+    """
+    problem = scenario.problem
+    work = problem.work
+    assert work is not None, "the scenario has jobs"
+    return (
+        all(robot.home is None and robot.battery is None for robot in work.robots)
+        and not any(job.after for job in work.jobs)
+        and problem.closures is None
+        and scenario.roadmap.passing is None
+    )
+
+
+def find_horizon(ends: Sequence[Sequence[Tick]], least: Tick) -> Tick:
+    """Return when tracks of crowded fleets are cut [ticks]; half of the robots can do a stop first.
+
+    Parameters
+    ----------
+    ends
+        When each item of each tour ends without other robots in the way [ticks].
+    least
+        It is then or later [ticks].
+    """
+    firsts = sorted(own[0] for own in ends if own)
+    return max(firsts[len(firsts) // 2] if firsts else least, least)

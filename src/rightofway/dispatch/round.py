@@ -24,7 +24,15 @@ from rightofway.assign import AssignmentSearch, measure_travel
 from rightofway.check import check
 from rightofway.deadline import Deadline
 from rightofway.dispatch.charging import charge_for_rest
-from rightofway.dispatch.horizon import STOPS_AHEAD, CutTours, cut_tours
+from rightofway.dispatch.horizon import (
+    STOPS_AHEAD,
+    Crowding,
+    CutTours,
+    cut_tours,
+    cut_tracks,
+    find_horizon,
+    may_stay_anywhere,
+)
 from rightofway.dispatch.overdue import assign_overdue, has_choice
 from rightofway.dispatch.pool import PooledJob
 from rightofway.dispatch.routes import (
@@ -120,6 +128,11 @@ class _RoundPlan:
     reasons: tuple[Fact, ...] = ()
 
     @property
+    def is_hurried(self) -> bool:
+        """Whether many robots keep their old tours."""
+        return len(self.keeping) > HURRIED * len(self.later)
+
+    @property
     def is_still(self) -> bool:
         """Whether no robot has anything to do: then waiting helps nobody."""
         return not any(self.plan.scenario.tours or ())
@@ -147,6 +160,7 @@ class RoundPlanner:
         self._planner = planner
         self._stops_ahead = stops_ahead
         self._distances: Distances | None = None
+        self._crowding = Crowding()
 
     def plan(
         self,
@@ -192,7 +206,7 @@ class RoundPlanner:
         return replace(
             self._judge(view, given, drafted.plan),
             later=_list_later(given, drafted.later, len(view.robots)),
-            is_hurried=len(drafted.keeping) > HURRIED * len(given.able),
+            is_hurried=drafted.is_hurried,
             facts=_describe_kept(self._scenario, drafted),
         )
 
@@ -261,13 +275,23 @@ class RoundPlanner:
         assignment, ends = self._assign(given, items, deadline, seed)
         lead = Tick(HORIZON_IN_LEADS * (view.takeover - view.now))
         tracks = [own.track for own in old]
-        routing = partial(find_routes, old=tracks, deadline=deadline, seed=seed)
-        for n_stops in dict.fromkeys((self._stops_ahead, None)):
+        horizon = find_horizon(ends, lead) if may_stay_anywhere(given.scenario) else None
+        ahead, hurried = self._stops_ahead, None
+        for n_stops, until in self._crowding.list_attempts(ahead, horizon):
             cut = cut_tours(given.scenario, assignment, ends, n_stops, lead)
             start = list_same_tracks(cut.toured, old)
+            routing = partial(find_routes, old=tracks, horizon=until, deadline=deadline, seed=seed)
             planned = _find_routes(cut, assignment, start, items, routing)
+            is_hurried = planned is None or planned.is_hurried
+            may_cut = horizon is not None and n_stops == ahead
+            if may_cut:
+                self._crowding.note(is_crowded=is_hurried, is_cut=until is not None)
             if planned is not None and not (planned.keeping and planned.is_still):
-                return planned
+                if not (may_cut and is_hurried and until is None):
+                    return planned
+                hurried = planned
+        if hurried is not None:
+            return hurried
         left = deadline.measure_seconds_left()
         if left == 0:
             raise GaveUp(Fact("time over without a plan"))
@@ -536,8 +560,8 @@ def _keep_next_jobs(work: Work, old: Sequence[tuple[Tour, Tour]], overdue: Colle
     jobs = list(work.jobs)
     if not all(ahead or behind for ahead, behind in old):
         return work
-    for robot, (ahead, _) in enumerate(old):
-        job = ahead[0].job if ahead else None
+    for robot, (ahead, behind) in enumerate(old):
+        job = (*ahead, *behind)[0].job
         if job is None or job in overdue or len(jobs[job].robots) == 1:
             continue
         if robot in jobs[job].robots:
@@ -553,12 +577,14 @@ def _find_routes(
     routing: partial[FoundRoutes],
 ) -> _RoundPlan | None:
     """Return a plan that keeps the rules, if old tours of some robots make one possible."""
-    keeping, reasons = frozenset[int](), list[Fact]()
+    keeping, reasons, horizon = frozenset[int](), list[Fact](), routing.keywords["horizon"]
     while True:
         routes = routing(cut.toured, start)
         wrong, reason = routes.left, Fact("no route in time")
         tracks = [track for track in routes.tracks if track is not None]
         if not wrong:
+            if horizon is not None:
+                cut, tracks = cut_tracks(cut, tracks, horizon)
             in_tours = {
                 item.job for tour in (*(cut.toured.tours or ()), *cut.later) for item in tour
             }

@@ -4,6 +4,9 @@ Robots whose tours stay the same keep their old tracks at first. The others are 
 tracks in their way are planned again. Where that takes too long, each of the others is planned
 around the old tracks of all robots. A robot for which this finds nothing keeps its old tour: then
 the plan of a round is never worse than the old one.
+
+With a horizon, each robot is planned around the old tracks of all others at once. That never fails:
+a robot can follow its old track to the horizon and drive on freely behind it.
 """
 
 from __future__ import annotations
@@ -71,6 +74,7 @@ def find_routes(
     start: Sequence[Track | None],
     old: Sequence[Track | None],
     *,
+    horizon: Tick | None,
     deadline: Deadline,
     seed: int,
 ) -> FoundRoutes:
@@ -84,23 +88,28 @@ def find_routes(
         Tracks to begin with, and None for robots that need others.
     old
         The rest of the old plan.
+    horizon
+        Tracks may conflict after this tick; None: they never do.
     deadline
         When the round has to end.
     seed
         For all that is drawn.
     """
     judging = deadline.shorten(1 - SHARE_TO_JUDGE)
-    search = make_fleet_search(PlanRequest(scenario=toured, seed=seed, deadline=judging))
+    search = make_fleet_search(PlanRequest(scenario=toured, seed=seed, deadline=judging), horizon)
     left = search.take_over(start, (), time_limit=None)
     alone = search.compute_alone()
     order = sorted(left, key=lambda robot: (int(alone[robot]), robot))
     searches = SEARCHES * (len(left) + len(old) // 10)
     n_still = sum((track := old[robot]) is None or len(track) == 1 for robot in left)
-    share = PATIENT_SHARE if n_still > HURRIED * len(old) else SHARE_OF_REPAIR
+    is_still = n_still > HURRIED * len(old)
+    share = PATIENT_SHARE if is_still else SHARE_OF_REPAIR
     repairing = judging.shorten(share).measure_seconds_left()
-    if left and not search.repair(order, searches=searches, time_limit=repairing):
+    goes_on = horizon is not None and not is_still
+    if left and (goes_on or not search.repair(order, searches=searches, time_limit=repairing)):
         replacing = judging.shorten(SHARE_TO_REPLACE).measure_seconds_left()
-        left = search.take_over(old, order, time_limit=replacing)
+        given = [first or then for first, then in zip(start, old, strict=True)] if goes_on else old
+        left = search.take_over(given, order, time_limit=replacing)
         if left:
             known = search.list_known_tracks()
             return FoundRoutes(

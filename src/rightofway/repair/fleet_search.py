@@ -4,19 +4,29 @@ from __future__ import annotations
 
 import numpy as np
 
+from rightofway.model import Tick
 from rightofway.repair.impossible import refuse_stranded
 from rightofway.repair.plan_request import PlanRequest
 from rightofway.search import FleetSearch
 
 
-def make_fleet_search(request: PlanRequest) -> FleetSearch:
-    """Return the search for a fleet; `NoPlanExists` if a robot cannot do its trip alone."""
+def make_fleet_search(request: PlanRequest, horizon: Tick | None = None) -> FleetSearch:
+    """Return the search for a fleet; `NoPlanExists` if a robot cannot do its trip alone.
+
+    Parameters
+    ----------
+    request
+        The problem.
+    horizon
+        As for `FleetSearch`.
+    """
     scenario = request.scenario
     search = FleetSearch(
         scenario.problem,
         seed=request.seed,
         alone=request.alone,
         objective=request.objective,
+        horizon=horizon,
     )
     refuse_stranded(scenario, np.flatnonzero(search.compute_alone() < 0).tolist())
     return search

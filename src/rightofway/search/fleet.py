@@ -62,6 +62,9 @@ class FleetSearch:
         The result of `compute_least_completions` for the same trips [ticks], where that is known.
     objective
         The objective of `improve`. Of plans with equal makespan it prefers those of less flowtime.
+    horizon
+        Tracks may conflict after this tick; each one cut there ends where its robot can stay. None:
+        tracks never conflict.
     """
 
     def __init__(
@@ -72,6 +75,7 @@ class FleetSearch:
         threads: int | None = None,
         alone: NDArray[np.int64] | None = None,
         objective: Objective = Objective.FLOWTIME,
+        horizon: Tick | None = None,
     ) -> None:
         n_threads = allow_none(make_whole(0, 1024)).read_at("threads", threads)
         self._core = _core.FleetSearch(
@@ -80,6 +84,7 @@ class FleetSearch:
             n_threads or count_cores(),
             alone,
             _NATIVE[objective],
+            horizon,
         )
         self._n_robots = len(problem.itineraries)
 
