@@ -6,13 +6,14 @@ from itertools import pairwise
 from random import Random
 from typing import Any
 
+import pytest
 from hypothesis import strategies as st
 
 from rightofway.check import check
-from rightofway.dispatch import ShiftRecord
+from rightofway.dispatch import ShiftRecord, routes
 from rightofway.io.scenario.reader import parse_scenario
 from rightofway.model import Scenario
-from tests.builders.laws import law
+from tests.builders.laws import law, once
 from tests.builders.shifts import LONG, draw_shift, hold_shift
 from tests.builders.work_scenarios import draw_work_document
 
@@ -98,6 +99,44 @@ def test_no_job_waits_in_silence(seed: int, lead: int, has_delays: bool) -> None
         record = draw_shift(seed, lead=lead)
     # A round, its takeover, a drive or a stoppage.
     assert list_silent(record, 3 * max(1, lead) + 10) == []
+
+
+CROWDED_HALL = ["......", ".@.@@.", "......", ".@@.@.", "......"]
+
+
+def draw_crowd(seed: int) -> Scenario:
+    """Return a fleet on half of all cells or more, whose robots stay anywhere, and its jobs."""
+    draw = Random(seed)  # noqa: S311
+    grid = "".join(CROWDED_HALL)
+    cells = [f"N{cell}" for cell, kind in enumerate(grid) if kind == "."]
+    homes = draw.sample(cells, draw.choice([12, 16, 18]))
+    return parse_scenario(
+        {
+            "format": "rightofway-scenario/1",
+            "map": {"grid": CROWDED_HALL},
+            "robots": [{"name": home, "home": home} for home in homes],
+            "rules": {"turn": 0, "return": "none", "rotations": draw.choice([False, True])},
+            "jobs": [
+                {"name": f"J{number}", "pickup": pickup, "dropoff": dropoff}
+                for number, (pickup, dropoff) in enumerate(
+                    draw.sample(cells, 2) for _ in range(draw.randint(1, 20))
+                )
+            ],
+        }
+    )
+
+
+@law(SEEDS, st.sampled_from([0, 2]))
+@once(seed=0, lead=0)
+def test_a_crowded_fleet_without_time_for_evictions_does_its_jobs_and_keeps_the_rules(
+    seed: int, lead: int
+) -> None:
+    with pytest.MonkeyPatch.context() as changes:
+        changes.setattr(routes, "SEARCHES", 0)
+        record = hold_shift(draw_crowd(seed), seed=seed, lead=lead)
+    report = check(record.make_plan())
+    assert report.ok, str(report)
+    assert all(own.ended is not None for own in record.jobs.values())
 
 
 ROWS, COLUMNS = 4, 6

@@ -51,6 +51,10 @@ FIRST_PAUSE, LONGEST_PAUSE = 8, 128
 """Rounds of a crowded fleet that end at a time before whole tracks are tried again; twice as many
 after each trial that fails."""
 
+MOST_HORIZONS = 8
+"""A horizon by which no robot does a stop doubles; at so many times the first one, other attempts
+follow. Else robots that block each other might wait there in every round."""
+
 STOPS_AHEAD = 2
 """Stops of each tour that get routes in a round; a robot that has fewer of them left, and more
 behind them, needs a round."""
@@ -188,6 +192,12 @@ class Crowding:
     def __init__(self) -> None:
         self._pause = 0  # rounds between two trials of whole tracks
         self._left = 0  # until the next one
+        self._factor = 1  # of the horizon
+
+    @property
+    def is_stuck(self) -> bool:
+        """Whether no robot did a stop by the last horizons, each twice as far as the one before."""
+        return self._factor == MOST_HORIZONS
 
     def list_attempts(
         self, n_stops: int | None, horizon: Tick | None
@@ -204,14 +214,25 @@ class Crowding:
         if horizon is None or not self._left:
             yield n_stops, None
         if horizon is not None:
-            yield n_stops, horizon
+            yield n_stops, Tick(self._factor * horizon)
         if n_stops is not None:
             yield None, None
 
-    def note(self, *, is_crowded: bool, is_cut: bool) -> None:
-        """Note an attempt: many robots keep their old tours, or tracks are cut."""
+    def note(self, *, is_crowded: bool, is_cut: bool, is_still: bool) -> None:
+        """Note an attempt.
+
+        Parameters
+        ----------
+        is_crowded
+            Whether many robots keep their old tours.
+        is_cut
+            Whether tracks are cut.
+        is_still
+            Whether robots have tours and none of them does a stop.
+        """
         if is_cut:
-            self._left = max(self._left - 1, 0)
+            self._factor = min(2 * self._factor, MOST_HORIZONS) if is_still else 1
+            self._left = 0 if self.is_stuck else max(self._left - 1, 0)
         elif is_crowded:
             self._pause = min(max(2 * self._pause, FIRST_PAUSE), LONGEST_PAUSE)
             self._left = self._pause

@@ -283,13 +283,15 @@ class RoundPlanner:
             routing = partial(find_routes, old=tracks, horizon=until, deadline=deadline, seed=seed)
             planned = _find_routes(cut, assignment, start, items, routing)
             is_hurried = planned is None or planned.is_hurried
-            may_cut = horizon is not None and n_stops == ahead
+            is_still = planned is None or (planned.is_still and any(assignment.tours))
+            may_cut, is_cut = horizon is not None and n_stops == ahead, until is not None
             if may_cut:
-                self._crowding.note(is_crowded=is_hurried, is_cut=until is not None)
-            if planned is not None and not (planned.keeping and planned.is_still):
-                if not (may_cut and is_hurried and until is None):
-                    return planned
-                hurried = planned
+                self._crowding.note(is_crowded=is_hurried, is_cut=is_cut, is_still=is_still)
+            if planned is None or (is_still and (planned.keeping or self._crowding.is_stuck)):
+                continue
+            if not may_cut or is_cut or not is_hurried:
+                return planned
+            hurried = planned
         if hurried is not None:
             return hurried
         left = deadline.measure_seconds_left()

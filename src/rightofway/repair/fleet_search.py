@@ -13,12 +13,7 @@ from rightofway.search import FleetSearch
 def make_fleet_search(request: PlanRequest, horizon: Tick | None = None) -> FleetSearch:
     """Return the search for a fleet; `NoPlanExists` if a robot cannot do its trip alone.
 
-    Parameters
-    ----------
-    request
-        The problem.
-    horizon
-        As for `FleetSearch`.
+    Tracks may conflict after the horizon.
     """
     scenario = request.scenario
     search = FleetSearch(
