@@ -260,7 +260,7 @@ def may_stay_anywhere(scenario: Scenario) -> bool:
 
 
 def find_horizon(ends: Sequence[Sequence[Tick]], least: Tick) -> Tick:
-    """Return when tracks of crowded fleets are cut [ticks]; half of the robots can do a stop first.
+    """Return when tracks of crowded fleets are cut [ticks]: half of the cut tours can end by then.
 
     Parameters
     ----------
@@ -269,5 +269,5 @@ def find_horizon(ends: Sequence[Sequence[Tick]], least: Tick) -> Tick:
     least
         It is then or later [ticks].
     """
-    firsts = sorted(own[0] for own in ends if own)
-    return max(firsts[len(firsts) // 2] if firsts else least, least)
+    lasts = sorted(own[:STOPS_AHEAD][-1] for own in ends if own)
+    return max(lasts[len(lasts) // 2] if lasts else least, least)
