@@ -21,9 +21,9 @@ from tests.campaigns.states import fuzz_states
 UNFIT: dict[str, tuple[dict[str, Any], str]] = {
     "mode": (
         {"operatingMode": "MANUAL"},
-        "R2 is in mode MANUAL: it gets nothing more until it is in AUTOMATIC again",
+        "R2 is in mode MANUAL: no further nodes are released until it is in AUTOMATIC again",
     ),
-    "pause": ({"paused": True}, "R2 is paused: it gets nothing more until it goes on"),
+    "pause": ({"paused": True}, "R2 is paused: no further nodes are released until the pause ends"),
     "stop": (
         {"safetyState": {"eStop": "REMOTE", "fieldViolation": False}},
         "R2 is in emergency stop (REMOTE): a person has to look",
@@ -64,7 +64,7 @@ def test_each_begin_and_each_end_of_trouble_is_reported() -> None:
         site.say(1, paused=True)
         site.say(1, paused=False)
     assert site.said == 20 * [
-        "R2 is paused: it gets nothing more until it goes on",
+        "R2 is paused: no further nodes are released until the pause ends",
         "R2 is paused no longer",
     ]
 
@@ -79,7 +79,7 @@ def test_each_loss_of_a_robot_is_reported_also_by_silence() -> None:
             site.send(1, "connection", {"connectionState": "ONLINE"})
         site.say(1)
     assert site.said == 15 * [
-        "R2 is not connected: it keeps what it holds and gets nothing more",
+        "R2 is not connected: it keeps its released nodes and gets no further ones",
         "R2 is connected again",
     ]
 
@@ -117,7 +117,9 @@ def test_a_robot_that_is_lost_keeps_what_it_holds_and_gets_nothing_more(version:
     broken = "CONNECTION_BROKEN" if version == "3.0.0" else "CONNECTIONBROKEN"
     for _ in range(3):
         site.send(1, "connection", {"connectionState": broken})
-    assert site.said == ["R2 is not connected: it keeps what it holds and gets nothing more"]
+    assert site.said == [
+        "R2 is not connected: it keeps its released nodes and gets no further ones"
+    ]
     assert site.control.lost == {1}
     site.send(1, "connection", {"connectionState": "ONLINE"})
     site.say(1)

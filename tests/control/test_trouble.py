@@ -205,7 +205,9 @@ def test_a_robot_that_is_lost_and_comes_back(floor: Floor) -> None:
     broken = {"connectionState": "CONNECTIONBROKEN"}
     for _ in range(3):
         floor.deliver(floor.end.receive(Letter(topic, json.dumps(broken).encode())))
-    assert floor.said == ["R1 is not connected: it keeps what it holds and gets nothing more"]
+    assert floor.said == [
+        "R1 is not connected: it keeps its released nodes and gets no further ones"
+    ]
     away, floor.robots[0:1] = floor.robots[0], []
     for _ in range(20):
         away.robot.step()
@@ -230,7 +232,7 @@ def test_a_robot_that_is_elsewhere_when_it_comes_back(floor: Floor) -> None:
     assert robot.forget()
     robot.place = "N3"
     floor.drive(3)
-    sentence = "it stands at N3, which it does not hold; a person has to look after it"
+    sentence = "it is at N3, which it does not hold; a person has to look after it"
     assert floor.said == [f"R1 is faulty: {sentence}"]
     with pytest.raises(InputError, match=r"R1 is on the floor .*remove R1"):
         floor.operator.place_robot("R1")
@@ -451,7 +453,7 @@ def test_commands_that_cannot_be_read_stop_no_robot(tmp_path: Path) -> None:
     told = [line for line in said if "commands" in line]
     assert len(told) == 2
     assert told[0].startswith("no command can be read: ")
-    assert told[0].endswith("; robots go on")
+    assert told[0].endswith("; robots drive on")
     assert told[1] == "commands can be read again"
     assert people.wait_for(1, 0) is not None
 

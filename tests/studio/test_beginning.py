@@ -98,7 +98,7 @@ def test_a_draft_that_is_newer_than_its_file_is_opened_and_the_file_is_one_press
     studio.page.get_by_label("In the folder").get_by_role("button", name="floor.yaml").click()
     studio.opened()
     assert studio.document == changed
-    studio.button("Open what was saved").click()
+    studio.button("Open the saved version").click()
     studio.saved()
     assert studio.document == saved
 

@@ -179,7 +179,7 @@ def test_lanes_stations_limits_zones_and_closures_are_drawn(lanes: StudioPage) -
     page.get_by_label("Speed limit").press("Enter")
     lanes.settle()
     page.get_by_label("closed").check()
-    lanes.button("Make a zone of what is selected").click()
+    lanes.button("Make a zone of the selection").click()
     lanes.settle()
     document = lanes.document
     assert document["map"]["roadmap"] == {

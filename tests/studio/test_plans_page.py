@@ -149,7 +149,7 @@ def test_heads_of_the_list_of_plans_have_the_unit_of_its_numbers(opened: Opener)
     number = studio.row(2).locator("td").nth(3)
     assert number.inner_text().split()[0] == bare
     assert "s" not in number.inner_text().split()
-    studio.page.get_by_label("Whose plans are listed").select_option("*")
+    studio.page.get_by_label("Plans to list").select_option("*")
     assert heads(studio) == ["Flowtime", "Time [s]"]
     assert number.inner_text().split()[1] in {"s", "min", "h"}
     assert studio.row(1).locator("td").nth(3).inner_text().startswith(bare)
@@ -402,7 +402,7 @@ def test_a_run_of_another_document_goes_on_unseen(opened: Opener) -> None:
     studio.tab("Plan")
     expect(studio.button("Cancel")).to_be_disabled()
     assert not studio.is_plan()
-    studio.page.get_by_label("Whose plans are listed").select_option("*")
+    studio.page.get_by_label("Plans to list").select_option("*")
     studio.post("runs/1/stop", {})
     studio.failed(1)
     assert studio.run(1)["state"] == "stopped"
@@ -427,15 +427,15 @@ def test_runs_are_sorted_and_say_what_is_new_in_each(opened: Opener) -> None:
 def test_the_list_is_of_this_floor_and_others_on_request(opened: Opener) -> None:
     studio = opened(BAY)
     planned_by(studio, "auto")
-    assert studio.page.get_by_label("Whose plans are listed").count() == 0
+    assert studio.page.get_by_label("Plans to list").count() == 0
     another(studio)
     studio.tab("Plan")
     assert studio.page.locator("[data-run]").count() == 0
     assert studio.text("#tab-plan").strip() == "Plan"
-    studio.page.get_by_label("Whose plans are listed").select_option("floor.yaml")
+    studio.page.get_by_label("Plans to list").select_option("floor.yaml")
     assert studio.page.locator("[data-run]").count() == 1
     begin(studio)
-    studio.page.get_by_label("Whose plans are listed").select_option("*")
+    studio.page.get_by_label("Plans to list").select_option("*")
     studio.shown(2)
     check(studio, 1, 2)
     alert = studio.page.get_by_role("alert")

@@ -32,7 +32,7 @@ def list_all(studio: StudioPage) -> None:
     """Have the runs of all documents listed, beside a floor that has none."""
     studio.opened()
     studio.tab("Plan")
-    studio.page.get_by_label("Whose plans are listed").select_option("*")
+    studio.page.get_by_label("Plans to list").select_option("*")
 
 
 def listed(studio: StudioPage, count: int) -> str:

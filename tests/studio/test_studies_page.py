@@ -122,7 +122,7 @@ def test_a_slider_says_the_period_at_once_and_lights_the_circle_that_takes_over(
     speed = slider(studio, "R2: speed")
     described = speed.get_attribute("aria-describedby")
     says = studio.page.locator(f"#{described}")
-    assert says.inner_text() == "10 % faster: 0.55 time units less; above 1.2 nothing more."
+    assert says.inner_text() == "10 % faster: 0.55 time units less; no further gain above 1.2."
     studio.requests.clear()
     speed.focus()
     for _ in range(2):
@@ -133,7 +133,7 @@ def test_a_slider_says_the_period_at_once_and_lights_the_circle_that_takes_over(
     for _ in range(4):
         studio.page.keyboard.press("ArrowRight")
     assert speed.get_attribute("aria-valuetext") == "1.3: period 31 time units"
-    assert says.inner_text() == "Faster gains nothing; below 1.2 the period grows."
+    assert says.inner_text() == "A higher speed gains nothing; below 1.2 the period grows."
     assert circle(studio) != before
     answered(studio)
     # The page knows the whole function; only the new order is asked for, where the slider rests.
@@ -243,7 +243,7 @@ def test_causes_of_delay_are_fields(studio: StudioPage) -> None:
     studio.button("Another cause").click()
     kinds = studio.page.get_by_role("combobox", name="Cause of delay")
     studio.page.get_by_label("on average by").fill("12,5")
-    kinds.nth(1).select_option("One robot stands still")
+    kinds.nth(1).select_option("One robot stops")
     studio.page.locator(".causes label select").select_option("R3")
     studio.page.get_by_label("from time").fill("4")
     studio.page.fill("#run-count", "50")

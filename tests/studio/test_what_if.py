@@ -100,7 +100,7 @@ def test_a_change_of_a_robot_is_planned_at_once(opened: Opener) -> None:
     assert len(studio.runs) == 2
     studio.page.locator("[data-run='1'] .show").click()
     studio.shown(1)
-    studio.button("Edit what it was planned from").click()
+    studio.button("Edit the scenario of this plan").click()
     studio.settle()
     assert "speed" not in studio.document["robots"][0]
 

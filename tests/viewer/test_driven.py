@@ -347,7 +347,7 @@ def test_a_person_is_alarmed_and_says_what_has_become_of_a_robot_with_a_fault(
     stray = StateReport(order_id="", update_id=0, last_place="N4", last_sequence_id=0)
     journal.commit([take_fault(0, make_stray(stray), stray, notices.report_on)])
     expect(alarms).to_contain_text(
-        "R1 is faulty: it stands at N4, which it does not hold; a person has to look after it"
+        "R1 is faulty: it is at N4, which it does not hold; a person has to look after it"
     )
     expect(row_of(viewer, "R1")).to_contain_text("alarm")
     row_of(viewer, "R2").click()

@@ -100,7 +100,9 @@ def test_lateness_is_told_as_it_grows(show: Opener, tick: int, lateness: list[st
 def test_who_breaks_down_is_marked_and_who_is_stuck_is_told_why(late: Player) -> None:
     late.seek(30)
     assert late.page.locator("#robot-list .state").all_inner_texts()[:2] == ["stuck", "broken down"]
-    states = late.page.get_by_role("list", name="What the robots do now").get_by_role("listitem")
+    states = late.page.get_by_role("list", name="Present states of the robots").get_by_role(
+        "listitem"
+    )
     assert re.sub(r"\s", "", states.filter(has_text="broken down").inner_text()) == "brokendown1"
     late.page.click("#robot-list .row:has-text('R1')")
     assert "never: stuck behind R2, which breaks down" in late.text("#card")

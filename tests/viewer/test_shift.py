@@ -108,7 +108,7 @@ def test_the_diagram_has_throughput_service_times_and_rounds(show: Opener) -> No
     viewer = show(make_shift())
     assert viewer.text("#diagram-title").startswith("Jobs done, service time")
     viewer.page.locator("#use-list .row").first.click()
-    assert viewer.text("#diagram-title") == "R1: what it does, and its battery"
+    assert viewer.text("#diagram-title") == "R1: states and battery"
 
 
 def test_a_shift_speaks_german(show: Opener) -> None:

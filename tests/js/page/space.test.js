@@ -1,4 +1,4 @@
-/** What robots book, and how near they come. */
+/** Bookings of robots, and how near they come. */
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
