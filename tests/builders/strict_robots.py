@@ -102,13 +102,13 @@ class StrictAgv:
         self._client.on_message = self._heard
         self._client.connect("127.0.0.1", port)
         self._client.loop_start()
-        self._is_open = True
+        self._ended = threading.Event()
         self._thread = threading.Thread(target=self._drive, daemon=True)
         self._thread.start()
 
     def close(self) -> None:
         """End it."""
-        self._is_open = False
+        self._ended.set()
         self._news.set()
         self._thread.join(5)
         self._client.disconnect()
@@ -303,10 +303,10 @@ class StrictAgv:
 
     def _drive(self) -> None:
         """Do what the order has: drive one edge or do one action at a time."""
-        while self._is_open:
+        while not self._ended.is_set():
             self._news.wait(0.5)
             self._news.clear()
-            while self._is_open and self._do_next():
+            while not self._ended.is_set() and self._do_next():
                 pass
 
     def _do_next(self) -> bool:
@@ -326,7 +326,7 @@ class StrictAgv:
                 return False
             begin()
             self._report()
-        time.sleep(PAUSE)
+        self._ended.wait(PAUSE)
         with self._lock:
             if waiting:
                 self._set(waiting[0], "FINISHED")

@@ -23,6 +23,8 @@ from rightofway.control.vda5050 import StateMessage, read
 from rightofway.control.work_items import describe_item, find_charge_step, find_next_number
 from rightofway.facts import Fact
 from rightofway.io import parse_scenario
+from rightofway.report.driving import report_drive
+from rightofway.report.quantities import Quantities
 from tests.builders.chaos import MemoryJournal
 from tests.builders.floor_jobs import driven_actions, floor_document, floor_plan
 from tests.builders.floors import Floor
@@ -106,6 +108,31 @@ def test_a_charge_begins_and_ends_with_an_action_of_its_own() -> None:
     assert charges[first:last] == sorted(charges[first:last])
     assert charges[last - 1] > charges[first]
     assert charges[last:][5] < charges[last]
+
+
+def test_the_report_compares_the_end_of_each_job_with_the_plan_and_with_its_due_time() -> None:
+    """The order of ends is that of the noted times; the longest delay is in the first row."""
+    plan = floor_plan()
+    jobs = plan.scenario.jobs or ()
+    planned = {
+        jobs[item.job].name: item.end
+        for tour in plan.tours or () for item in tour if item.job is not None
+    }  # fmt: skip
+    result = drive_demo(plan, "exponential:0.5", 3)
+    assert {job.name: job.planned for job in result.ended} == planned
+    ends = [job.ended for job in result.ended]
+    assert ends == sorted(ends)
+    assert 0 < ends[0] < ends[-1] <= result.now
+    data = result.as_dict()
+    assert [row["name"] for row in data["ended"]] == [job.name for job in result.ended]
+    lines = report_drive(result, Quantities.of(plan.scenario)).splitlines()
+    first = lines.index("end of each job, the latest first") + 2
+    delays = {
+        job.name: job.ended - (job.due if job.due is not None else job.planned or 0)
+        for job in result.ended
+    }
+    assert delays[lines[first].split()[0]] == max(delays.values())
+    assert len(lines) == first + len(jobs)
 
 
 @pytest.mark.parametrize("version", ["2.0.0", "2.1.0", "3.0.0"])

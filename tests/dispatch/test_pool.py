@@ -57,6 +57,17 @@ def test_a_job_leaves_with_its_last_stop() -> None:
     assert pool.left == {"J1": "done"}
 
 
+def test_the_end_of_a_job_is_noted_once_and_kept() -> None:
+    last = happen("stop done", 0, robot=1, stop=1)
+    pool = fold(KNOWN, BEGUN, last)
+    assert (pool.unnoted, pool.ends["J1"].at) == ({"J1"}, None)
+    pool = fold(KNOWN, BEGUN, last, happen("job ended", 9), happen("job ended", 12))
+    end = pool.ends["J1"]
+    assert (end.robot, end.earliest, end.due, end.at) == (1, 0, 30, 9)
+    again = Pool.of_document(json.loads(json.dumps(pool.to_document(ROADMAP))), ROADMAP)
+    assert (again.ends, again.unnoted) == (pool.ends, set())
+
+
 def test_a_begun_job_is_neither_changed_nor_withdrawn_nor_begun_by_another_robot() -> None:
     pool = fold(KNOWN, BEGUN)
     changed = replace(TRANSPORT, weight=Fraction(7))

@@ -24,6 +24,7 @@ from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd, format_timestamp
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.identities import Identity, make_simulated_identities
+from rightofway.control.job_events import list_driven_jobs
 from rightofway.control.laps import LapsToDrive
 from rightofway.control.messages import LOOK_AHEAD
 from rightofway.control.notices import Notices
@@ -357,6 +358,7 @@ class _Demo:
             trace=trace,
             completion=self._list_completions() if trace is None else tuple(trace.completion),
             jobs=self._control.ledger.count_jobs(),
+            ended=list_driven_jobs(self._plan, self._control.ledger, Tick(self._now)),
             laps=tuple(own.laps_done for own in robots),
             now=Tick(self._now),
             waits=tuple(self._story.waits),

@@ -22,6 +22,7 @@ from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.endpoints import ControlEnd, Letter, make_timestamp
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.identities import Identity
+from rightofway.control.job_events import list_driven_jobs
 from rightofway.control.journal import BatchedJournal, Entry, Journal, JournalFailed
 from rightofway.control.laps import LapsToDrive
 from rightofway.control.messages import LOOK_AHEAD, Message
@@ -262,6 +263,7 @@ class Driver:
             trace=None,
             completion=None if self._is_endless else ends,
             jobs=self.control.ledger.count_jobs(),
+            ended=list_driven_jobs(self._plan, self.control.ledger, now),
             laps=tuple(own.laps_done for own in robots),
             now=now,
             waits=tuple(self._story.waits),

@@ -192,6 +192,8 @@ class Ledger:
         is planned again.
         """
         self.pool.apply(event)
+        if event.kind == "job ended":
+            return
         if event.kind == "job changed":
             self.outdated.add(event.name)
         if not self.pool.is_over(event.name):

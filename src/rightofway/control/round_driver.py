@@ -12,6 +12,7 @@ from dataclasses import replace
 
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.held_work import list_ready
+from rightofway.control.job_events import list_job_ends
 from rightofway.control.journal import Entry
 from rightofway.control.laps import build_graph_behind_released
 from rightofway.control.messages import Message
@@ -116,7 +117,13 @@ class RoundDriver:
         self.is_wanted |= self.watch.look(forecasts=not self.is_under_way)
 
     def go_on(self) -> list[Message]:
-        """Splice the plan of a round that has ended, and begin the next one; return messages."""
+        """Splice the plan of a round that has ended, and begin the next one; return messages.
+
+        The times of jobs that have ended are noted; call it after each message.
+        """
+        ledger, now = self._control.ledger, self.watch.read_ticks()
+        if ended := [*list_job_ends(ledger, now, self.scenario)]:
+            self._control.commit(*ended)
         messages = list[Message]()
         if self._seen is not None:
             planned = self.rounds.poll()

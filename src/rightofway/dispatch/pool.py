@@ -7,23 +7,28 @@ nothing, because each names its job, and a job that has left the pool never come
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from typing import Any, Literal, get_args
 
 from rightofway.errors import InputError, quote
 from rightofway.io.scenario.loaded_map import LoadedMap
 from rightofway.io.scenario.work import read_job
 from rightofway.io.scenario.work_writer import dump_job
+from rightofway.kinds.numbers import format_number
 from rightofway.model import Job, Tick, UnservedReason
 from rightofway.site import Roadmap
 
 __all__ = ["EventKind", "Pool", "PoolEvent", "PooledJob"]
 
 EventKind = Literal[
-    "job known", "job changed", "job withdrawn", "stop begun", "stop done", "job unserved"
-]
-"""Kinds of events of a job; `job unserved` is final."""
+    "job known", "job changed", "job withdrawn", "stop begun", "stop done", "job unserved",
+    "job ended",
+]  # fmt: skip
+"""Kinds of events of a job; `job unserved` is final. `job ended` adds the time to a job that is
+done.
+"""
 
 KEYS: dict[EventKind, tuple[str, ...]] = {
     "job known": ("job",),
@@ -32,6 +37,7 @@ KEYS: dict[EventKind, tuple[str, ...]] = {
     "stop begun": ("name", "robot", "stop"),
     "stop done": ("name", "robot", "stop"),
     "job unserved": ("name", "reason"),
+    "job ended": ("name",),
 }
 """The fields of each kind of event in a document, beside `kind` and `at`."""
 
@@ -126,6 +132,38 @@ class PooledJob:
         return self.robot is not None
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JobEnd:
+    """The end of a job that is done.
+
+    Attributes
+    ----------
+    robot
+        Index of the robot that has done it.
+    earliest, due
+        Those of the job.
+    at
+        When it ended [ticks]; None until that is noted.
+    """
+
+    robot: int
+    earliest: Fraction
+    due: Fraction | None
+    at: Tick | None = None
+
+    def to_document(self) -> list[Any]:
+        """Return the end as JSON has it."""
+        due = None if self.due is None else format_number(self.due)
+        return [self.robot, format_number(self.earliest), due, self.at]
+
+    @classmethod
+    def of_document(cls, document: Sequence[Any]) -> JobEnd:
+        """Return the end of a document."""
+        robot, earliest, due, at = document
+        late = None if due is None else Fraction(due)
+        return cls(robot=robot, earliest=Fraction(earliest), due=late, at=at)
+
+
 class Pool:
     """The jobs that are known and not finished, in the order in which they became known.
 
@@ -136,6 +174,10 @@ class Pool:
     left
         How each job has left the pool, by name: ``done``, ``withdrawn``, or a reason of
         `rightofway.model.work.UnservedReason`.
+    ends
+        The ends of the jobs that are done, by name.
+    unnoted
+        The jobs that are done and have no time of their end yet.
     counts
         The number of effective events of each kind since this pool was made.
     """
@@ -143,6 +185,8 @@ class Pool:
     def __init__(self) -> None:
         self.jobs: dict[str, PooledJob] = {}
         self.left: dict[str, str] = {}
+        self.ends: dict[str, JobEnd] = {}
+        self.unnoted = set[str]()
         self.counts = Counter[EventKind]()
 
     def apply(self, event: PoolEvent) -> bool:
@@ -162,6 +206,8 @@ class Pool:
 
     def _apply(self, event: PoolEvent) -> bool:
         own = self.jobs.get(event.name)
+        if event.kind == "job ended":
+            return self._note_end(event)
         if own is None:
             is_new = event.kind == "job known" and event.name not in self.left
             if is_new and event.job is not None:
@@ -171,9 +217,21 @@ class Pool:
         if isinstance(later, str):
             del self.jobs[event.name]
             self.left[event.name] = later
+            if later == "done" and event.robot is not None:
+                job, robot = own.job, event.robot
+                self.ends[job.name] = JobEnd(robot=robot, earliest=job.earliest, due=job.due)
+                self.unnoted.add(job.name)
             return True
         self.jobs[event.name] = later
         return later != own
+
+    def _note_end(self, event: PoolEvent) -> bool:
+        end = self.ends.get(event.name)
+        if end is None or end.at is not None:
+            return False
+        self.ends[event.name] = replace(end, at=event.at)
+        self.unnoted.discard(event.name)
+        return True
 
     def list_begun(self, robot: int) -> Iterator[PooledJob]:
         """Yield the jobs that a robot has begun."""
@@ -195,7 +253,8 @@ class Pool:
             }
             for own in self.jobs.values()
         ]
-        return {"jobs": jobs, "left": dict(self.left)}
+        ends = {name: end.to_document() for name, end in self.ends.items()}
+        return {"jobs": jobs, "left": dict(self.left), "ends": ends}
 
     @classmethod
     def of_document(cls, document: Mapping[str, Any], roadmap: Roadmap) -> Pool:
@@ -217,6 +276,9 @@ class Pool:
                 done=own["done"],
             )
         pool.left.update(document["left"])
+        for name, end in document["ends"].items():
+            pool.ends[name] = JobEnd.of_document(end)
+        pool.unnoted = {name for name, end in pool.ends.items() if end.at is None}
         return pool
 
 

@@ -2,12 +2,43 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from rightofway.model import ExecutionTrace, Plan, Tick
 
 __all__ = ["DriveResult"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DrivenJob:
+    """A job that is done.
+
+    Attributes
+    ----------
+    name
+        Its name.
+    robot
+        Index of the robot that has done it.
+    earliest, due
+        When it could begin, and until when it was wanted [ticks]; due is None without one.
+    planned
+        When it ends in the plan [ticks]; None for a job that came later.
+    ended
+        When it ended [ticks].
+    """
+
+    name: str
+    robot: int
+    earliest: Tick
+    due: Tick | None
+    planned: Tick | None
+    ended: Tick
+
+    @property
+    def is_late(self) -> bool:
+        """Whether it ended after it was due."""
+        return self.due is not None and self.ended > self.due
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -26,6 +57,9 @@ class DriveResult:
         known; None of laps, and where there is no trace of simulated robots.
     jobs
         How many jobs each robot has done.
+    ended
+        The jobs of a plan with jobs that are done, in the order of their ends, also those before
+        the last start.
     laps
         How many laps each robot has made.
     now
@@ -40,6 +74,7 @@ class DriveResult:
     trace: ExecutionTrace | None
     completion: tuple[Tick | None, ...] | None
     jobs: tuple[int, ...]
+    ended: tuple[DrivenJob, ...] = ()
     laps: tuple[int, ...]
     now: Tick
     waits: tuple[int, ...]
@@ -60,5 +95,8 @@ class DriveResult:
             for row, planned, completion in times:
                 row |= {"planned": int(planned), "completion": completion}
         totals = {"jobs": sum(self.jobs), "messages": self.messages}
+        if self.plan.scenario.jobs is not None:
+            ended = [{**asdict(job), "robot": names[job.robot]} for job in self.ended]
+            totals |= {"late": sum(job.is_late for job in self.ended), "ended": ended}
         duration = {"ticks": int(self.now)} if self.completion is None else {}
         return {"robots": robots, **totals, **duration}
