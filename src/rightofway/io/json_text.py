@@ -22,6 +22,9 @@ SPREAD_KEYS |= {"planner", "decisions", "reroutes", "steady"}
 
 _ENCODER = json.JSONEncoder(ensure_ascii=False, allow_nan=False)
 
+_MARK = "\ufdd0"
+"""A text between the items of a long list; it is no character, so that no name contains it."""
+
 
 def parse_json(text: str) -> Any:
     """Return the data of a JSON text; no key may be given twice, nor be nested too deeply."""
@@ -79,7 +82,7 @@ def format_json(document: dict[str, Any]) -> str:
 def _write_spread(value: dict[str, Any] | list[Any], margin: str) -> str:
     inner = margin + "  "
     if isinstance(value, list):
-        return f"[{inner}{f',{inner}'.join(map(format_json_line, value))}{margin}]"
+        return f"[{inner}{f',{inner}'.join(_format_json_lines(value))}{margin}]"
     pairs = (
         f"{format_json_line(key)}: "
         + (_write_spread(child, inner) if _is_spread(key, child) else format_json_line(child))
@@ -90,6 +93,14 @@ def _write_spread(value: dict[str, Any] | list[Any], margin: str) -> str:
 
 def _is_spread(key: str, value: Any) -> bool:
     return key in SPREAD_KEYS and isinstance(value, list | dict) and bool(value)
+
+
+def _format_json_lines(values: list[Any]) -> list[str]:
+    """Return each of several values on a line; all by one call of the encoder, which is slow."""
+    marked: list[Any] = [_MARK] * (2 * len(values) - 1)
+    marked[::2] = values
+    lines = format_json_line(marked)[1:-1].split(f', "{_MARK}", ')
+    return lines if len(lines) == len(values) else list(map(format_json_line, values))
 
 
 def format_json_line(value: Any) -> str:

@@ -54,8 +54,9 @@ def add_vertex(reading: Reading, own: Source, name: str, at: Point) -> None:
 
 def add_lanes(reading: Reading, own: Source, tail: str, head: str, both_ways: bool) -> None:
     """Add the lane from one vertex to another, or both ways, with its length and speed limit."""
-    (name,) = name_lanes([(tail, head)])
-    reading.draft.note_unused(own, name, OF_LANES)
+    if not own.value.keys() <= OF_LANES:  # nearly all lanes of a million have no other key
+        (name,) = name_lanes([(tail, head)])
+        reading.draft.note_unused(own, name, OF_LANES)
     length, max_speed = own.get(*LENGTHS), own.get(*SPEEDS)
     for start, end in ((tail, head), (head, tail)) if both_ways else ((tail, head),):
         reading.level.connect(

@@ -37,12 +37,17 @@ class Element(Source):
         return (child for child in self.children if child.name == name)
 
     def list_descendants(self, name: str) -> Iterator[Element]:
-        """Yield all elements of a name inside."""
-        for child in self.children:
-            if child.name == name:
-                yield child
-            if child.children:
-                yield from child.list_descendants(name)
+        """Yield all elements of a name inside, each before those inside it."""
+        opened = [iter(self.children)]
+        while opened:
+            for child in opened[-1]:
+                if child.name == name:
+                    yield child
+                if child.children:
+                    opened.append(iter(child.children))
+                    break
+            else:
+                opened.pop()
 
 
 def _strip_namespaces(attributes: dict[str, str]) -> dict[str, str]:

@@ -208,30 +208,32 @@ def _write_roadmap(roadmap: Roadmap) -> dict[str, Any]:
         own = vertices[name(vertex)]
         own = own if isinstance(own, dict) else {"at": own}
         vertices[name(vertex)] = own | {"turning": False}
-    orientations: dict[tuple[int, int], dict[str, Any]] = {
-        (int(tail), int(head)): {"orientation": format_number(orientation)}
-        for tail, head, orientation in roadmap.drawing.orientations
-    }
-    ids = {(int(tail), int(head)): {"id": own} for tail, head, own in roadmap.drawing.edge_ids}
-    for tail, head, may_turn in roadmap.drawing.turning:
-        orientations.setdefault((int(tail), int(head)), {})["turning"] = may_turn
-    curves = {
+    own_keys: dict[tuple[int, int], dict[str, Any]] = {
         (int(tail), int(head)): {
             "curve": [[format_number(part) for part in point] for point in points]
         }
         for tail, head, points in roadmap.drawing.controls
     }
+    for tail, head, orientation in roadmap.drawing.orientations:
+        own_keys.setdefault((int(tail), int(head)), {})["orientation"] = format_number(orientation)
+    for tail, head, may_turn in roadmap.drawing.turning:
+        own_keys.setdefault((int(tail), int(head)), {})["turning"] = may_turn
+    for tail, head, edge_id in roadmap.drawing.edge_ids:
+        own_keys.setdefault((int(tail), int(head)), {})["id"] = edge_id
     names, of_class = (
         list(vertices),
         [_write_class(edge_class) for edge_class in roadmap.edge_classes],
     )
     tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr))
     columns = (tails.tolist(), roadmap.heads.tolist(), roadmap.class_of_edge.tolist())
+    nothing: dict[str, Any] = {}
     edges = [
-        {"from": names[tail], "to": names[head], **of_class[kind]}
-        | curves.get((tail, head), {})
-        | orientations.get((tail, head), {})
-        | ids.get((tail, head), {})
+        {
+            "from": names[tail],
+            "to": names[head],
+            **of_class[kind],
+            **own_keys.get((tail, head), nothing),
+        }
         for tail, head, kind in zip(*columns, strict=True)
     ]
     zones = [
