@@ -29,6 +29,7 @@ FEATURES = (
     "barred",  # types of robots kept off edges
     "both",  # a robot books the vertex that it drives to
     "closures",
+    "forbidden turns",  # vertices at which robots may not turn
     "headway",
     "laps",
     "layouts",  # a real site instead of a drawn one
@@ -49,7 +50,8 @@ FEATURES = (
 )
 """What a fleet may have; without any of them it is the paper's: points of speed 1 on a grid."""
 
-OF_LANES = {"barred", "limits", "one-way lanes", "passed", "spacing", "surcharges", "zones"}
+OF_LANES = {"barred", "forbidden turns", "limits", "one-way lanes", "passed", "spacing",
+            "surcharges", "zones"}  # fmt: skip
 """Features that grids do not have."""
 
 LAPS_REFUSE = {"closures", "one way"}
@@ -296,12 +298,18 @@ def _on_lanes(
         ]
     few = st.lists(st.sampled_from(places), min_size=1, max_size=3, unique=True)
     passed = draw(few) if "passed" in has else []
-    drawn = {name: {"at": at, "pass": True} if name in passed else at
-             for name, at in roadmap["vertices"].items()}  # fmt: skip
-    changed["vertices"] = drawn
+    fixed = draw(few) if "forbidden turns" in has else []
+    vertices = _change(roadmap["vertices"], passed, **{"pass": True})
+    changed["vertices"] = _change(vertices, fixed, turning=False)
     places = [place for place in places if place not in passed]
     spacing = {"spacing": draw(st.sampled_from([2, "4/3"]))} if "spacing" in has else {}
     return {"roadmap": changed, **spacing}, places
+
+
+def _change(vertices: Mapping[str, Any], names: Collection[str], **own: bool) -> Document:
+    """Return vertices of which some have a property more."""
+    drawn = {name: at if isinstance(at, dict) else {"at": at} for name, at in vertices.items()}
+    return {name: {**drawn[name], **own} if name in names else at for name, at in vertices.items()}
 
 
 def _trip(draw: st.DrawFn, has: set[str], trip: tuple[str, str], places: list[str]) -> Document:

@@ -39,8 +39,7 @@ from rightofway.control.vda5050 import (
 from rightofway.errors import InputError
 from rightofway.io import dump_scenario, parse_scenario
 from rightofway.model import Robot, Scenario, Stop
-from rightofway.model.bind_work import find_heading_on_site
-from rightofway.model.turning import list_headings
+from rightofway.model.turning import find_heading_on_site, list_headings
 from rightofway.precedence import ReleaseGraph
 from rightofway.site.geometry import Frame
 from tests.builders.chaos import MemoryJournal

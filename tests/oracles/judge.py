@@ -66,13 +66,18 @@ class Site:
         self.is_both = self.has_sizes or self.rules.occupancy == "both"
         self.headway = ceil(self.rules.headway / self.tick)
         self.squares: dict[tuple[Shape, Shape], Fraction] = {}
-        # Vertices of both directions of a lane at one point.
+        # Vertices of both directions of a lane at one point, and those of all directions.
+        lanes, at = [lane.vertices for lane in self.roadmap.lanes], self.at
         self.both_ways = {
             frozenset((one, other))
-            for there, back in permutations([lane.vertices for lane in self.roadmap.lanes], 2)
-            if (there[0], there[-1]) == (back[-1], back[0])
+            for there, back in permutations(lanes, 2)
+            if (at[there[0]], at[there[-1]]) == (at[back[-1]], at[back[0]])
             for one, other in product(there[1:-1], back[1:-1])
-            if self.at[one] == self.at[other]
+            if at[one] == at[other]
+        } | {
+            frozenset((one, other))
+            for one, other in permutations(range(self.roadmap.n_vertices), 2)
+            if self.roadmap.name(one).endswith("/end") and at[one] == at[other]
         }
         self.edges = {
             (tail, int(self.roadmap.heads[edge])): self.roadmap.get_edge_class(edge)

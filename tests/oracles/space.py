@@ -111,14 +111,18 @@ def _exclude(scenario: Scenario, robots: tuple[int, int], one: Shape, other: Sha
 
 
 def are_one_place(scenario: Scenario, one: int, other: int) -> bool:
-    """Return whether vertices are at one point between pieces of both directions of a lane."""
+    """Return whether vertices at one point are those of several directions of driving."""
     roadmap = scenario.roadmap
     lanes = [lane.vertices for lane in roadmap.lanes]
-    return min(one, other) >= 0 and any(
+    if min(one, other) < 0 or one == other or point(roadmap, one) != point(roadmap, other):
+        return False
+    if any(roadmap.name(vertex).endswith("/end") for vertex in (one, other)):
+        return True
+    return any(
         one in there[1:-1]
         and other in back[1:-1]
-        and (there[0], there[-1]) == (back[-1], back[0])
-        and point(roadmap, one) == point(roadmap, other)
+        and point(roadmap, there[0]) == point(roadmap, back[-1])
+        and point(roadmap, there[-1]) == point(roadmap, back[0])
         for there in lanes
         for back in lanes
     )

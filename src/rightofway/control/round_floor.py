@@ -24,7 +24,7 @@ from rightofway.dispatch.takeover import (
     make_step_to_do,
 )
 from rightofway.model import NEVER, Scenario, Tick, Track
-from rightofway.model.bind_work import find_heading_on_site
+from rightofway.model.turning import find_heading_on_site
 from rightofway.precedence import DelayModel, Part
 from rightofway.site import Roadmap, VertexId
 

@@ -22,8 +22,7 @@ from typing import NamedTuple
 from rightofway.dispatch.delays import DelayDraws
 from rightofway.dispatch.record import DoneStep, RobotRecord
 from rightofway.model import NEVER, BookingRules, BoundBattery, Scenario
-from rightofway.model.bind_work import find_heading_on_map
-from rightofway.model.turning import list_headings
+from rightofway.model.turning import find_heading_on_map, list_headings
 from rightofway.precedence import DelayModel
 from rightofway.site import Roadmap
 

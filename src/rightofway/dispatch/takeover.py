@@ -25,8 +25,7 @@ from rightofway.dispatch.view import (
     make_whole_tracks,
 )
 from rightofway.model import NEVER, Scenario, Tick, Track
-from rightofway.model.bind_work import find_heading_on_site
-from rightofway.model.turning import compute_first_turns, turn_towards
+from rightofway.model.turning import compute_first_turns, find_heading_on_site, turn_towards
 from rightofway.precedence import list_waits
 from rightofway.site import VertexId
 

@@ -26,6 +26,7 @@ from rightofway.io.orders.writing import write_orders
 from rightofway.kinds.table import make_words
 from rightofway.metrics.events import Event, list_events
 from rightofway.model import Plan, PlannedItem, Stays, Track
+from rightofway.site import VertexId
 
 FRAME = "map"
 """The frame of a site in ROS."""
@@ -147,7 +148,9 @@ class _Site:
 
         A vertex where a robot begins, works or ends has its name.
         """
-        return None if vertex in self._joints else self.roadmap.name(vertex)
+        if vertex in self._joints:
+            return None
+        return self.roadmap.name(self.roadmap.originals.get(VertexId(vertex), vertex))
 
     def locate_vertex(self, vertex: int) -> tuple[Fraction, Fraction]:
         """Return where a vertex is [m]."""

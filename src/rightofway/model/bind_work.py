@@ -6,7 +6,7 @@ from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import accumulate
-from math import degrees, lcm
+from math import lcm
 from typing import Protocol
 
 from rightofway.errors import InputError, InputFault, Steps, quote
@@ -20,7 +20,7 @@ from rightofway.model.problem import (
     scale_weights,
 )
 from rightofway.model.robot import Robot, Rules
-from rightofway.model.turning import compute_first_turns
+from rightofway.model.turning import compute_first_turns, find_heading_on_map
 from rightofway.model.units import Clock, Tick
 from rightofway.model.work import (
     CAPACITY,
@@ -279,28 +279,6 @@ def _bind_robots(scenario: Shift, problem: Problem) -> Iterator[BoundRobot]:
             battery=battery,
             charging=list_charging_places(scenario, robot),
         )
-
-
-def find_heading_on_map(heading: Fraction | None, roadmap: Roadmap) -> Fraction | None:
-    """Return a heading on the site in the plane of the map, whose y axis points down [degrees]."""
-    if heading is None:
-        return None
-    turned = heading - _find_yaw(roadmap)
-    return (-turned if roadmap.frame.y_up else turned) % 360
-
-
-def find_heading_on_site(heading: Fraction | None, roadmap: Roadmap) -> Fraction | None:
-    """Return a heading in the plane of the map on the site, as states of robots have it [degrees].
-
-    It is the inverse of the binding of `RobotState.heading`.
-    """
-    if heading is None:
-        return None
-    return (_find_yaw(roadmap) + (-heading if roadmap.frame.y_up else heading)) % 360
-
-
-def _find_yaw(roadmap: Roadmap) -> Fraction:
-    return Fraction(round(degrees(roadmap.frame.yaw) * MICRO), MICRO)
 
 
 def _find_shares(

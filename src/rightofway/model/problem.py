@@ -16,7 +16,12 @@ from rightofway.model.booking_rules import BookingRules
 from rightofway.model.closures import Closure, Closures, book_closures
 from rightofway.model.resources import Resources, bind_resources, make_points
 from rightofway.model.robot import Robot, Rules
-from rightofway.model.turning import Turning, compute_turnings
+from rightofway.model.turning import (
+    Turning,
+    compute_stop_turn,
+    compute_turnings,
+    find_heading_on_map,
+)
 from rightofway.model.units import Clock, Tick, choose_clock
 from rightofway.model.work import Job, Work
 from rightofway.site import Roadmap, VertexId
@@ -415,6 +420,8 @@ def _make_itinerary(
     weight: int,
 ) -> Itinerary:
     turn = clock.count_ticks(compute_turning_time(roadmap, robot, rules))
+    headings = dict(roadmap.drawing.headings) if turning is not None else {}
+    given = robot.turn if robot.turn is not None else rules.turn
     visits = [(stop.at, clock.count_ticks(stop.work)) for stop in robot.stops]
     after: list[VertexId | None] = [stop.at for stop in robot.stops[1:]]
     if (robot.ends or rules.ends) == "home":
@@ -422,9 +429,15 @@ def _make_itinerary(
         after += [robot.home, robot.stops[0].at] if robot.stops else [None]  # the next lap follows
     elif robot.stops:
         after.append(None)
+    turns = [
+        compute_stop_turn(roadmap, turning, at, find_heading_on_map(headings.get(at), roadmap))
+        if given is None and number < len(robot.stops)
+        else Tick(0)
+        for number, (at, _) in enumerate(visits)
+    ]
     lap = [
-        Stage(vertex=at, work=work, turn=Tick(0) if at == following else turn)
-        for (at, work), following in zip(visits, after, strict=True)
+        Stage(vertex=at, work=work, turn=Tick(0 if at == following else turn + more))
+        for (at, work), following, more in zip(visits, after, turns, strict=True)
     ]
     return Itinerary(
         home=robot.home,

@@ -7,7 +7,7 @@ from copy import copy
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from rightofway.errors import InputError, InputFault, Where
+from rightofway.errors import InputError, InputFault, Steps, Where
 from rightofway.kinds.table import VERTEX, allow_none, coerce_fields, list_of, make_class
 from rightofway.model.actions import PLACE_ACTIONS, PlaceActions
 from rightofway.model.bind_work import bind_tours, bind_work
@@ -18,7 +18,7 @@ from rightofway.model.resources import find_too_short_edges
 from rightofway.model.robot import Robot, Rules, Turn
 from rightofway.model.units import Clock
 from rightofway.model.work import BATTERIES, Battery, Job, Tour
-from rightofway.model.work_faults import find_work_faults
+from rightofway.model.work_faults import find_heading_faults, find_work_faults
 from rightofway.site import Roadmap, VertexId
 from rightofway.site.walls import clear_of_walls, reaches_walls
 from rightofway.units import Units, write_decimal
@@ -282,8 +282,8 @@ def _find_robot_faults(robot: Robot, scenario: Scenario) -> Iterator[InputFault]
 def _place_faults(robot: Robot, roadmap: Roadmap) -> Iterator[InputFault]:
     n_vertices = roadmap.n_vertices
     start = [] if robot.start is None else [(("start", "at"), robot.start.at)]
-    places: Iterable[tuple[Where, int]] = [
-        ("home", robot.home),
+    places: Iterable[tuple[Steps, int]] = [
+        (("home",), robot.home),
         *start,
         *((("stops", index, "at"), stop.at) for index, stop in enumerate(robot.stops)),
     ]
@@ -299,6 +299,8 @@ def _place_faults(robot: Robot, roadmap: Roadmap) -> Iterator[InputFault]:
             message = f"{roadmap.name(vertex)} is driven through only"
             remedy = "give the robot another place, or take pass out of the vertex"
             yield InputFault(place, f"{message} ({remedy})")
+        elif place[0] == "stops":
+            yield from find_heading_faults(place, vertex, roadmap)
     has_walls = roadmap.grid is not None and any(
         edge_class.max_radius is not None for edge_class in roadmap.edge_classes
     )

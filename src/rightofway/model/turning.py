@@ -13,13 +13,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.errors import InputError, quote
 from rightofway.model.units import Clock, Tick
-from rightofway.site import Roadmap
+from rightofway.site import Roadmap, VertexId
 
 ANGLE_STEP = Fraction(1, 10**6)
 """Angles are rounded to this [degrees]."""
@@ -125,15 +126,49 @@ def compute_first_turns(
     if turning is None or heading is None:
         return ()
     first, end = roadmap.indptr[start : start + 2].tolist()
-    turns = []
-    for own in _list_exact_headings(roadmap)[first:end]:
-        if own is None or own == heading:
-            turns.append(Tick(0))
-            continue
-        angle = abs(own - heading) % 360
-        steps = round(min(angle, 360 - angle) / ANGLE_STEP)
-        turns.append(Tick(math.ceil(steps * ANGLE_STEP / turning.rate)))
-    return tuple(turns)
+    return tuple(
+        Tick(math.ceil(_count_steps(heading, own) * ANGLE_STEP / turning.rate))
+        for own in _list_exact_headings(roadmap)[first:end]
+    )
+
+
+def compute_stop_turn(
+    roadmap: Roadmap, turning: Turning | None, vertex: int, heading: Fraction | None
+) -> Tick:
+    """Return how much longer a robot turns at a vertex where it works in a heading [ticks].
+
+    It turns into the heading and then to the next edge. The result is the longest of these turns
+    without the turn from edge to edge, for any two edges at the vertex.
+
+    Parameters
+    ----------
+    roadmap
+        The roadmap.
+    turning
+        How the robot turns; None where that takes no time.
+    vertex
+        Where it works.
+    heading
+        From the x axis of the map's plane to its y axis, which points down [degrees]; None for any.
+    """
+    if turning is None or heading is None or VertexId(vertex) in roadmap.fixed:
+        return Tick(0)
+    headings, first = _list_exact_headings(roadmap), int(roadmap.indptr[vertex])
+    out = headings[first : int(roadmap.indptr[vertex + 1])]
+    into = [headings[edge] for edge in np.flatnonzero(roadmap.heads == vertex).tolist()]
+    detours = [
+        _count_steps(before, heading) + _count_steps(heading, after) - _count_steps(before, after)
+        for before, after in product(into, out)
+    ]
+    return Tick(math.ceil(max(detours, default=0) * ANGLE_STEP / turning.rate))
+
+
+def _count_steps(heading: Fraction | None, other: Fraction | None) -> int:
+    """Return the angle between two headings, the shorter way [1e-6 degrees]; 0 without one."""
+    if heading is None or other is None:
+        return 0
+    angle = abs(heading - other) % 360
+    return round(min(angle, 360 - angle) / ANGLE_STEP)
 
 
 @lru_cache(maxsize=4)
@@ -143,6 +178,28 @@ def _list_exact_headings(roadmap: Roadmap) -> list[Fraction | None]:
     known = {heading: Fraction(heading) for heading in set(headings)}
     pairs = zip(headings, has_heading, strict=True)
     return [known[heading] if is_known else None for heading, is_known in pairs]
+
+
+def find_heading_on_map(heading: Fraction | None, roadmap: Roadmap) -> Fraction | None:
+    """Return a heading on the site in the plane of the map, whose y axis points down [degrees]."""
+    if heading is None:
+        return None
+    turned = heading - _find_yaw(roadmap)
+    return (-turned if roadmap.frame.y_up else turned) % 360
+
+
+def find_heading_on_site(heading: Fraction | None, roadmap: Roadmap) -> Fraction | None:
+    """Return a heading in the plane of the map on the site, as states of robots have it [degrees].
+
+    It is the inverse of the binding of `RobotState.heading`.
+    """
+    if heading is None:
+        return None
+    return (_find_yaw(roadmap) + (-heading if roadmap.frame.y_up else heading)) % 360
+
+
+def _find_yaw(roadmap: Roadmap) -> Fraction:
+    return round(math.degrees(roadmap.frame.yaw) * ANGLE_STEP.denominator) * ANGLE_STEP
 
 
 @lru_cache(maxsize=4)

@@ -13,7 +13,7 @@ from rightofway.model.bind_work import Shift, get_state
 from rightofway.model.problem import HEAVIEST, scale_weights
 from rightofway.model.robot import Robot
 from rightofway.model.work import Job, JobStop, RobotState
-from rightofway.site import Roadmap
+from rightofway.site import Roadmap, VertexId
 from rightofway.units import write_decimal
 
 MAX_STOPS = 1_000_000
@@ -133,6 +133,26 @@ def _find_places(
             message = f"{roadmap.name(vertex)} is driven through only"
             remedy = "give another place, or take pass out of the vertex"
             yield InputFault(place, f"{message} ({remedy})")
+        elif where[0] == "stops":
+            yield from find_heading_faults(place, vertex, roadmap)
+
+
+def find_heading_faults(place: Where, vertex: int, roadmap: Roadmap) -> Iterator[InputFault]:
+    """Yield a place to work at that robots cannot come to in its heading.
+
+    Parameters
+    ----------
+    place
+        Where the scenario names it.
+    vertex
+        The vertex.
+    roadmap
+        The roadmap.
+    """
+    if headings := roadmap.unmet.get(VertexId(vertex)):
+        message = f"robots may not turn at {roadmap.name(vertex)}, where they work {headings}"
+        remedy = "let them turn there, give another heading, or draw a lane that ends in it"
+        yield InputFault(place, f"{message} ({remedy})")
 
 
 def _find_repeated_names(jobs: Sequence[Job]) -> Iterator[InputFault]:

@@ -52,12 +52,33 @@ def find_missing_ways(scenario: Scenario, stranded: Iterable[int]) -> Iterator[B
             kind, remedy = "one-way edges", "drive more both ways"
             if distances.to(head, opened)[tail] >= 0:
                 kind, values, remedy = _describe_barred(scenario, robot, tail, head)
+            elif _has_way_with_turns(scenario.roadmap, tail, head):
+                kind, remedy = "forbidden turns", "allow turns"
             elif opening := parts.find_opening(tail, head):
                 values = {"first": opening[0], "last": opening[1]}
                 kind, remedy = "one-way edge", "drive both ways"
             why = Fact(kind, **values)
             reason = Fact("no way of robot", robot=robot, tail=tail, head=head, why=why)
             yield Blockage(reason, (robot,), (tail, head), Fact(remedy))
+
+
+def _has_way_with_turns(roadmap: Roadmap, tail: VertexId, head: VertexId) -> bool:
+    """Return whether turns at vertices where robots may not turn would make a way."""
+    if not roadmap.fixed:
+        return False
+    tails = np.repeat(np.arange(roadmap.n_vertices), np.diff(roadmap.indptr)).tolist()
+    ways: dict[VertexId, list[VertexId]] = {}
+    for begin, end in zip(map(VertexId, tails), map(VertexId, roadmap.heads.tolist()), strict=True):
+        ways.setdefault(begin, []).append(end)
+        if end in roadmap.fixed:  # a robot that turns there drives back
+            ways.setdefault(end, []).append(begin)
+    reached, ahead = {tail}, [tail]
+    while ahead:
+        for vertex in roadmap.list_copies(ahead.pop()):
+            new = {*ways.get(vertex, ()), *roadmap.list_copies(vertex)} - reached
+            reached |= new
+            ahead += new
+    return head in reached
 
 
 def _describe_barred(

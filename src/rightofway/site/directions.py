@@ -13,24 +13,26 @@ from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from math import atan2, degrees
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
 
-from rightofway.errors import InputError
+from rightofway.errors import InputError, join_names
 from rightofway.site.geometry import Point, VertexId
 from rightofway.site.roadmap import Lane, Roadmap
 from rightofway.site.zones import Zone
+from rightofway.units import write_decimal
 
 MOST_BEND = 90
 """A robot that may not turn follows lanes whose headings differ by this at most, after rounding to
 whole degrees: it drives round a corner, and does not reverse."""
 
-END = "/end"
-"""The name of a vertex for robots that come along a lane is that of the lane with this suffix."""
-
 MICRO = 10**6
 """Headings of edges are rounded to this part of a degree."""
+
+END = "/end"
+"""The name of a vertex for robots that come along a lane is that of the lane with this suffix."""
 
 Ends = tuple[str, str]
 """The names of tail and head."""
@@ -117,6 +119,7 @@ class _Split:
         self.drawn = [*range(self.roadmap.n_vertices)]
         self.labels = [*map(self.roadmap.name, self.drawn)]
         self.fixed = set[VertexId]()
+        self.unmet = dict[VertexId, str]()
 
     def split_vertex(self, vertex: int) -> None:
         """Split a vertex by the lanes that robots may follow, and by their heading."""
@@ -133,6 +136,8 @@ class _Split:
         in_order = sorted(
             ways.items(), key=lambda item: (-item[0][0], -len(item[0][1]), -len(item[1]), item[1])
         )
+        if not in_order[0][0][0]:
+            self.unmet[VertexId(vertex)] = drives.describe_headings(vertex)
         for edge in drives.out[vertex]:
             self.tails[edge] = []
         for number, ((_, after, is_fixed), before) in enumerate(in_order):
@@ -160,12 +165,14 @@ class _Split:
         tails, edges = np.array(rows, np.int64).reshape(-1, 2).T
         counts = np.bincount(tails, minlength=len(self.drawn))
         drawn = np.array(self.drawn, np.int64)
+        used, kinds = np.unique(roadmap.class_of_edge[edges], return_inverse=True)
         new = {VertexId(copy): VertexId(of) for copy, of in enumerate(self.drawn[n:], n)}
         return replace(
             roadmap,
             indptr=np.concatenate(([0], np.cumsum(counts))).astype(np.int32),
             heads=np.array(self.heads, np.int32)[edges],
-            class_of_edge=roadmap.class_of_edge[edges],
+            class_of_edge=kinds.astype(np.int32),
+            edge_classes=tuple(roadmap.edge_classes[kind] for kind in used.tolist()),
             positions=roadmap.positions[drawn],
             fractions={at: roadmap.fractions[of] for at, of in enumerate(self.drawn)
                        if of in roadmap.fractions},
@@ -174,10 +181,13 @@ class _Split:
             barred_vertices={VertexId(at): roadmap.barred_vertices[VertexId(of)]
                              for at, of in enumerate(self.drawn)
                              if of in roadmap.barred_vertices},
-            zones=tuple(map(self._split_zone, roadmap.zones)),
-            lanes=tuple(own for lane in roadmap.lanes for own in self._split_lane(lane)),
+            zones=tuple(zone for zone in map(self._split_zone, roadmap.zones)
+                        if zone.vertices or zone.edges),
+            lanes=tuple(sorted((own for lane in roadmap.lanes for own in self._split_lane(lane)),
+                               key=attrgetter("vertices"))),
             originals={**known, **{copy: known.get(of, of) for copy, of in new.items()}},
             fixed=frozenset(self.fixed),
+            unmet=self.unmet,
         )  # fmt: skip
 
     def _split_zone(self, zone: Zone) -> Zone:
@@ -201,18 +211,27 @@ class _Split:
         return [(VertexId(tail), head) for tail in self.tails[edge]]
 
 
+def list_named_copies(names: Collection[str]) -> dict[str, list[str]]:
+    """Return the names of vertices for further directions, by the vertices they may stand for.
+
+    The names of the ends of lanes may have dashes, too.
+    """
+    copies: dict[str, list[str]] = {}
+    for name in names:
+        for dash in re.finditer("-", name) if name.endswith(END) else ():
+            copies.setdefault(name[dash.end() : -len(END)], []).append(name)
+    return copies
+
+
 def _find_known(roadmap: Roadmap) -> dict[VertexId, VertexId]:
     """Return the vertices of directions that a file has, from their names and positions."""
-    ids = {name: vertex for vertex, name in enumerate(roadmap.labels or ())}
-    known: dict[VertexId, VertexId] = {}
-    ends = [(name.removesuffix(END), name) for name in ids if name.endswith(END)]
-    for lane, name in ends:
-        vertex = ids[name]
-        for dash in re.finditer("-", lane):  # the names of the ends may have dashes, too
-            of = ids.get(lane[dash.end() :])
-            if of is not None and roadmap.get_point(of) == roadmap.get_point(vertex):
-                known[VertexId(vertex)] = VertexId(of)
-    return known
+    ids = {name: VertexId(vertex) for vertex, name in enumerate(roadmap.labels or ())}
+    return {
+        ids[copy]: ids[name]
+        for name, copies in list_named_copies(ids).items()
+        for copy in copies
+        if name in ids and roadmap.get_point(ids[name]) == roadmap.get_point(ids[copy])
+    }
 
 
 class _Drives:
@@ -263,6 +282,14 @@ class _Drives:
         """Return whether robots come along an edge in the heading of a vertex; True for any."""
         heading = self.directions.headings.get(self.roadmap.name(vertex))
         return measure_angle(self._measure_heading(edge, 1), heading) == 0
+
+    def describe_headings(self, vertex: int) -> str:
+        """Return the heading of a vertex, and those in which lanes end there, as text."""
+        own = self.directions.headings[self.roadmap.name(vertex)]
+        headings = (self._measure_heading(edge, 1) for edge in self.into[vertex])
+        known = sorted({heading % 360 for heading in headings if heading is not None})
+        ends = list(map(write_decimal, known))
+        return f"in heading {write_decimal(own)}, and lanes end there in {join_names(ends)}"
 
     def name_end(self, edge: int) -> str:
         """Return the name of the vertex for robots that come along an edge."""

@@ -204,6 +204,9 @@ class Roadmap:
         vertex (`site.directions`). All are one place, which holds one robot.
     fixed
         The vertices at which robots may not turn.
+    unmet
+        Vertices where robots work in a heading in which no lane ends, and may not turn: which
+        headings these are, for people. No robot works there.
     """
 
     indptr: NDArray[np.int32]
@@ -224,6 +227,7 @@ class Roadmap:
     passing: Passing | None = None
     originals: Mapping[VertexId, VertexId] = field(default_factory=dict)
     fixed: frozenset[VertexId] = frozenset()
+    unmet: Mapping[VertexId, str] = field(default_factory=dict)
     drawn_sides: NDArray[np.float64] = field(init=False, repr=False)
     opposite: Mapping[VertexId, VertexId] = field(init=False, repr=False)
     _ids: Mapping[str, int] = field(init=False, repr=False)

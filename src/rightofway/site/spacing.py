@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from itertools import pairwise
+from itertools import pairwise, product
 from math import ceil, dist
 from typing import NamedTuple
 
@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from rightofway.deadline import limit_loop
 from rightofway.errors import InputError, quote
 from rightofway.facts import Fact
+from rightofway.site.directions import list_named_copies
 from rightofway.site.edges import Edge, EdgeTable, tabulate_edges
 from rightofway.site.geometry import (
     COARSE,
@@ -425,14 +426,17 @@ def find_pieces(
     for name in names:
         if piece := PIECE.fullmatch(name):
             joints.setdefault(piece[1], []).append(name)
+    copies = list_named_copies(names)
     pieces: dict[tuple[str, str], list[tuple[str, str]]] = {}
     for lane, unsorted_joints in joints.items():
         inside = [f"{lane}/{k + 1}" for k in range(len(unsorted_joints))]
         if set(inside) != set(unsorted_joints):
             continue
         for dash in re.finditer("-", lane):  # the names of the ends may have dashes, too
-            in_order = [lane[: dash.start()], *inside, lane[dash.end() :]]
-            for directed in (in_order, in_order[::-1]):
-                if all(piece in edges for piece in pairwise(directed)):
-                    pieces[directed[0], directed[-1]] = list(pairwise(directed))
+            ends = lane[: dash.start()], lane[dash.end() :]
+            for begin, end in product(*([name, *copies.get(name, ())] for name in ends)):
+                in_order = [begin, *inside, end]
+                for directed in (in_order, in_order[::-1]):
+                    if all(piece in edges for piece in pairwise(directed)):
+                        pieces[directed[0], directed[-1]] = list(pairwise(directed))
     return pieces
