@@ -26,6 +26,10 @@ def test_each_stop_is_done_once_and_a_job_that_nobody_does_has_a_reason(kind: st
         ("arrive, all", 207),  # a robot was placed while a round was under way
         ("arrive, cancels", 219),  # a job had changed before a kill
         ("arrive, resets", 205),
+        ("arrive, all", 730020),  # a robot was placed after a job had changed
+        ("floor, all", 0),  # a kept part led into what is closed for good
+        ("floor, all", 15),  # a robot was placed while another one was in a chain
+        ("floor, all", 720001),  # an order was withdrawn in a chain
         ("arrive, wrong fields", 326),  # a withdrawn stop came before one that was asked for
     ],
 )

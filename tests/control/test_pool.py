@@ -543,6 +543,24 @@ def test_a_robot_is_placed_while_a_round_is_under_way_whose_plan_is_dropped() ->
     assert shift.pool.left == dict.fromkeys(("A1", "J1", "J2", "J3"), "done")
 
 
+def test_a_job_that_has_changed_before_a_robot_is_placed_is_done_as_it_is_now() -> None:
+    """R1 waits at N0 for two stops there; then the job has one, at N2."""
+    document = floor_document()
+    stops = [{"at": "N0", "earliest": 30}, {"at": "N0"}]
+    document["jobs"] = [{"name": "J1", "stops": stops, "robot": "R1"}]
+    rounds = SlowRounds()
+    shift = Shift(rightofway.solve(parse_scenario(document), "prioritized"), rounds=rounds)
+    shift.drive(2)
+    shift.ask("change", name="J1", stops=[{"at": "N2"}])
+    shift.ask("remove", name="R2")
+    shift.floor.robots[1].forget()
+    shift.ask("place", name="R2", at="N4")
+    rounds.is_ready = True
+    shift.drive(60)
+    assert shift.list_done() == ["J1/0"]
+    assert shift.pool.left == {"J1": "done"}
+
+
 def test_times_of_day_of_jobs_are_the_next_ones() -> None:
     document = {**floor_document(), "start": "2026-11-28T06:00"}
     shift = Shift(rightofway.solve(parse_scenario(document), "prioritized"))

@@ -15,6 +15,7 @@ __all__ = [
     "RobotCommitment",
     "begin_at_stop",
     "find_last_open",
+    "leave_out_unsent",
     "list_stops_to_make",
     "make_robot_commitment",
 ]
@@ -81,6 +82,24 @@ def begin_at_stop(own: RobotLedger, may_stop: Callable[[str], bool]) -> RobotLed
     while visit > own.route.first and not may_stop(own.route.get_place(visit)):
         visit -= 1
     return own if visit == own.arrived else replace(own, arrived=visit)
+
+
+def leave_out_unsent(own: RobotLedger, last: int) -> RobotLedger:
+    """Return a robot without the work at the end of what it keeps that no order has yet.
+
+    Parameters
+    ----------
+    own
+        What is known of it.
+    last
+        The last visit that it keeps.
+    """
+    route, index = own.route, last - own.route.first
+    rows = zip(route.jobs[index], route.work[index], strict=True)
+    sent = [(item, ticks) for item, ticks in rows if own.is_sent(item)]
+    jobs = (*route.jobs[:index], tuple(item for item, _ in sent), *route.jobs[index + 1 :])
+    work = (*route.work[:index], tuple(ticks for _, ticks in sent), *route.work[index + 1 :])
+    return replace(own, route=replace(route, jobs=jobs, work=work))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

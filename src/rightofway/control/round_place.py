@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from rightofway.control.commitments import leave_out_unsent
 from rightofway.control.laps import build_graph_behind_released
 from rightofway.control.ledger import Ledger
 from rightofway.control.round_floor import put_at_stop
@@ -63,16 +64,17 @@ def make_routes_to_stand(
 ) -> tuple[list[RouteToDrive], ReleaseGraph]:
     """Return routes that end with what is released, and that of a robot that stands at a place.
 
+    Work that no order has yet is left to the next round: its job may have changed.
+
     Parameters
     ----------
     scenario, ledger, committed, robot, place
         As for `refuse_place`.
     """
-    at_stops = [put_at_stop(scenario.roadmap, own) for own in ledger.robots]
-    routes = [
-        own.route.cut_before(own.arrived).cut_after(last)
-        for own, last in zip(at_stops, committed, strict=True)
-    ]
+    routes = []
+    for own, last in zip(ledger.robots, committed, strict=True):
+        kept = leave_out_unsent(put_at_stop(scenario.roadmap, own), last)
+        routes.append(kept.route.cut_before(kept.arrived).cut_after(last))
     before = ledger.robots[robot].route
     routes[robot] = replace(
         make_route_from(before, place),

@@ -11,7 +11,11 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from rightofway.control.batteries import FleetBatteries, follow_charge
-from rightofway.control.commitments import RobotCommitment, make_robot_commitment
+from rightofway.control.commitments import (
+    RobotCommitment,
+    leave_out_unsent,
+    make_robot_commitment,
+)
 from rightofway.control.ledger import Edge, Ledger
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.round_floor import (
@@ -155,7 +159,7 @@ def view_fleet(
     caps = {k: (kept_parts[k], sum(map(_is_kept_item, items[k]))) for k in present}
     expected, expected_ends = forecast_kept_parts(floor, caps, now, takeover)
     for robot in present:
-        own = _leave_out_unsent(put_at_stop(roadmap, ledger.robots[robot]), kept_parts[robot])
+        own = leave_out_unsent(put_at_stop(roadmap, ledger.robots[robot]), kept_parts[robot])
         commitment = make_robot_commitment(scenario, robot, own, kept_parts[robot])
         begun = {
             name: _count_begun(job, own, commitment.route)
@@ -242,16 +246,6 @@ def _count_begun(job: PooledJob, own: RobotLedger, kept_parts: RouteToDrive) -> 
     items = (item for names in kept_parts.jobs for item in names if own.is_sent(item))
     stops = [stop[1] + 1 for item in items if (stop := find_stop(item)) and stop[0] == job.job.name]
     return max(job.done, *stops, 0)
-
-
-def _leave_out_unsent(own: RobotLedger, kept_parts: int) -> RobotLedger:
-    """Return a robot without the work at the end of what it keeps that no order has yet."""
-    route, index = own.route, kept_parts - own.route.first
-    rows = zip(route.jobs[index], route.work[index], strict=True)
-    sent = [(item, ticks) for item, ticks in rows if own.is_sent(item)]
-    jobs = (*route.jobs[:index], tuple(item for item, _ in sent), *route.jobs[index + 1 :])
-    work = (*route.work[:index], tuple(ticks for _, ticks in sent), *route.work[index + 1 :])
-    return replace(own, route=replace(route, jobs=jobs, work=work))
 
 
 def make_routes_of_round(
