@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from rightofway.control.journal import SqliteJournal
 from tests.cli.conftest import Cli
 
 
@@ -49,6 +50,25 @@ def test_the_contract_for_programs_is_kept(cli: Cli, plan: Path) -> None:
     assert [robot["name"] for robot in data["robots"]] == ["R1", "R2"]
     assert {"jobs", "waits", "planned", "completion"} <= set(data["robots"][0])
     assert set(data["messages"]) == {"order", "instantActions", "state"}
+
+
+def test_the_report_of_a_journal_is_that_of_its_drive(cli: Cli, plan: Path) -> None:
+    """Only the number of messages is not in the journal."""
+    options = ("--journal", "late.journal")
+    driven = cli("drive", plan, *DEMO, *options, "--delays", "stop:R2@2+6").out
+    report = cli("drive", plan, "--report", *options).out
+    assert "messages" in driven.partition("\n\n")[0]
+    assert "messages" not in report
+    assert report.partition("\n\n")[2] == driven.partition("\n\n")[2]
+    data = json.loads(cli("drive", plan, "--report", *options, "--json").out)
+    assert [robot["completion"] for robot in data["robots"]] == [18, 16]
+
+
+def test_an_empty_journal_has_no_report(cli: Cli, plan: Path, tmp_path: Path) -> None:
+    SqliteJournal(tmp_path / "empty.journal").close()
+    ended = cli("drive", plan, "--report", "--journal", tmp_path / "empty.journal")
+    assert (ended.code, ended.out) == (2, "")
+    assert "has no robots yet" in ended.err
 
 
 def test_quiet_leaves_the_result_for_programs_only(cli: Cli, plan: Path) -> None:

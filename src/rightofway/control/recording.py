@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
+from rightofway.control.job_events import list_driven_jobs
 from rightofway.control.journal import Entry, JournalRow
 from rightofway.control.ledger import Ledger, refuse_entry
 from rightofway.control.notices import EVERY_KIND
@@ -19,8 +20,9 @@ from rightofway.control.routes import RouteToDrive
 from rightofway.control.story import Story
 from rightofway.control.work_items import find_charge_step, find_stop
 from rightofway.errors import InputError, quote
+from rightofway.execution.drive_result import DriveResult
 from rightofway.facts import Fact, read_fact
-from rightofway.model import Plan
+from rightofway.model import Plan, Tick
 from rightofway.report.facts import FactWriter
 from rightofway.report.phrases import to_parts
 from rightofway.viz.page.schema import DrivenFrame, DrivenRow, SaysRow
@@ -105,6 +107,7 @@ class Recording:
         self._story: Story | None = None
         self._shown: list[_Shown] = []
         self._general = _Shown()  # what is about no robot
+        self._ends: dict[int, Tick] = {}  # when robots came to the end of their routes
         self._told: dict[int, Any] = {}  # the last sentence on each robot
         self._rows: list[DrivenRow] = []
         self._first = 0  # the number of the first row that is kept
@@ -134,6 +137,30 @@ class Recording:
         self.now = max(self.now, self._convert_to_tick(self._get_present()))
         if len(self._rows) > MAX_ROWS:
             self._begin_again()
+
+    @property
+    def result(self) -> DriveResult:
+        """The result until now; the journal has no messages, and waits since its last snapshot."""
+        if not self._ledger.robots:
+            raise InputError.at("journal", "has no robots yet (drive the plan with it)")
+        robots, now = self._ledger.robots, Tick(int(self.now))
+        ends = tuple(map(self._ends.get, range(len(robots))))
+        scenario = self._plan.scenario
+        has_laps = any(  # more than those of the plan
+            own.count_laps() > (robot.laps or scenario.rules.laps)
+            for own, robot in zip(robots, scenario.robots, strict=True)
+        )
+        return DriveResult(
+            plan=self._plan,
+            trace=None,
+            completion=None if has_laps else ends,
+            jobs=self._ledger.count_jobs(),
+            ended=list_driven_jobs(self._plan, self._ledger, now),
+            laps=tuple(own.laps_done for own in robots),
+            now=now,
+            waits=tuple(self._story.waits) if self._story else (0,) * len(robots),
+            messages={},
+        )
 
     def take_frame(self, after: int = 0) -> DrivenFrame:
         """Return the rows after a number of rows.
@@ -191,6 +218,8 @@ class Recording:
                 says: SaysRow = (tick, robot, "says", kind, self._write(fact), list(others))
                 self._rows.append(says)
                 self._shown[robot].wait = says if kind == "wait" else None
+                self._ends.pop(robot, None)
+                self._ends |= {robot: Tick(int(tick))} if kind == "end" else {}
 
     def _apply(self, row: JournalRow, tick: float) -> Iterable[int]:
         """Take in an entry; return the robots of which it may say something."""

@@ -54,6 +54,8 @@ def _list_totals(result: DriveResult, quantities: Quantities) -> Iterator[tuple[
         )
         yield "makespan", text
     sent = result.messages
+    if not sent:
+        return
     messages = (
         say_count(sent.get("order", 0), "order", "orders"),
         say_count(sent.get("instantActions", 0), "instant action", "instant actions"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
@@ -54,6 +54,7 @@ Examples:
   rightofway drive plan.json --broker mqtt://hub --identities robots.yaml
   rightofway drive plan.json --demo --live
   rightofway drive plan.json --replay
+  rightofway drive plan.json --report
   rightofway drive plan.json --dry-run --identities robots.yaml
 """
 
@@ -95,6 +96,9 @@ def _count(_context: click.Context, _parameter: click.Parameter, given: str | No
 @click.option("--replay", is_flag=True,
               help="Drive no robots: serve the page of the journal of the plan, also while a"
               " control writes it; with --page, write the page to a file.")  # fmt: skip
+@click.option("--report", is_flag=True,
+              help="Drive nothing: print the report of what the journal of the plan has, also while"
+              " a control writes it.")  # fmt: skip
 @click.option("--live", is_flag=True,
               help="Serve a page that shows the robots and can hold them; after the drive it stays"
               " until Ctrl-C.")  # fmt: skip
@@ -138,6 +142,7 @@ def drive(
     journal: str | None,
     dry_run: bool,
     replay: bool,
+    report: bool,
     live: bool,
     host: str,
     port: int | None,
@@ -163,8 +168,8 @@ def drive(
     first have left it, never by the clock. A late robot makes others wait; nothing collides.
     Events go to standard error, the report to standard output. A PLAN of - is standard input.
     """
-    if [demo, login.broker is not None, dry_run, replay].count(True) != 1:
-        raise click.UsageError("give one of --broker, --demo, --dry-run and --replay")
+    if [demo, login.broker is not None, dry_run, replay, report].count(True) != 1:
+        raise click.UsageError("give one of --broker, --demo, --dry-run, --replay and --report")
     if laps is not None and page:
         raise click.UsageError("laps without end fill no page (leave out --page or --laps)")
     _refuse_combinations(
@@ -175,7 +180,7 @@ def drive(
         begins_otherwise=hold or bool(off),
         has_journal_name=journal is not None
         or plan != "-"
-        or not (replay or login.broker is not None),
+        or not (replay or report or login.broker is not None),
     )
     from rightofway.control.identities import load_identities
     from rightofway.control.names import find_robot
@@ -197,6 +202,8 @@ def drive(
     )
     if replay:
         return _write_replay(journal_file, output)
+    if report:
+        return _report_journal(journal_file, output)
     if login.broker is not None:
         from rightofway.control.command_line.service import Service
 
@@ -233,6 +240,18 @@ def _write_replay(journal: Path, output: Output) -> int:
         return 0
     with output.shown.serve(journal, takes_orders=False):
         output.shown.wait_for_interrupt()
+    return 0
+
+
+def _report_journal(journal: Path, output: Output) -> int:
+    """Print the report of a journal."""
+    from rightofway.control.journal import JournalReader
+    from rightofway.control.recording import Recording
+
+    with closing(JournalReader(journal)) as reader:
+        recording = Recording(output.shown.plan, reader)
+        recording.read_on()
+    output.report(recording.result)
     return 0
 
 
