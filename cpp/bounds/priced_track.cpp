@@ -13,16 +13,14 @@ std::size_t PricesOfPlace::from(Tick tick) const {
     return static_cast<std::size_t>(found - entries_.begin());
 }
 
-Tick PricesOfPlace::before(Tick tick) const {
-    const std::size_t k = from(tick);
-    return k == entries_.size() ? sum_ : entries_[k].before;
-}
-
 void PricesOfPlace::add_up() {
-    sum_ = 0;
-    for (Entry& entry : entries_) {
-        entry.before = sum_;
-        sum_ += entry.price;
+    ticks_.clear();
+    sums_.assign(1, 0);
+    for (const Entry& entry : entries_) {
+        if (entry.price > 0) {
+            ticks_.push_back(entry.tick);
+            sums_.push_back(sums_.back() + entry.price);
+        }
     }
 }
 
@@ -44,6 +42,27 @@ Prices::Prices(const Problem& problem) : vertices_(static_cast<std::size_t>(prob
         }
     }
 }
+
+// Sums of the prices before ticks that get later, each found from the one before.
+class Cursor {
+  public:
+    explicit Cursor(const PricesOfPlace& place) : ticks_(place.ticks()), sums_(place.sums()) {}
+
+    Tick before(Tick tick) {
+        if (k_ == 0) {
+            k_ = index(std::lower_bound(ticks_.begin(), ticks_.end(), tick) - ticks_.begin());
+        }
+        while (k_ < ticks_.size() && ticks_[k_] < tick) {
+            ++k_;
+        }
+        return sums_[k_];
+    }
+
+  private:
+    const std::vector<Tick>& ticks_;
+    const std::vector<Tick>& sums_;
+    std::size_t k_ = 0;
+};
 
 PricedSearch::PricedSearch(const Problem& problem) : problem_(problem) {}
 
@@ -95,9 +114,18 @@ bool PricedSearch::improve(RobotId robot, const Trip& trip, const Prices& prices
     origin_ = least;
     nodes_.clear();
     open_.clear();
-    first_.resize(trip.n_stages() * index(problem_.n_vertices()), none);
+    if (labels_.size() < trip.n_stages() * index(problem_.n_vertices())) {
+        labels_.resize(trip.n_stages() * index(problem_.n_vertices()));
+    }
     Poll poll(is_over);
-    push({0, 0, trip.home, -1, 0, none}, least_to_go(trip, 0, trip.home), prices.at(trip.home));
+    push({.enter = 0,
+          .g = 0,
+          .vertex = trip.home,
+          .edge = -1,
+          .stage = 0,
+          .parent = none,
+          .apart = -prices.at(trip.home).before(0)},
+         least_to_go(trip, 0, trip.home));
     std::int32_t best = none;
     Tick best_completion = 0;
     bool is_stopped = false;
@@ -129,9 +157,15 @@ bool PricedSearch::improve(RobotId robot, const Trip& trip, const Prices& prices
             if (node.stage + 1 < n_stages) {
                 const auto at = index(node.stage);
                 const Tick dwell = trip.stage_work[at] + trip.stage_turn[at];
-                const Tick g = node.g + weight_ * dwell + here.of(node.enter, node.enter + dwell);
-                push({node.enter + dwell, g, node.vertex, -1, node.stage + 1, top.node},
-                     least_to_go(trip, node.stage + 1, node.vertex), here);
+                const Tick enter = node.enter + dwell;
+                push({.enter = enter,
+                      .g = node.apart + weight_ * enter + here.before(enter),
+                      .vertex = node.vertex,
+                      .edge = -1,
+                      .stage = node.stage + 1,
+                      .parent = top.node,
+                      .apart = node.apart},
+                     least_to_go(trip, node.stage + 1, node.vertex));
             }
         }
         const Graph& graph = problem_.graph();
@@ -141,7 +175,7 @@ bool PricedSearch::improve(RobotId robot, const Trip& trip, const Prices& prices
         }
     }
     for (const std::size_t place : touched_) {
-        first_[place] = none;
+        labels_[place].clear();
     }
     touched_.clear();
     if (is_stopped) {
@@ -164,39 +198,44 @@ bool PricedSearch::improve(RobotId robot, const Trip& trip, const Prices& prices
     return true;
 }
 
-void PricedSearch::push(const Node& node, Tick h, const PricesOfPlace& prices) {
+void PricedSearch::push(const Node& node, Tick h) {
     if (h >= never || node.g + weight_ * h >= upper_) {
         return;
     }
     const std::size_t place = index(node.stage) * index(problem_.n_vertices()) + index(node.vertex);
     // A robot that is there earlier may wait: it is as good if it has paid no more beside that.
-    const Tick apart = node.g - weight_ * node.enter - prices.before(node.enter);
-    std::int32_t* link = &first_[place];
-    while (*link != none) {
-        Node& other = nodes_[index(*link)];
-        if (other.enter <= node.enter && other.apart <= apart) {
+    std::vector<Label>& labels = labels_[place];
+    auto first =
+        std::upper_bound(labels.begin(), labels.end(), node.enter,
+                         [](Tick enter, const Label& label) { return enter < label.enter; });
+    if (first != labels.begin()) {
+        if (std::prev(first)->apart <= node.apart) {
             return;
         }
-        if (other.enter >= node.enter && other.apart >= apart) {
-            other.is_worse = true;
-            *link = other.next;
-            continue;
-        }
-        link = &other.next;
+        first -= std::prev(first)->enter == node.enter ? 1 : 0;
     }
-    const auto id = static_cast<std::int32_t>(nodes_.size());
-    const bool is_first = first_[place] == none;
-    nodes_.push_back(node);
-    nodes_.back().apart = apart;
-    if (is_first) {
+    if (labels.empty()) {
         touched_.push_back(place);
     }
-    nodes_.back().next = first_[place];
-    first_[place] = id;
+    auto last = first;
+    for (; last != labels.end() && last->apart >= node.apart; ++last) {
+        nodes_[index(last->node)].is_worse = true;
+    }
+    const auto id = static_cast<std::int32_t>(nodes_.size());
+    const Label label{node.enter, node.apart, id};
+    if (first == last) {
+        labels.insert(first, label);
+    } else {
+        *first = label;
+        labels.erase(first + 1, last);
+    }
+    nodes_.push_back(node);
     open_.push(OpenList::key(node.g + weight_ * h - origin_, weight_ * h / parts_per_tick), id);
 }
 
-// Pushes the arrivals at the end of an edge.
+// Pushes the arrivals at the end of an edge. With `apart` of the node, what a later arrival has
+// paid is a sum of three: the prices before it here, less those before its booking there, plus that
+// of the lane. Cursors follow these sums as arrivals get later.
 void PricedSearch::drive(const Trip& trip, const Prices& prices, std::int32_t from, EdgeId edge) {
     const Node node = nodes_[index(from)];
     const Tick drive = problem_.drive(robot_, edge);
@@ -208,45 +247,44 @@ void PricedSearch::drive(const Trip& trip, const Prices& prices, std::int32_t fr
     if (h >= never) {
         return;
     }
-    const PricesOfPlace& here = prices.at(node.vertex);
-    const PricesOfPlace& there = prices.at(head);
-    const Tick surcharge = problem_.surcharge(edge) * weight_;
+    const Tick fixed = node.apart + problem_.surcharge(edge) * weight_;
     const Tick approach = problem_.approach(drive);
-    const auto arrive = [&](Tick leave) {
-        const Tick enter = leave + drive;
-        Tick g = node.g + weight_ * (enter - node.enter) + surcharge + here.of(node.enter, enter) +
-                 there.of(enter - approach, enter);
-        if (prices.has_lanes()) {
-            g += prices.along(edge).of(enter, enter + 1);
+    // Arrivals right after priced ticks of a place, each tick plus `delay`, from the first one on.
+    const auto arrive = [&](const PricesOfPlace& avoided, Tick delay) {
+        Cursor here(prices.at(node.vertex));
+        Cursor there(prices.at(head));
+        Cursor booked(prices.at(head));
+        Tick least = never;
+        Tick enter = node.enter + drive;
+        for (std::size_t k = avoided.priced_from(enter - delay + 1);; ++k) {
+            const Tick paid = fixed + here.before(enter);
+            if (paid + weight_ * (enter + h) >= upper_) {
+                return;  // later arrivals cost no less
+            }
+            Tick apart = paid - booked.before(enter - approach);
+            if (prices.has_lanes()) {
+                apart += prices.along(edge).of(enter, enter + 1);
+            }
+            if (apart < least) {
+                least = apart;
+                push({.enter = enter,
+                      .g = apart + weight_ * enter + there.before(enter),
+                      .vertex = head,
+                      .edge = edge,
+                      .stage = node.stage,
+                      .parent = from,
+                      .apart = apart},
+                     h);
+            }
+            if (k >= avoided.ticks().size()) {
+                return;
+            }
+            enter = avoided.ticks()[k] + delay;
         }
-        push({enter, g, head, edge, node.stage, from}, h, there);
     };
-    const auto is_too_late = [&](Tick leave) {
-        return node.g + weight_ * (leave + drive - node.enter + h) + surcharge >= upper_;
-    };
-    arrive(node.enter);
-    const Tick lead = drive - approach;  // from leaving here to booking there
-    for (std::size_t k = there.from(node.enter + lead); k < there.entries().size(); ++k) {
-        const Tick leave = there.entries()[k].tick + 1 - lead;
-        if (is_too_late(leave)) {
-            break;
-        }
-        if (there.entries()[k].price > 0) {
-            arrive(leave);
-        }
-    }
-    if (!prices.has_lanes()) {
-        return;
-    }
-    const PricesOfPlace& lane = prices.along(edge);
-    for (std::size_t k = lane.from(node.enter + drive); k < lane.entries().size(); ++k) {
-        const Tick leave = lane.entries()[k].tick + 1 - drive;
-        if (is_too_late(leave)) {
-            break;
-        }
-        if (lane.entries()[k].price > 0) {
-            arrive(leave);
-        }
+    arrive(prices.at(head), 1 + approach);
+    if (prices.has_lanes() && !prices.along(edge).ticks().empty()) {
+        arrive(prices.along(edge), 1);
     }
 }
 

@@ -6,10 +6,9 @@
 // other wait can take place in the next vertex at no higher price.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "core/open_list.hpp"
@@ -28,7 +27,6 @@ class PricesOfPlace {
     struct Entry {
         Tick tick;
         Tick price = 0;
-        Tick before = 0;     // the sum of the prices of earlier ticks
         double mean = 0;     // of how many robots too many there were, recent ones first
         std::int32_t n = 0;  // how many robots are there
     };
@@ -37,15 +35,24 @@ class PricesOfPlace {
     const std::vector<Entry>& entries() const { return entries_; }
     // The first entry at a tick or later.
     std::size_t from(Tick tick) const;
+    // The ticks that have a price, in order; the sums of the prices before each, and of all.
+    const std::vector<Tick>& ticks() const { return ticks_; }
+    const std::vector<Tick>& sums() const { return sums_; }
+    // The first priced tick at a tick or later.
+    std::size_t priced_from(Tick tick) const {
+        return index(std::lower_bound(ticks_.begin(), ticks_.end(), tick) - ticks_.begin());
+    }
     // The sum of the prices of the ticks in [start, end).
     Tick of(Tick start, Tick end) const { return before(end) - before(start); }
     // The sum of the prices of all earlier ticks.
-    Tick before(Tick tick) const;
+    Tick before(Tick tick) const { return sums_[priced_from(tick)]; }
+    // After a change of entries: takes over their prices.
     void add_up();
 
   private:
     std::vector<Entry> entries_;  // by tick
-    Tick sum_ = 0;
+    std::vector<Tick> ticks_;
+    std::vector<Tick> sums_{0};
 };
 
 // Prices of vertices, and of lanes where two robots may swap.
@@ -104,19 +111,24 @@ class PricedSearch {
         EdgeId edge;
         std::int32_t stage;
         std::int32_t parent;
-        std::int32_t next = none;  // of the same stage and vertex
-        bool is_worse = false;     // than another one of the same stage and vertex
-        Tick apart = 0;            // what it has paid apart from waiting at its vertex
+        bool is_worse = false;  // than another one of the same stage and vertex
+        Tick apart = 0;         // what it has paid apart from waiting at its vertex
+    };
+    // A node of a stage and vertex that no other one is as good as.
+    struct Label {
+        Tick enter;
+        Tick apart;
+        std::int32_t node;
     };
 
-    void push(const Node& node, Tick h, const PricesOfPlace& prices);
+    void push(const Node& node, Tick h);
     void drive(const Trip& trip, const Prices& prices, std::int32_t from, EdgeId edge);
     Tick least_to_go(const Trip& trip, std::int32_t stage, VertexId vertex) const;
 
     const Problem& problem_;
     std::vector<Node> nodes_;
     OpenList open_;
-    std::vector<std::int32_t> first_;  // node by stage and vertex
+    std::vector<std::vector<Label>> labels_;  // by stage and vertex; later ones have paid less
     std::vector<std::size_t> touched_;
     std::vector<Tick> later_;  // what is to come after the way to each stage [ticks]
     RobotId robot_ = nobody;
