@@ -57,6 +57,22 @@ def test_more_steps_never_lower_the_bound_and_parts_are_as_good_as_one_run(
     assert before <= in_parts.bound == whole.bound
 
 
+@law(kinds, seeds)
+def test_no_bound_of_two_methods_in_turn_is_above_the_optimum_of_a_tiny_fleet(
+    kind: str, seed: int
+) -> None:
+    """The time limit lets both methods go on after their first turns."""
+    scenario = KINDS[kind](seed)
+    alone = compute_least_completions(scenario)
+    if alone is None or alone.min() < 0:
+        leave("a robot cannot reach its places")
+    least = least_cost(kind, scenario)
+    if least is None:
+        leave("no plan exists")
+    proof, is_reached = prove_bound(scenario, time_limit=0.05)
+    assert proof.bound == least if is_reached else proof.bound <= least
+
+
 @pytest.mark.parametrize("robots", [40, pytest.param(60, marks=pytest.mark.slow)])
 def test_prices_close_a_third_of_the_gap_of_a_full_floor(robots: int) -> None:
     """Random 20 x 20 grids of points of one speed."""
