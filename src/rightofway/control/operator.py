@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import pairwise
 from typing import Any
 
 from rightofway.control.commands import (
@@ -20,6 +19,7 @@ from rightofway.control.commands import (
     refuse_nameless,
 )
 from rightofway.control.commitments import list_stops_to_make
+from rightofway.control.detours import Detours, list_neighbours
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.fleet_control import UNSOUND
 from rightofway.control.job_commands import JobCommands, list_pooled_jobs
@@ -40,8 +40,6 @@ from rightofway.control.routes import make_route_from
 from rightofway.errors import GaveUp, InputError, describe_defect, escape_text, quote
 from rightofway.facts import Fact
 from rightofway.resume.rest_of_fleet import StopToMake
-from rightofway.search import Distances
-from rightofway.site import VertexId
 
 __all__ = ["OPERATIONS", "Operator"]
 
@@ -61,9 +59,6 @@ JOB_KINDS = frozenset({"list", "add", "change", "withdraw", "skip"})
 LONGEST_NAME = 40
 """Characters of the name of a person."""
 
-UNREACHABLE = 10**12
-"""More than any way [ticks]."""
-
 
 class Operator:
     """Carries out commands of people.
@@ -79,7 +74,7 @@ class Operator:
     def __init__(self, dispatcher: Dispatcher) -> None:
         self._dispatcher, self._scenario = dispatcher, dispatcher.plan.scenario
         self._ledger = dispatcher.ledger
-        self._distances = Distances(self._scenario.roadmap)
+        self._detours = Detours(self._scenario, self._ledger)
         self._number: int | None = None  # of the command under way, until it is committed
         self._jobs = None
         if dispatcher.rounds is not None:
@@ -329,37 +324,14 @@ class Operator:
         if after is not None:
             number, index = owner, 0 if place_of_job is None else place_of_job + 1
         else:
-            _, index, number = min(
-                (*self._measure_detour(number, stops[number], at), number) for number in on_floor
-            )
+            number, index = self._detours.find_least(on_floor, stops, at)
         job = f"job{robots[number].next_job}"
         stops[number].insert(index, StopToMake(at, job, work))
         name = f"{self._ledger.names[number]}/{job}"
         fact = Fact("only job added", job=name, place=at)
-        if neighbours := self._list_neighbours(number, stops[number], index):
+        if neighbours := list_neighbours(self._ledger, number, stops[number], index):
             fact = Fact("job added", job=name, place=at, neighbours=neighbours)
         return name, self._plan_rest(stops, fact=fact)
-
-    def _list_neighbours(
-        self, robot: int, stops: Sequence[StopToMake], index: int
-    ) -> tuple[Fact, ...]:
-        """Return the jobs of a robot before and after one of its stops."""
-        own, name = self._ledger.robots[robot], self._ledger.names[robot]
-        route = own.route
-        released = [
-            (route.get_place(visit), job)
-            for visit in range(own.arrived, own.released + 1)
-            for job in route.get_jobs(visit)
-            if job not in own.finished
-        ]
-        jobs_of_stops = [(stop.place, stop.job) for stop in stops if stop.job]
-        before = sum(bool(stop.job) for stop in stops[:index])
-        earlier, later = [*released, *jobs_of_stops[:before]], jobs_of_stops[before + 1 :]
-        return tuple(
-            Fact(kind, job=f"{name}/{job}", place=place)
-            for kind, rows in (("after job", earlier[-1:]), ("before job", later[:1]))
-            for place, job in rows
-        )
 
     def change_job(
         self, name: str, at: str | None = None, work: int | None = None
@@ -456,27 +428,6 @@ class Operator:
             message = f"{name} is driven through only (name a vertex without pass)"
             raise InputError.at("place", message)
         return vertex
-
-    def _measure_detour(self, robot: int, stops: Sequence[StopToMake], at: str) -> tuple[int, int]:
-        """Return how much longer a robot drives for a job at best, and before which stop."""
-        own, roadmap = self._ledger.robots[robot], self._scenario.roadmap
-        itinerary = self._scenario.problem.itineraries[robot]
-        stations = [
-            own.route.get_place(own.released),
-            *(stop.place for stop in stops),
-            own.route.places[-1],
-        ]
-        vertices = [roadmap.get_vertex(place) for place in stations]
-
-        def ticks(start: int, end: int) -> int:
-            to_end = self._distances.to(VertexId(end), itinerary.edge_ticks)[start]
-            return int(to_end) if to_end >= 0 else UNREACHABLE
-
-        vertex = roadmap.get_vertex(at)
-        return min(
-            (ticks(before, vertex) + ticks(vertex, after) - ticks(before, after), index)
-            for index, (before, after) in enumerate(pairwise(vertices))
-        )
 
     # --- places ----------------------------------------------------------------------------------
 
