@@ -224,7 +224,7 @@ class Crowding:
         Parameters
         ----------
         is_crowded
-            Whether many robots keep their old tours.
+            Whether many robots would keep their old tours.
         is_cut
             Whether tracks are cut.
         is_still

@@ -128,11 +128,6 @@ class _RoundPlan:
     reasons: tuple[Fact, ...] = ()
 
     @property
-    def is_hurried(self) -> bool:
-        """Whether many robots keep their old tours."""
-        return len(self.keeping) > HURRIED * len(self.later)
-
-    @property
     def is_still(self) -> bool:
         """Whether no robot has anything to do: then waiting helps nobody."""
         return not any(self.plan.scenario.tours or ())
@@ -206,7 +201,7 @@ class RoundPlanner:
         return replace(
             self._judge(view, given, drafted.plan),
             later=_list_later(given, drafted.later, len(view.robots)),
-            is_hurried=drafted.is_hurried,
+            is_hurried=len(drafted.keeping) > HURRIED * len(given.able),
             facts=_describe_kept(self._scenario, drafted),
         )
 
@@ -276,24 +271,21 @@ class RoundPlanner:
         lead = Tick(HORIZON_IN_LEADS * (view.takeover - view.now))
         tracks = [own.track for own in old]
         horizon = find_horizon(ends, lead) if may_stay_anywhere(given.scenario) else None
-        ahead, hurried = self._stops_ahead, None
+        ahead = self._stops_ahead
         for n_stops, until in self._crowding.list_attempts(ahead, horizon):
             cut = cut_tours(given.scenario, assignment, ends, n_stops, lead)
             start = list_same_tracks(cut.toured, old)
             routing = partial(find_routes, old=tracks, horizon=until, deadline=deadline, seed=seed)
-            planned = _find_routes(cut, assignment, start, items, routing)
-            is_hurried = planned is None or planned.is_hurried
-            is_still = planned is None or (planned.is_still and any(assignment.tours))
             may_cut, is_cut = horizon is not None and n_stops == ahead, until is not None
+            most = int(HURRIED * len(old)) if may_cut and not is_cut else len(old)
+            planned = _find_routes(cut, assignment, start, items, routing, most_keeping=most)
+            is_still = planned is None or (planned.is_still and any(assignment.tours))
             if may_cut:
-                self._crowding.note(is_crowded=is_hurried, is_cut=is_cut, is_still=is_still)
+                crowded = planned is None
+                self._crowding.note(is_crowded=crowded, is_cut=is_cut, is_still=is_still)
             if planned is None or (is_still and (planned.keeping or self._crowding.is_stuck)):
                 continue
-            if not may_cut or is_cut or not is_hurried:
-                return planned
-            hurried = planned
-        if hurried is not None:
-            return hurried
+            return planned
         left = deadline.measure_seconds_left()
         if left == 0:
             raise GaveUp(Fact("time over without a plan"))
@@ -577,8 +569,10 @@ def _find_routes(
     start: Sequence[Track | None],
     items: Sequence[tuple[Tour, Tour]],
     routing: partial[FoundRoutes],
+    *,
+    most_keeping: int,
 ) -> _RoundPlan | None:
-    """Return a plan that keeps the rules, if old tours of some robots make one possible."""
+    """Return a plan that keeps the rules, if old tours of so many robots make one possible."""
     keeping, reasons, horizon = frozenset[int](), list[Fact](), routing.keywords["horizon"]
     while True:
         routes = routing(cut.toured, start)
@@ -609,7 +603,7 @@ def _find_routes(
                 robot for fault in judged.faults if fault.kind in OF_BATTERIES
                 for robot in fault.robots
             )  # fmt: skip
-        if keeping.issuperset(wrong):
+        if keeping.issuperset(wrong) or len(keeping.union(wrong)) > most_keeping:
             return None
         keeping = keeping.union(wrong)
         reasons.append(reason)
