@@ -4,10 +4,10 @@ A plan of LaCAM is there in an instant, and far from the best. Planning one robo
 takes longer, and its plan is better as a rule. So the improvement begins with the plan of LaCAM,
 and takes over each better one.
 
-Where robots with speeds of their own have so little room that planning them one after another
-fails, they are planned at one pace: as robots of one speed, with the same order at each vertex
-afterwards. Steps of equal length need few states, so that the improvement at one pace is quick,
-and the order that it finds is better for the real robots, too.
+Where neither has a plan soon, robots with speeds of their own are planned at one pace: as robots of
+one speed, with the same order at each vertex afterwards. If planning one after another fails, that
+plan is improved at one pace. Steps of equal length need few states, so that this is quick, and the
+order that it finds is better for the real robots, too.
 """
 
 from __future__ import annotations
@@ -67,14 +67,18 @@ class Rival:
         self._searches = SEARCHES * len(self._order)
         self.is_over = not competes or len(self._order) > MOST_ROBOTS
         self.status: Status | None = None
+        self._paced: FleetSearch | None = None  # with a plan at one pace
 
     def begin(self) -> None:
         """Plan for a moment, which is enough for most fleets; then by quicker methods."""
         self.go_on(FIRST_TURN)
+        if not self._competes or (self.is_over and len(self._order) <= MOST_ROBOTS):
+            return
         left = self._request.deadline.shorten(SHARE_OF_GREEDY).measure_seconds_left()
-        if self._competes and (not self.is_over or len(self._order) > MOST_ROBOTS):
-            with self._watch(Status("in turn")):
-                self._search.hurry(self._order, searches=self._searches, time_limit=left)
+        with self._watch(Status("in turn")):
+            self._search.hurry(self._order, searches=self._searches, time_limit=left)
+        if self.status is None and _has_own_speeds(self._request.scenario):
+            self._plan_at_one_pace()
 
     def go_on(self, seconds: float = TURN) -> None:
         """Plan for a while; at one pace, if that has failed."""
@@ -88,36 +92,41 @@ class Rival:
         has_given_up = limit is None or time.perf_counter() - began < limit / 2
         self.is_over = has_ended or has_given_up
         has_failed = not has_ended and has_given_up and self._search.cost == before
-        if has_failed and _has_own_speeds(self._request.scenario):
-            with self._watch(Status("in turn at one pace")):
-                self._plan_at_one_pace()
+        if has_failed and _has_own_speeds(self._request.scenario) and self._plan_at_one_pace():
+            self._improve_at_one_pace()
 
-    def _plan_at_one_pace(self) -> None:
-        """Plan and improve at one pace, and take over each better plan."""
-        request = self._request
-        search = FleetSearch(make_paced(request.scenario).problem, seed=request.seed)
-        deadline = request.deadline.shorten(SHARE_AT_ONE_PACE)
+    def _plan_at_one_pace(self) -> bool:
+        """Plan one robot after another at one pace, once; return whether there is such a plan."""
+        if self._paced is None and len(self._order) <= MOST_ROBOTS:
+            problem = make_paced(self._request.scenario).problem
+            paced = FleetSearch(problem, seed=self._request.seed)
+            left = self._request.deadline.shorten(SHARE_AT_ONE_PACE).measure_seconds_left()
+            searches = SEARCHES_AT_ONE_PACE * len(self._order)
+            if paced.prioritize(self._order, searches=searches, time_limit=left):
+                self._paced = paced
+                self._take_order(paced)
+        return self._paced is not None
+
+    def _improve_at_one_pace(self) -> None:
+        """Improve the plan at one pace, and take over each better order."""
+        assert self._paced is not None, "there is a plan to improve"
+        deadline = self._request.deadline.shorten(SHARE_AT_ONE_PACE)
         left = deadline.measure_seconds_left()
-        searches = SEARCHES_AT_ONE_PACE * len(self._order)
-        if not search.prioritize(self._order, searches=searches, time_limit=left):
-            return
         tasks = TASKS_AT_ONE_PACE * len(self._order) if left is None else UNLIMITED
-        self._take_order(search)
         done = tasks
         while tasks > 0 and left != 0 and done > 0:
             pause = None if left is None else TURN
-            done = search.improve(tasks, patience=tasks, time_limit=left, pause=pause)
-            self._take_order(search)
+            done = self._paced.improve(tasks, patience=tasks, time_limit=left, pause=pause)
+            self._take_order(self._paced)
             tasks, left = tasks - done, deadline.measure_seconds_left()
 
     def _take_order(self, paced: FleetSearch) -> None:
         """Let robots of own speeds visit each vertex in the order of a plan at one pace."""
         tracks = build_timetable(self._request.scenario.problem, paced.list_tracks())
         assert tracks is not None, "what robots of one pace do in some order, others can do in it"
-        worth = self._request.measure_worth(tracks)
-        if worth < (self._search.value, self._search.cost):
-            self._search.start(tracks)
-            self._request.better(self._search.list_tracks)
+        if self._request.measure_worth(tracks) < (self._search.value, self._search.cost):
+            with self._watch(Status("in turn at one pace")):
+                self._search.start(tracks)
 
     @contextmanager
     def _watch(self, status: Status) -> Iterator[None]:
