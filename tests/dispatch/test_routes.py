@@ -8,8 +8,9 @@ from fractions import Fraction
 import pytest
 
 from rightofway.dispatch import FleetView, PlannedStep, PooledJob, RobotView, RoundPlanner, routes
+from rightofway.dispatch.horizon import cut_tours
 from rightofway.dispatch.view import StopsLater
-from rightofway.model import Job, JobStop, Tick, Track
+from rightofway.model import Assignment, Job, JobStop, Tick, TourItem, Track
 from rightofway.site import VertexId
 from tests.builders.shifts import make_scenario
 
@@ -17,9 +18,9 @@ HOMES = {"R1": "N0", "R2": "N4"}
 SCENARIO = make_scenario(["....."], HOMES, jobs=[], rules={"return": "none", "rotations": False})
 
 
-def make_job(name: str, at: int, robot: str | None = None) -> PooledJob:
+def make_job(name: str, at: int, robot: str | None = None, work: int = 0) -> PooledJob:
     """Return a job of one stop."""
-    stop = JobStop(at=VertexId(at), work=Fraction(0))
+    stop = JobStop(at=VertexId(at), work=Fraction(work))
     return PooledJob(job=Job(name=name, stops=(stop,), robot=robot), known=Tick(0))
 
 
@@ -136,6 +137,51 @@ def test_a_robot_whose_battery_would_not_last_waits_and_others_work() -> None:
     assert [[step.job for step in steps] for steps in planned.steps] == [[], ["J2"]]
     assert planned.later == ((("J1", 0),), ())
     assert "batteries" in str(planned.facts[0])
+
+
+def test_an_old_tour_that_is_kept_takes_as_long_at_its_stops_as_before() -> None:
+    # R1 works for 5 ticks at N2. Its battery does not last for J3, where R2 works until tick 90.
+    battery = {"tank": {"drive": "1/1000", "on": "1/100", "charge": "1/5", "reserve": "1/10"}}
+    scenario = make_scenario(
+        ["......"],
+        {"R1": {"home": "N0", "battery": "tank"}, "R2": {"home": "N5"}},
+        jobs=[],
+        rules={"turn": 0},
+        batteries=battery,
+        charging=["N0"],
+    )
+    jobs = {"J1": make_job("J1", 2, "R1", work=5), "J3": make_job("J3", 4, "R1")}
+    step = PlannedStep(visit=2, vertex=VertexId(2), begin=Tick(2), end=Tick(7), job="J1", stop=0)
+    works = RobotView(
+        kept_track=Track.of([0], [0]),
+        track=Track.of([0, 1, 2, 1, 0], [0, 1, 2, 8, 9]),
+        steps=(step,),
+    )
+    view = FleetView(
+        now=Tick(0), takeover=Tick(0), robots=(works, replace(look([4]), free=Tick(90)))
+    )
+    planned = RoundPlanner(scenario).plan(view, jobs, over={}, time_limit=None)
+    assert not planned.stands
+    assert [(step.job, step.end - step.begin) for step in planned.steps[0]] == [("J1", 5)]
+    assert planned.later[0] == (("J3", 0),)
+
+
+def test_no_tour_is_cut_before_a_charge() -> None:
+    jobs = [{"name": name, "at": place} for name, place in (("J1", "N1"), ("J2", "N2"))]
+    scenario = make_scenario(
+        ["....."],
+        {"R1": {"home": "N0", "battery": "tank"}},
+        jobs=jobs,
+        batteries={"tank": {"drive": "1/10", "charge": "1/5", "reserve": "1/10"}},
+        charging=["N3"],
+    )
+    stops = [TourItem(job=k, stop=0, vertex=VertexId(k + 1), duration=Tick(0)) for k in (0, 1)]
+    charge = TourItem(job=None, stop=None, vertex=VertexId(3), duration=Tick(2))
+    ends = [(Tick(1), Tick(3), Tick(4))]
+    for tour, n_before in (((stops[0], charge, stops[1]), 2), ((*stops, charge), 1)):
+        cut = cut_tours(scenario, Assignment(tours=(tour,)), ends, 1, Tick(0))
+        assert cut.toured.tours is not None
+        assert len(cut.toured.tours[0]) == n_before
 
 
 @pytest.mark.parametrize(("is_idle", "taker"), [(True, 1), (False, 0)])

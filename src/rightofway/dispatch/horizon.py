@@ -109,11 +109,20 @@ def cut_tours(
     for tour, own in zip(assignment.tours, ends, strict=True):
         cut = len(tour)
         if n_stops is not None and not any(job.after for job in work.jobs):
-            beyond = (k for k, end in enumerate(own, 1) if k >= n_stops and end >= least)
+            beyond = (
+                k
+                for k, end in enumerate(own, 1)
+                if k >= n_stops and end >= least and not _charges_next(tour[k:])
+            )
             cut = next(beyond, cut)
         firsts.append(tour[:cut])
         later.append(tour[cut:])
     return make_cut(scenario, firsts, later)
+
+
+def _charges_next(tour: Tour) -> bool:
+    """Whether a tour begins with a charge: a cut before it could leave the robot too low."""
+    return bool(tour) and tour[0].job is None and tour[0].duration > 0
 
 
 def cut_tracks(

@@ -573,31 +573,32 @@ def _find_routes(
     most_keeping: int,
 ) -> _RoundPlan | None:
     """Return a plan that keeps the rules, if old tours of so many robots make one possible."""
-    keeping, reasons, horizon = frozenset[int](), list[Fact](), routing.keywords["horizon"]
+    work, horizon = cut.toured.problem.work, routing.keywords["horizon"]
+    has_batteries = work is not None and any(robot.battery for robot in work.robots)
+    keeping, reasons = frozenset[int](), list[Fact]()
     while True:
-        routes = routing(cut.toured, start)
+        routes, found = routing(cut.toured, start), None
         wrong, reason = routes.left, Fact("no route in time")
-        tracks = [track for track in routes.tracks if track is not None]
-        if not wrong:
-            if horizon is not None:
-                cut, tracks = cut_tracks(cut, tracks, horizon)
-            in_tours = {
-                item.job for tour in (*(cut.toured.tours or ()), *cut.later) for item in tour
-            }
-            plan = Plan(
-                scenario=cut.toured,
-                tracks=wait_before_chains(cut.toured.problem, tracks),
-                run=PlannerRun(),
-                unserved=tuple(pair for pair in assignment.unserved if pair[0] not in in_tours),
-            )
-            judged = check(plan)
-            if (frozenset() if cut.is_whole else BEHIND_CUT).issuperset(judged.counts):
-                return _RoundPlan(
+        if routes.improve is not None:
+            # The search knows no batteries: its first tracks are judged while there is time for
+            # others, and stay the plan where a battery does not last for the improved ones.
+            for improves in (False, True) if has_batteries else (True,):
+                tracks = routes.improve() if improves else routes.tracks
+                ended = cut, [track for track in tracks if track is not None]
+                if horizon is not None:
+                    ended = cut_tracks(*ended, horizon)
+                plan = _join_plan(*ended, assignment)
+                judged = check(plan)
+                if not (frozenset() if ended[0].is_whole else BEHIND_CUT).issuperset(judged.counts):
+                    break
+                found = _RoundPlan(
                     plan=plan,
-                    later=cut.later,
+                    later=ended[0].later,
                     keeping=tuple(sorted(keeping)),
                     reasons=tuple(dict.fromkeys(reasons)),
                 )
+            if found is not None:
+                return found
             reason = Fact("batteries do not last")
             wrong = tuple(
                 robot for fault in judged.faults if fault.kind in OF_BATTERIES
@@ -610,6 +611,18 @@ def _find_routes(
         olds = routing.keywords["old"]
         start = [olds[k] if k in wrong else track for k, track in enumerate(routes.tracks)]
         cut = keep_old_tours(cut, items, keeping)
+
+
+def _join_plan(cut: CutTours, tracks: Sequence[Track], assignment: Assignment) -> Plan:
+    """Return the plan of tours that are cut."""
+    tours = (*(cut.toured.tours or ()), *cut.later)
+    assigned = {item.job for tour in tours for item in tour}
+    return Plan(
+        scenario=cut.toured,
+        tracks=wait_before_chains(cut.toured.problem, tracks),
+        run=PlannerRun(),
+        unserved=tuple(pair for pair in assignment.unserved if pair[0] not in assigned),
+    )
 
 
 def _describe_kept(scenario: Scenario, planned: _RoundPlan) -> tuple[Fact, ...]:

@@ -11,7 +11,7 @@ a robot can follow its old track to the horizon and drive on freely behind it.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from itertools import chain
 
@@ -63,10 +63,13 @@ class FoundRoutes:
         One for each robot.
     left
         The robots for whose tours no tracks were found: they have their old ones.
+    improve
+        Improves the tracks until the time is over, and returns them; None if robots are left.
     """
 
     tracks: tuple[Track | None, ...]
     left: tuple[int, ...] = ()
+    improve: Callable[[], tuple[Track, ...]] | None = None
 
 
 def find_routes(
@@ -78,7 +81,7 @@ def find_routes(
     deadline: Deadline,
     seed: int,
 ) -> FoundRoutes:
-    """Return improved tracks.
+    """Return the first tracks without conflicts, and how to improve them.
 
     Parameters
     ----------
@@ -116,11 +119,15 @@ def find_routes(
                 tracks=tuple(old[k] if k in left else track for k, track in enumerate(known)),
                 left=left,
             )
-    patience = PATIENCE * len(old)
-    search.improve(UNLIMITED, patience=patience, time_limit=judging.measure_seconds_left())
-    if toured.problem.closures is None:
-        search.retime()
-    return FoundRoutes(tracks=search.list_tracks())
+
+    def improve() -> tuple[Track, ...]:
+        patience = PATIENCE * len(old)
+        search.improve(UNLIMITED, patience=patience, time_limit=judging.measure_seconds_left())
+        if toured.problem.closures is None:
+            search.retime()
+        return search.list_tracks()
+
+    return FoundRoutes(tracks=search.list_tracks(), improve=improve)
 
 
 def list_same_tracks(toured: Scenario, old: Sequence[RobotView]) -> list[Track | None]:
@@ -161,22 +168,23 @@ def list_old_items(scenario: Scenario, own: RobotView) -> tuple[Tour, Tour]:
     own
         A robot, with the rest of the old plan.
     """
-    jobs = scenario.jobs or ()
-    index = {job.name: number for number, job in enumerate(jobs)}
+    work = scenario.problem.work
+    assert work is not None, "the scenario has jobs"
+    index = {job.name: number for number, job in enumerate(scenario.jobs or ())}
+
+    def make_item(name: str, stop: int) -> TourItem:
+        own = work.jobs[index[name]]
+        bound = own.stops[stop - own.first]
+        return TourItem(job=index[name], stop=stop, vertex=bound.vertex, duration=bound.work)
+
     ahead = (
-        TourItem(
-            job=None if step.job is None else index[step.job], stop=step.stop,
-            vertex=step.vertex, duration=step.least,
-        )
+        TourItem(job=None, stop=None, vertex=step.vertex, duration=step.least)
+        if step.job is None or step.stop is None
+        else make_item(step.job, step.stop)
         for step in own.steps
         if step.job is None or step.job in index
-    )  # fmt: skip
-    behind = (
-        TourItem(job=index[job], stop=stop, vertex=jobs[index[job]].stops[stop].at,
-                 duration=Tick(0))
-        for job, stop in own.later
-        if job in index
-    )  # fmt: skip
+    )
+    behind = (make_item(name, stop) for name, stop in own.later if name in index)
     return tuple(ahead), tuple(behind)
 
 
