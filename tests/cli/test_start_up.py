@@ -80,7 +80,18 @@ def test_a_plan_needs_only_what_reads_and_plans(tmp_path: Path) -> None:
     plan = str(tmp_path / "door.json")
     loaded = imported_by("plan", str(EXAMPLES / "door.yaml"), "-o", plan)
     assert not loaded & HEAVY
-    unused = ("viz", "studio", "io.layouts", "io.foreign", "io.scenario.league")
+    unused = (
+        *("control", "cyclic", "dispatch", "execution", "fleet_builder", "studio", "viz"),
+        *(
+            "io.foreign",
+            "io.layouts",
+            "io.orders",
+            "io.scenario.league",
+            "io.tables",
+            "io.workbook",
+        ),
+        *("metrics.inspection", "metrics.named_collisions", "metrics.near_misses"),
+    )
     prefixes = tuple(f"rightofway.{room}" for room in unused)
     assert not {name for name in loaded if name.startswith(prefixes)}
 
