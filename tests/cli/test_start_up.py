@@ -82,15 +82,8 @@ def test_a_plan_needs_only_what_reads_and_plans(tmp_path: Path) -> None:
     assert not loaded & HEAVY
     unused = (
         *("control", "cyclic", "dispatch", "execution", "fleet_builder", "studio", "viz"),
-        *(
-            "io.foreign",
-            "io.layouts",
-            "io.orders",
-            "io.scenario.league",
-            "io.tables",
-            "io.workbook",
-        ),
-        *("metrics.inspection", "metrics.named_collisions", "metrics.near_misses"),
+        *("io.foreign", "io.layouts", "io.orders", "io.scenario.league", "io.tables"),
+        *("io.workbook", "metrics.inspection", "metrics.named_collisions"),
     )
     prefixes = tuple(f"rightofway.{room}" for room in unused)
     assert not {name for name in loaded if name.startswith(prefixes)}
