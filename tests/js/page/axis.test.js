@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { labelStep } from "../../../src/rightofway/viz/page/assets/timetable/axis.js";
+import { labelStep, paintAxis } from "../../../src/rightofway/viz/page/assets/timetable/axis.js";
 import { Quantities } from "../../../src/rightofway/viz/page/assets/language/quantities.js";
 
 /**
@@ -36,4 +36,31 @@ test("where ticks have marks, a label stands at one of them", () => {
 test("where no round time is a whole number of ticks, the ticks are round", () => {
   // 2 ticks of 7/11 are 14/11; 7 time units would be 11 ticks
   assert.deepEqual(labels([7, 11], null, 1.5, true), ["1.27", "2.55", "3.82"]);
+});
+
+test("the last label ends within the margin of the diagram", () => {
+  // labels of 60 pixels at 0, 100 and 200: the last one would end at 230, the margin ends at 212
+  /** @type {number[]} */
+  const middles = [];
+  const context = new Proxy(/** @type {any} */ ({}), {
+    get: (_, name) =>
+      name === "fillText"
+        ? (/** @type {string} */ _text, /** @type {number} */ x) => middles.push(x)
+        : () => ({ width: 60 }),
+    set: () => true,
+  });
+  const area = {
+    left: 0,
+    right: 200,
+    top: 0,
+    bottom: 9,
+    end: 20,
+    x: (/** @type {number} */ k) => 10 * k,
+  };
+  const quantities = new Quantities({ length: null, time: "s" }, [1, 1]);
+  const plan = { tick: { numerator: 1, denominator: 1 }, quantities };
+  const theme = { line: "", muted: "", font: () => "" };
+  const words = { time: (/** @type {string} */ exact) => exact };
+  paintAxis(context, .../** @type {[any, any, any, any]} */ ([area, plan, theme, words]));
+  assert.deepEqual(middles, [0, 100, 182]);
 });

@@ -7,6 +7,9 @@ import { JobMarks } from "../jobs/job_marks.js";
 /** @import { Shift } from "./shift.js" */
 /** @import { Theme } from "../drawing/theme.js" */
 
+/** The largest radius of the ring round a place, which the margin of a map has room for [pixels]. */
+const WIDEST = 28;
+
 /** Jobs of a shift in other views: those that are not begun on the map, and where robots waited longest. */
 export class ShiftMarks extends JobMarks {
   /**
@@ -47,7 +50,8 @@ export class ShiftMarks extends JobMarks {
     ]) {
       context.strokeStyle = colour;
       context.lineWidth = width / scale;
-      ring(context, x[first[0]], y[first[0]], Math.max(0.7, 13 / scale));
+      const radius = Math.min(Math.max(0.7, 13 / scale), WIDEST / scale);
+      ring(context, x[first[0]], y[first[0]], radius);
     }
   }
 
