@@ -139,17 +139,6 @@ def compute_stop_turn(
 
     It turns into the heading and then to the next edge. The result is the longest of these turns
     without the turn from edge to edge, for any two edges at the vertex.
-
-    Parameters
-    ----------
-    roadmap
-        The roadmap.
-    turning
-        How the robot turns; None where that takes no time.
-    vertex
-        Where it works.
-    heading
-        From the x axis of the map's plane to its y axis, which points down [degrees]; None for any.
     """
     if turning is None or heading is None or VertexId(vertex) in roadmap.fixed:
         return Tick(0)

@@ -138,17 +138,7 @@ def _find_places(
 
 
 def find_heading_faults(place: Where, vertex: int, roadmap: Roadmap) -> Iterator[InputFault]:
-    """Yield a place to work at that robots cannot come to in its heading.
-
-    Parameters
-    ----------
-    place
-        Where the scenario names it.
-    vertex
-        The vertex.
-    roadmap
-        The roadmap.
-    """
+    """Yield a place to work at that robots cannot come to in its heading."""
     if headings := roadmap.unmet.get(VertexId(vertex)):
         message = f"robots may not turn at {roadmap.name(vertex)}, where they work {headings}"
         remedy = "let them turn there, give another heading, or draw a lane that ends in it"
