@@ -199,6 +199,22 @@ def test_nodes_have_their_position_in_the_frame_of_the_robot(version: str) -> No
 
 
 @pytest.mark.parametrize("version", VERSIONS)
+def test_orders_name_nodes_of_the_site_where_robots_may_not_turn(version: str) -> None:
+    """A robot comes back through B in another direction; 3.0 has no `rotationAllowed`."""
+    vertices = {"A": [100, 200], "B": {"at": [300, 200], "turning": False}, "C": [500, 200]}
+    edges = [{"from": "A", "to": "B", "turning": False}, ["B", "C"]]
+    order_map = map_of(site(roadmap={"vertices": vertices, "edges": edges}))
+    order = order_over("C", "C-B/end", "A")
+    document = write_message(OrderMessage.of(order, order_map), header(version))
+    validator(version, "order").validate(document)
+    assert [node["nodeId"] for node in document["nodes"]] == ["C", "B", "A"]
+    assert [edge["edgeId"] for edge in document["edges"]] == ["C-B", "B-A"]
+    allowed = [edge.get("rotationAllowed") for edge in document["edges"]]
+    assert allowed == [None, None if version >= "3" else False]
+    assert order_map.list_vertices("B") == ["B", "C-B/end"]
+
+
+@pytest.mark.parametrize("version", VERSIONS)
 def test_headings_and_edge_ids_of_a_layout_are_sent(version: str) -> None:
     """The map of the robot is turned left by a right angle: north on the site is 0 there.
 
