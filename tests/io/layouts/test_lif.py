@@ -235,3 +235,41 @@ def test_picks_and_drops_of_nodes_are_actions_of_places_that_a_scenario_replaces
     assert [vertex.actions for vertex in again.levels[0].vertices] == [
         vertex.actions for vertex in layout.levels[0].vertices
     ]
+
+
+def test_rotations_at_nodes_that_are_forbidden_are_read_and_written(tmp_path: Path) -> None:
+    """B is a corner of 90 degrees without rotation: robots drive round it, and do not come back."""
+
+    def edge(tail: str, head: str, **own: Any) -> dict[str, Any]:
+        properties = [{"vehicleTypeId": "agv", "rotationAllowed": False} | own]
+        ends = {"edgeId": tail + head, "startNodeId": tail, "endNodeId": head}
+        return ends | {"vehicleTypeEdgeProperties": properties}
+
+    into, out = "rotationAtEndNodeAllowed", "rotationAtStartNodeAllowed"
+    nodes = [
+        {"nodeId": name, "nodePosition": {"x": x, "y": y}}
+        for name, x, y in (("A", 0, 0), ("B", 5, 0), ("C", 5, 5))
+    ]
+    lanes = [
+        edge("A", "B", **{into: "NONE"}),
+        edge("B", "A", **{out: "NONE"}),
+        edge("B", "C", **{out: "NONE"}),
+        edge("C", "B", **{into: "NONE"}),
+    ]
+    path = tmp_path / "corner.lif.json"
+    path.write_text(json.dumps({"layouts": [{"nodes": nodes, "edges": lanes}]}), "utf-8")
+    layout = read_layout(path)
+    assert isinstance(layout, Layout)
+    roadmap = build_roadmap_of_level(layout.levels[0]).roadmap
+    edges = {
+        (roadmap.name(tail), roadmap.name(int(roadmap.heads[edge])))
+        for tail in range(roadmap.n_vertices)
+        for edge in range(int(roadmap.indptr[tail]), int(roadmap.indptr[tail + 1]))
+    }
+    assert edges == {("A", "B"), ("B", "C"), ("C", "C-B/end"), ("C-B/end", "A")}
+    text, left_out = format_layout(layout, "lif")
+    assert not left_out
+    path.write_text(text, "utf-8")
+    again = read_layout(path)
+    assert isinstance(again, Layout)
+    assert again.levels[0].turns == layout.levels[0].turns
