@@ -1,7 +1,7 @@
 """What a plan of a changed scenario gains by starting from the old plan.
 
 ``python -m benchmarks.warm_start`` plans three fleets, changes one thing, and plans again from the
-old plan and from nothing. It writes a table of docs/results/fleets.md: how soon there is a
+old plan and without it. It writes a table of docs/results/fleets.md: how soon there is a
 first valid plan, and how far from the lower bound the plan is after a second. Seconds are those of
 the processor, of all threads, so a busy machine gives the same figures.
 """
@@ -123,8 +123,8 @@ def warm_start_table() -> str:
             seconds = (f"{soon:.2f}", f"{later:.2f}")
             lines.append((fleet, change, *seconds, f"{first:.3f}", f"{raw:.3f}", warm, cold))
     heads = (
-        "fleet", "change", "first [s]", "from nothing", "its flowtime", "from nothing",
-        "after 1 s", "from nothing",
+        "fleet", "change", "first [s]", "new plan", "its flowtime", "new plan",
+        "after 1 s", "new plan",
     )  # fmt: skip
     return table(heads, lines)
 
