@@ -63,7 +63,7 @@ def test_the_end_of_a_job_is_noted_once_and_kept() -> None:
     assert (pool.unnoted, pool.ends["J1"].at) == ({"J1"}, None)
     pool = fold(KNOWN, BEGUN, last, happen("job ended", 9), happen("job ended", 12))
     end = pool.ends["J1"]
-    assert (end.robot, end.earliest, end.due, end.at) == (1, 0, 30, 9)
+    assert (end.robot, end.earliest, end.due, end.at) == (1, Fraction(0), Fraction(30), Tick(9))
     again = Pool.of_document(json.loads(json.dumps(pool.to_document(ROADMAP))), ROADMAP)
     assert (again.ends, again.unnoted) == (pool.ends, set())
 

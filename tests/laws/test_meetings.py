@@ -62,12 +62,13 @@ Booking = tuple[int, int, int, tuple[int, ...]]  # row, start, end, place
 
 
 def _list_bookings(scenario: Scenario, tracks: tuple[Track, ...]) -> list[list[Booking]]:
-    rules, resources, bookings = scenario.problem.booking_rules, scenario.problem.resources, []
+    rules, resources = scenario.problem.booking_rules, scenario.problem.resources
+    bookings = list[list[Booking]]()
     for robot, (track, stay) in enumerate(zip(tracks, find_stays(scenario, tracks), strict=True)):
         vertices, enter = track.vertices.tolist(), track.enter.tolist()
         starts = [at - drive for at, drive in zip(enter, [0, *stay.drive[:-1]], strict=True)]
         ends = [*(int(rules.end(at)) for at in enter[1:]), NEVER]
-        own = [
+        own: list[Booking] = [
             (resources.get_vertex_row(robot, vertex), start, end, (vertex,))
             for vertex, start, end in zip(vertices, starts, ends, strict=True)
         ]

@@ -56,7 +56,9 @@ def find_forbidden_turns(plan: Plan, fixed: set[str]) -> list[tuple[str, ...]]:
     this one.
     """
     roadmap = plan.scenario.roadmap
-    turned = {(tail, head): float(angle) for tail, head, angle in roadmap.drawing.orientations}
+    turned = {
+        (int(tail), int(head)): float(angle) for tail, head, angle in roadmap.drawing.orientations
+    }
     places = {roadmap.get_point(roadmap.get_vertex(name)) for name in fixed}
     found = []
     for track in plan.tracks:

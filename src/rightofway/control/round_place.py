@@ -73,8 +73,8 @@ def make_routes_to_stand(
     """
     routes = []
     for own, last in zip(ledger.robots, committed, strict=True):
-        kept = leave_out_unsent(put_at_stop(scenario.roadmap, own), last)
-        routes.append(kept.route.cut_before(kept.arrived).cut_after(last))
+        placed = leave_out_unsent(put_at_stop(scenario.roadmap, own), last)
+        routes.append(placed.route.cut_before(placed.arrived).cut_after(last))
     before = ledger.robots[robot].route
     routes[robot] = replace(
         make_route_from(before, place),

@@ -577,7 +577,7 @@ def _find_routes(
     has_batteries = work is not None and any(robot.battery for robot in work.robots)
     keeping, reasons = frozenset[int](), list[Fact]()
     while True:
-        routes, found = routing(cut.toured, start), None
+        routes, planned = routing(cut.toured, start), None
         wrong, reason = routes.left, Fact("no route in time")
         if routes.improve is not None:
             # The search knows no batteries: its first tracks are judged while there is time for
@@ -591,14 +591,14 @@ def _find_routes(
                 judged = check(plan)
                 if not (frozenset() if ended[0].is_whole else BEHIND_CUT).issuperset(judged.counts):
                     break
-                found = _RoundPlan(
+                planned = _RoundPlan(
                     plan=plan,
                     later=ended[0].later,
                     keeping=tuple(sorted(keeping)),
                     reasons=tuple(dict.fromkeys(reasons)),
                 )
-            if found is not None:
-                return found
+            if planned is not None:
+                return planned
             reason = Fact("batteries do not last")
             wrong = tuple(
                 robot for fault in judged.faults if fault.kind in OF_BATTERIES

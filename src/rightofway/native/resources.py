@@ -66,7 +66,7 @@ def _make_lists(
     n_bits = max(*x, *y, *needed).bit_length()
     n_limbs = max(1, -(-n_bits // LIMB))
     members = [list_members(roadmap, zone) for zone in roadmap.zones]
-    members += roadmap.list_shared_places()
+    members += map(list[int], roadmap.list_shared_places())
     passing = roadmap.passing
     chains = () if passing is None else passing.chains
     if passing is not None:  # a passed vertex and all vertices that stand for it are one place
