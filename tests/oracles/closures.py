@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
-from itertools import accumulate
+from itertools import accumulate, chain, product
 from math import ceil, floor
 
 from rightofway.model import Closure, Plan, Route, Scenario, Track
@@ -17,27 +17,21 @@ LATE = 100_000
 def shuts(scenario: Scenario, closure: Closure, robot: int, shape: Shape) -> bool:
     """Tell whether a closure of a vertex or of an edge in one piece closes a shape for a robot."""
     own: Shape = (closure.at,) if closure.edge is None else closure.edge  # type: ignore[assignment]
-    back = tuple(_turn_round(scenario, vertex) for vertex in own)
-    if sorted(shape) in (sorted(own), sorted(back)):
+    places = [_list_place(scenario, vertex) for vertex in own]
+    if tuple(sorted(shape)) in {tuple(sorted(ends)) for ends in product(*places)}:
         return True
     if closure.radius is None:
         return False
-    if len(own) > 1 and {*own, *back} & set(shape):
+    if len(own) > 1 and set(chain(*places)) & set(shape):
         return False
     reach = scenario.robots[robot].radius + closure.radius + scenario.rules.clearance
     return square_between(scenario.roadmap, own, shape) < reach**2
 
 
-def _turn_round(scenario: Scenario, vertex: int) -> int:
-    """Return the vertex at one place in the other direction of a lane, or the vertex itself."""
-    return next(
-        (
-            other
-            for other in range(scenario.roadmap.n_vertices)
-            if other != vertex and are_one_place(scenario, vertex, other)
-        ),
-        vertex,
-    )
+def _list_place(scenario: Scenario, vertex: int) -> list[int]:
+    """Return the vertices of all directions at the place of a vertex."""
+    every = range(scenario.roadmap.n_vertices)
+    return [vertex, *(other for other in every if are_one_place(scenario, vertex, other))]
 
 
 def begins(scenario: Scenario, closure: Closure) -> int:

@@ -404,15 +404,27 @@ def _shut(
     reach = None if radius is None else robot.radius + radius + site.rules.clearance
 
     def shuts(shape: Shape) -> bool:
-        if sorted(shape) == sorted(own) or inner & set(shape):
+        is_own = len(shape) == len(own) and any(
+            all(
+                one == other or {one, other} in site.both_ways
+                for one, other in zip(own, way, strict=True)
+            )
+            for way in (shape, shape[::-1])
+        )
+        if is_own or inner & set(shape):
             return True
         return (
             reach is not None
-            and not set(ends) & set(shape)
+            and not any(_is_one_place(site, end, at) for end, at in product(ends, shape))
             and (site.square(shape, own) < reach**2)
         )
 
     return shuts
+
+
+def _is_one_place(site: Site, one: int, other: int) -> bool:
+    """Whether two vertices are one, or those of different directions at one place."""
+    return one == other or frozenset((one, other)) in site.both_ways
 
 
 def _pieces(roadmap: Roadmap, one: int, other: int) -> Iterator[int]:
@@ -420,5 +432,5 @@ def _pieces(roadmap: Roadmap, one: int, other: int) -> Iterator[int]:
     for tail, head in ((one, other), (other, one)):
         name = f"{roadmap.name(tail)}-{roadmap.name(head)}/"
         for vertex in range(roadmap.n_vertices):
-            if roadmap.name(vertex).startswith(name):
+            if roadmap.name(vertex).startswith(name) and not roadmap.name(vertex).endswith("/end"):
                 yield vertex

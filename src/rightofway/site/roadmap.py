@@ -598,6 +598,7 @@ class Roadmap:
                 return index
         return None
 
+    @checks_arguments
     def list_edges(self, tail: int, head: int) -> list[int]:
         """Return the edges that represent the edge drawn from ``tail`` to ``head``.
 
@@ -611,6 +612,7 @@ class Roadmap:
         edges = (self.find_edge(*pair) for pair in chain.from_iterable(pairs))
         return [edge for edge in edges if edge is not None]
 
+    @checks_arguments
     def is_drawn(self, tail: int, head: int) -> bool:
         """Return whether an edge is drawn from one vertex to another."""
         drawn = product(self.list_copies(VertexId(tail)), self.list_copies(VertexId(head)))

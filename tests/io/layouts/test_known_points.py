@@ -442,7 +442,7 @@ def test_a_building_names_its_picture_or_says_that_it_is_missing(tmp_path: Path)
     missing = read_layout(path)
     assert isinstance(missing, Layout)
     assert missing.get_level("L1").picture is None
-    assert "the picture 'hall.png' is not beside the file" in " ".join(tell_notes(missing))
+    assert "the picture 'hall.png' is missing next to the file" in " ".join(tell_notes(missing))
     (tmp_path.parent / "hall.png").write_bytes(b"")
     path.write_text(text.replace("hall.png", "../hall.png"), encoding="utf-8")
     outside = read_layout(path)

@@ -8,7 +8,6 @@ import { line, shortened } from "../drawing/shapes.js";
 
 export const AXIS_HEIGHT = 20;
 const LABEL_GAP = 72; // pixels between two labelled moments, at least
-const SPARE_RIGHT = 12; // pixels beside a diagram that its last label may use
 const MARK_GAP = 5; // pixels between two ticks that have marks, at least
 
 /** Where a diagram is painted, and where a tick is on it. Slider and diagrams share its ends. */
@@ -119,9 +118,9 @@ export function paintAxis(context, area, plan, theme, words, hasLabels = true) {
   context.textAlign = "center";
   for (const { tick, exact } of moments) {
     const label = words.time(exact);
-    const half = context.measureText(label).width / 2;
-    const middle = Math.min(area.x(tick), area.right + SPARE_RIGHT - half); // else the last one is cut
-    context.fillText(label, middle, area.bottom + 6);
+    // The last label may use 12 pixels next to the diagram.
+    const last = area.right + 12 - context.measureText(label).width / 2;
+    context.fillText(label, Math.min(area.x(tick), last), area.bottom + 6);
   }
 }
 
