@@ -405,10 +405,7 @@ def _shut(
 
     def shuts(shape: Shape) -> bool:
         is_own = len(shape) == len(own) and any(
-            all(
-                one == other or {one, other} in site.both_ways
-                for one, other in zip(own, way, strict=True)
-            )
+            all(_is_one_place(site, one, other) for one, other in zip(own, way, strict=True))
             for way in (shape, shape[::-1])
         )
         if is_own or inner & set(shape):
