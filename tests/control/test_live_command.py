@@ -97,7 +97,7 @@ def test_robots_at_a_broker_are_watched_also_from_another_process(tmp_path: Path
     [
         (("--dry-run", "--live"), "--live goes with --broker and --demo"),
         (("--replay",), "cannot be read as a journal"),
-        (("--demo", "--replay"), "give one of --broker, --demo, --dry-run and --replay"),
+        (("--demo", "--replay"), "give one of --broker, --demo, --dry-run, --replay and --report"),
     ],
 )
 def test_what_does_not_go_together_is_refused(

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from itertools import product
 
 from rightofway.model import Scenario
+from rightofway.site import VertexId
 
 __all__ = ["advance", "can_get_through", "is_step", "steps"]
 
@@ -35,9 +36,14 @@ def is_step(
     scenario: Scenario, at: Sequence[int], after: Sequence[int], *, may_rotate: bool
 ) -> bool:
     """Tell whether all robots may go from one configuration to another in one step."""
-    moves = {a: b for a, b in zip(at, after, strict=True) if a != b}
+    # Vertices of several directions at one place exclude each other.
+    before, behind = (
+        [int(min(scenario.roadmap.list_place(VertexId(vertex)))) for vertex in fleet]
+        for fleet in (at, after)
+    )
+    moves = {a: b for a, b in zip(before, behind, strict=True) if a != b}
     return (
-        len(set(after)) == len(after)
+        len(set(behind)) == len(behind)
         and all(
             a == b or _may_drive(scenario, r, a, b)
             for r, (a, b) in enumerate(zip(at, after, strict=True))

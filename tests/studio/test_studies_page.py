@@ -273,7 +273,7 @@ def test_both_studies_are_whole_in_german(studio: StudioPage) -> None:
     studio.page.locator("details.laps summary").click()
     studio.page.locator("details.laps button").click()
     studio.page.locator(".parameter").first.wait_for()
-    assert "Was den Takt bestimmt" in studio.text(".study")
+    assert "Engpass" in studio.text(".study")
     assert "undefined" not in studio.text(".study")
 
 

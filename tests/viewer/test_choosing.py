@@ -60,7 +60,7 @@ def test_a_plan_without_decisions_says_why_it_has_none(show: Opener) -> None:
     viewer = show(replace(plan, run=replace(plan.run, decisions=())))
     assert viewer.text("#tab-decisions b") == "\u2013"
     viewer.page.click("#tab-decisions")
-    assert "a search makes none" in viewer.text("#decision-list")
+    assert "a search found it" in viewer.text("#decision-list")
 
 
 def test_where_no_robot_loses_time_nothing_had_to_be_decided(show: Opener) -> None:

@@ -160,7 +160,7 @@ def test_plans_of_different_scenarios_are_compared_by_names(many: Player) -> Non
     assert figures(many)["Robots"] == ["2", "2", "1"]
     changes = many.page.locator(".compared-changes").all_inner_texts()
     assert len(changes) == 1
-    assert changes[0].startswith("C.json beside A.json\nCart: added\nR1 and R2: removed")
+    assert changes[0].startswith("C.json compared with A.json\nCart: added\nR1 and R2: removed")
     assert many.complaints == []
 
 

@@ -29,7 +29,7 @@ def test_a_corridor_is_the_shortest_way_between_two_places(show: Opener) -> None
     viewer = show(door())
     viewer.page.click("#corridor")
     viewer.painted()
-    assert "press the place on the map where it begins" in viewer.text("#diagram-title")
+    assert "press its first place on the map" in viewer.text("#diagram-title")
     viewer.page.mouse.click(*viewer.at((0.5, 0.5)))  # N0
     viewer.page.mouse.click(*viewer.at((2.5, 2.5)))  # N8
     viewer.painted()

@@ -256,7 +256,7 @@ def test_a_person_holds_robots_and_lets_them_go(
     is_asked(viewer, journal)
     page.get_by_role("button", name="Let all robots go").click()
     dialog = page.get_by_role("dialog")
-    expect(dialog).to_contain_text("Let all robots go?")
+    expect(dialog).to_contain_text("Release all robots?")
     dialog.get_by_role("button", name="Cancel").click()
     expect(dialog).to_be_hidden()
     drive.let(10**9)
@@ -314,7 +314,7 @@ def test_a_robot_that_was_taken_off_the_floor_is_placed_by_a_person(
     row_of(viewer, "R1").click()
     viewer.page.get_by_role("button", name="R1 is on the floor again").click()
     dialog = viewer.page.get_by_role("dialog")
-    expect(dialog).to_contain_text("Where is R1 on the floor again?")
+    expect(dialog).to_contain_text("At which place is R1 put back on the map?")
     dialog.get_by_label("Place").fill("N99")
     dialog.get_by_role("button", name="Yes").click()
     is_asked(viewer, journal)
@@ -326,7 +326,7 @@ def test_a_robot_that_was_taken_off_the_floor_is_placed_by_a_person(
 @pytest.mark.parametrize(
     "case",
     [
-        ("clear", "R1 is where it is shown", "Is R1 at the place where it is shown?", "done"),
+        ("clear", "R1 is where it is shown", "Is R1 at the shown place?", "done"),
         ("remove", "R1 is off the floor", "Is R1 off the floor?", "off the floor"),
     ],
 )

@@ -96,11 +96,12 @@ def test_the_place_of_the_longest_waits_is_marked(show: Opener) -> None:
     record.robots[0].waits_at[2] += 9
     viewer = show(record)
     assert viewer.text("#bottleneck-legend").endswith("Robots waited longest at N2: 9 s")
-    beside = (2.5 + 0.72, 0.5)
-    lit = viewer.colour(viewer.on_map(beside))
+    x, y = viewer.on_map((2.5, 0.5))
+    on_ring = (x + 28, y)
+    lit = viewer.colour(on_ring)
     viewer.page.click("#bottleneck")
     viewer.painted()
-    assert viewer.colour(viewer.on_map(beside)) != lit
+    assert viewer.colour(on_ring) != lit
     assert not viewer.page.is_visible("#bottleneck-legend")
 
 

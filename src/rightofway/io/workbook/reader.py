@@ -27,7 +27,7 @@ from rightofway.io.workbook.sheets import Sheet, find_reference, read_sheets
 SHEETS = ("map", "robots", "rules", "vertices", "edges", "closures", "jobs", "batteries", "actions")
 """Sheets that are read, by lower-case name."""
 
-ATTRIBUTES = ("barred", "surcharge", "pass", "heading")
+ATTRIBUTES = ("barred", "surcharge", "pass", "heading", "turning")
 """Columns of vertices whose values are those of a document."""
 
 VERTEX_KEYS = ("name", "x", "y", *ATTRIBUTES, *SPOTS)

@@ -137,9 +137,19 @@ def _list_obstacles(roadmap: Roadmap, grid: Grid) -> list[ObstacleRow]:
 
 
 def _list_joints(roadmap: Roadmap) -> list[list[int]]:
-    """Return the vertices between the pieces of each split lane, once for both directions."""
-    joints = {min(lane.joints, lane.joints[::-1]): None for lane in roadmap.lanes}
-    return [list(map(int, vertices)) for vertices in joints]
+    """Return the vertices between the pieces of each split lane, once for both directions.
+
+    The page names a lane at the middle of its list: this is a vertex of the first direction.
+    """
+    joints = dict[tuple[int, ...], list[int]]()
+    for lane in roadmap.lanes:
+        places = [sorted(map(int, roadmap.list_place(vertex))) for vertex in lane.joints]
+        firsts = [place[0] for place in places]
+        others = [vertex for place in places for vertex in place[1:]]
+        half = -(-len(others) // 2)
+        key = min(tuple(firsts), tuple(firsts[::-1]))
+        joints.setdefault(key, [*others[:half], *firsts, *others[half:]])
+    return list(joints.values())
 
 
 def _list_limits(roadmap: Roadmap) -> list[tuple[str, list[int]]]:
