@@ -29,8 +29,9 @@ __all__ = [
     "wrong_in",
 ]
 
-ONE_CHAIN = frozenset({"passed", "sizes", "zones", "closures"})
-"""What the oracle of robots that look does not know: its order is one chain of visits a vertex."""
+ONE_CHAIN = frozenset({"closures", "forbidden turns", "passed", "sizes", "spacing", "zones"})
+"""What the oracle of robots that look does not know: its order is one chain of visits a vertex, and
+it has no places of several vertices."""
 
 RANDOM = (
     (),
