@@ -74,7 +74,7 @@ def begin_at_stop(own: RobotLedger, may_stop: Callable[[str], bool]) -> RobotLed
     Parameters
     ----------
     own
-        What is known of it.
+        Its state in the ledger.
     may_stop
         Tells whether robots may stop at a vertex, by its name.
     """
@@ -85,12 +85,12 @@ def begin_at_stop(own: RobotLedger, may_stop: Callable[[str], bool]) -> RobotLed
 
 
 def leave_out_unsent(own: RobotLedger, last: int) -> RobotLedger:
-    """Return a robot without the work at the end of what it keeps that no order has yet.
+    """Return a robot without the work of its last kept visit that no order contains.
 
     Parameters
     ----------
     own
-        What is known of it.
+        Its state in the ledger.
     last
         The last visit that it keeps.
     """
@@ -122,7 +122,7 @@ def make_robot_commitment(
     robot
         Its number.
     own
-        What is known of it.
+        Its state in the ledger.
     released
         Its last part that is kept.
     """

@@ -290,7 +290,7 @@ class Dispatcher:
         )
 
     def _list_closed_edges(self) -> set[Edge]:
-        """Return the edges that nobody may enter now, by people and by the scenario."""
+        """Return the edges that are closed now, by people and by the scenario."""
         self._planned_round = self.closures.list_closed_edges() if self.closures else set()
         return self.ledger.closed_edges | self._planned_round
 

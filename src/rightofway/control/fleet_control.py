@@ -549,8 +549,8 @@ class FleetControl:
     def _find_committed(self, own: RobotLedger) -> int:
         """Return the last part that a splice has to keep, where the robot may stop.
 
-        A robot whose order was withdrawn may stand at a passed vertex. All up to the end of its
-        chain was released before, so nobody can come first there.
+        A robot whose order was withdrawn may stand at a passed vertex. Its chain was
+        released as a whole, so no other robot goes first there.
         """
         rest = range(own.released, own.route.end)
         places = map(own.route.get_place, rest)

@@ -93,7 +93,7 @@ class RestPlanner:
         Parameters
         ----------
         own
-            What is known of it.
+            Its state in the ledger.
         """
         return begin_at_stop(own, self.may_stop)
 

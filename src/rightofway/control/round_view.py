@@ -90,7 +90,7 @@ def find_kept_parts(
     may_stop
         Tells whether robots may stop at a vertex, by its name.
     closed
-        The edges that nobody may enter now.
+        The edges that are closed now.
     """
     kept_parts, grows = list(released), True
     while grows:

@@ -48,7 +48,7 @@ class RoundWatch:
     unable
         Robots that do not go on: others are planned round them.
     list_closed
-        Returns the edges that nobody may enter now.
+        Returns the edges that are closed now.
     read_ticks
         Returns the time since the run began [ticks].
     reasons

@@ -97,8 +97,8 @@ def _count(_context: click.Context, _parameter: click.Parameter, given: str | No
               help="Drive no robots: serve the page of the journal of the plan, also while a"
               " control writes it; with --page, write the page to a file.")  # fmt: skip
 @click.option("--report", is_flag=True,
-              help="Drive nothing: print the report of what the journal of the plan has, also while"
-              " a control writes it.")  # fmt: skip
+              help="Drive no robots: print the report of the journal of the plan, also while a"
+              " control writes it.")  # fmt: skip
 @click.option("--live", is_flag=True,
               help="Serve a page that shows the robots and can hold them; after the drive it stays"
               " until Ctrl-C.")  # fmt: skip

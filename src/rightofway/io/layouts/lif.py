@@ -164,7 +164,7 @@ def _add_node(level: LevelDraft, node: Source, draft: LayoutDraft) -> None:
 
 
 def _take_actions(own: Source, actions: dict[str, str]) -> set[str]:
-    """Add what robots do where they pick and drop loads; return the action types that count."""
+    """Add the actions for picking and dropping loads; return the action types that count."""
     kinds = list[tuple[str, Source]]()
     for source in own.read_items_under(*ACTIONS):
         kind = source.value.get("actionType") if isinstance(source.value, dict) else None

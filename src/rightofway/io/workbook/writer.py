@@ -68,7 +68,7 @@ HELP = (
     "parking, robots without a home start there. With true in column pass, robots only drive",
     "through the vertex.",
     "closures, if needed: a place in column at, or [A, B] in column edge; from, until, radius.",
-    "actions, if needed: a place in column name; work, pick, drop: what robots do there.",
+    "actions, if needed: a place in column name; work, pick, drop: the actions there.",
     "rules: an empty value stands for the default. Other sheets are not read.",
 )
 
