@@ -13,16 +13,19 @@ import rightofway
 from rightofway.control import FleetControl
 from rightofway.control.commands import read_duration
 from rightofway.control.dispatcher import Dispatcher
+from rightofway.control.job_events import list_driven_jobs
 from rightofway.control.journal import Entry
 from rightofway.control.laps import LapsToDrive
+from rightofway.control.ledger import Ledger
 from rightofway.control.messages import LOOK_AHEAD
 from rightofway.control.round_worker import RoundRequest, RoundsAtOnce
 from rightofway.control.work_items import find_stop
 from rightofway.dispatch import Round
 from rightofway.errors import GaveUp, InputError
+from rightofway.execution.drive_result import DrivenEnd, measure_punctuality
 from rightofway.facts import Fact
 from rightofway.io import parse_scenario
-from rightofway.model import Plan
+from rightofway.model import Plan, Tick
 from tests.builders.chaos import MemoryJournal
 from tests.builders.floor_jobs import floor_document, floor_plan
 from tests.builders.floors import Floor
@@ -75,6 +78,11 @@ class Shift:
             if entry["kind"] == "finished" and find_stop(entry["job"])
         ]
 
+    def list_ends(self) -> tuple[DrivenEnd, ...]:
+        """Return the planned, actual and expected ends of jobs."""
+        scenario = self.plan.scenario
+        return list_driven_jobs(self.dispatcher.ledger, scenario, Tick(self.now))
+
     def list_jobs(self) -> dict[str, str]:
         return {job["name"]: job["state"] for job in self.ask("list")["jobs"]}
 
@@ -91,6 +99,51 @@ def test_jobs_that_arrive_are_done_each_stop_once_and_in_order() -> None:
     assert sorted(done) == ["A1/0", "A1/1", "A2/0", "A2/1", "J1/0", "J1/1", "J2/0", "J3/0", "J3/1"]
     for first, later in (("A1/0", "A1/1"), ("A1/1", "A2/0"), ("A2/0", "A2/1"), ("J1/1", "J2/0")):
         assert done.index(first) < done.index(later)
+
+
+def test_the_planned_end_of_a_job_that_is_added_is_that_of_its_first_round() -> None:
+    """A1 is behind the next stops of its robot: only a later round plans times for it."""
+    shift = Shift()
+
+    def find_end() -> DrivenEnd:
+        return {end.name: end for end in shift.list_ends()}["A1"]
+
+    assert all(end.planned == end.expected for end in shift.list_ends())
+    shift.drive(3)
+    shift.ask("add", name="A1", pickup="N14", dropoff="N0", due="100")
+    assert (find_end().planned, find_end().end) == (None, None)
+    while find_end().planned is None:
+        shift.drive(1)
+    first = find_end()
+    assert first.planned is not None
+    assert first.expected == first.planned > shift.now
+    assert (first.ended, first.due, first.delay) == (None, 103, 0)
+    shift.drive(120)
+    last = find_end()
+    assert last.planned == first.planned
+    assert last.delay == (last.ended or 0) - first.planned
+    assert all(end.delay is not None for end in shift.list_ends())
+    measured = measure_punctuality(shift.list_ends())
+    assert (measured.done, measured.open) == (4, 0)
+
+
+def test_jobs_of_a_robot_that_is_overdue_are_expected_later() -> None:
+    """R1 is on hold from the begin: its jobs end later with each second."""
+    shift = Shift()
+    shift.ask("hold", name="R1")
+    shift.drive(70)
+    held = [end for end in shift.list_ends() if end.robot == 0 and end.ended is None]
+    assert held
+    assert all((end.expected or 0) >= 70 for end in held)
+    assert all(end.is_late for end in held)
+
+
+def test_waits_are_counted_over_snapshots_of_the_journal() -> None:
+    ledger = Shift().dispatcher.ledger
+    ledger.robots[1].waits = 3
+    again = Ledger(floor_plan().scenario.roadmap)
+    again.apply(json.loads(json.dumps(ledger.make_snapshot())))
+    assert [own.waits for own in again.robots] == [0, 3]
 
 
 def test_a_job_of_a_known_name_is_added_once() -> None:

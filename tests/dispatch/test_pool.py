@@ -68,6 +68,21 @@ def test_the_end_of_a_job_is_noted_once_and_kept() -> None:
     assert (again.ends, again.unnoted) == (pool.ends, set())
 
 
+def test_a_job_keeps_its_first_planned_end_and_the_latest_one_until_it_is_changed() -> None:
+    plans = happen("job planned", 3, end=Tick(20)), happen("job planned", 5, end=Tick(26))
+    own = fold(KNOWN, *plans).jobs["J1"]
+    assert (own.planned, own.expected) == (20, 26)
+    last = happen("stop done", 0, robot=1, stop=1)
+    end = fold(KNOWN, *plans, BEGUN, last).ends["J1"]
+    assert (end.planned, end.expected) == (20, 26)
+    changed = happen("job changed", 6, job=replace(TRANSPORT, weight=Fraction(7)))
+    own = fold(KNOWN, *plans, changed).jobs["J1"]
+    assert (own.planned, own.expected) == (None, None)
+    pool = fold(KNOWN, *plans)
+    again = Pool.of_document(json.loads(json.dumps(pool.to_document(ROADMAP))), ROADMAP)
+    assert again.jobs == pool.jobs
+
+
 def test_a_begun_job_is_neither_changed_nor_withdrawn_nor_begun_by_another_robot() -> None:
     pool = fold(KNOWN, BEGUN)
     changed = replace(TRANSPORT, weight=Fraction(7))

@@ -358,10 +358,10 @@ class _Demo:
             trace=trace,
             completion=self._list_completions() if trace is None else tuple(trace.completion),
             jobs=self._control.ledger.count_jobs(),
-            ended=list_driven_jobs(self._plan, self._control.ledger, Tick(self._now)),
+            ends=list_driven_jobs(self._control.ledger, self._plan.scenario, Tick(self._now)),
             laps=tuple(own.laps_done for own in robots),
             now=Tick(self._now),
-            waits=tuple(self._story.waits),
+            waits=tuple(own.waits for own in robots),
             messages=dict(sorted(self._sent.items())),
         )
 

@@ -135,7 +135,7 @@ class Dispatcher:
         scenario = self.plan.scenario
         graph = ReleaseGraph.of(scenario, self.plan.tracks)
         names = [robot.name for robot in scenario.robots]
-        jobs = list(list_known_jobs(scenario))
+        jobs = list(list_known_jobs(self.plan))
         routes = make_routes_to_drive(self.plan)
         self.control.begin(run, routes, graph, names, jobs, began=began)
 

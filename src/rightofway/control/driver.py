@@ -263,10 +263,10 @@ class Driver:
             trace=None,
             completion=None if self._is_endless else ends,
             jobs=self.control.ledger.count_jobs(),
-            ended=list_driven_jobs(self._plan, self.control.ledger, now),
+            ends=list_driven_jobs(self.control.ledger, self._plan.scenario, now),
             laps=tuple(own.laps_done for own in robots),
             now=now,
-            waits=tuple(self._story.waits),
+            waits=tuple(own.waits for own in robots),
             messages=dict(sorted(self._sent.items())),
         )
 
@@ -367,7 +367,8 @@ class Driver:
                 self._watch(letter, True)
         self._report_story()
         if self._metrics is not None:
-            self._metrics.turn(inbox, sent, self._story.waits)
+            waits = [own.waits for own in self.control.ledger.robots]
+            self._metrics.turn(inbox, sent, waits)
 
     def _report_story(self) -> None:
         """Report what is new, and keep when robots came to the end of their routes."""

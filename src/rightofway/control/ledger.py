@@ -192,7 +192,7 @@ class Ledger:
         is planned again.
         """
         self.pool.apply(event)
-        if event.kind == "job ended":
+        if event.kind in {"job ended", "job planned"}:
             return
         if event.kind == "job changed":
             self.outdated.add(event.name)

@@ -140,7 +140,7 @@ class Recording:
 
     @property
     def result(self) -> DriveResult:
-        """The result until now; the journal has no messages, and waits since its last snapshot."""
+        """The result until now; the journal has no messages."""
         if not self._ledger.robots:
             raise InputError.at("journal", "has no robots yet (drive the plan with it)")
         robots, now = self._ledger.robots, Tick(int(self.now))
@@ -155,10 +155,10 @@ class Recording:
             trace=None,
             completion=None if has_laps else ends,
             jobs=self._ledger.count_jobs(),
-            ended=list_driven_jobs(self._plan, self._ledger, now),
+            ends=list_driven_jobs(self._ledger, self._plan.scenario, now),
             laps=tuple(own.laps_done for own in robots),
             now=now,
-            waits=tuple(self._story.waits) if self._story else (0,) * len(robots),
+            waits=tuple(own.waits for own in robots),
             messages={},
         )
 

@@ -92,6 +92,7 @@ class RobotLedger:
     jobs_done: int = 0  # items of work of all
     whole_jobs: int = 0  # of the pool that it has ended
     laps_done: int = 0
+    waits: int = 0  # for others at the end of its released parts, as `Story` counts them
 
     @property
     def order_id(self) -> str:

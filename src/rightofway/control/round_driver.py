@@ -12,7 +12,7 @@ from dataclasses import replace
 
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.held_work import list_ready
-from rightofway.control.job_events import list_job_ends
+from rightofway.control.job_events import list_job_ends, list_planned_ends
 from rightofway.control.journal import Entry
 from rightofway.control.laps import build_graph_behind_released
 from rightofway.control.messages import Message
@@ -219,13 +219,14 @@ class RoundDriver:
         graph = build_graph_behind_released(self.scenario, routes, seen.kept_parts, absent)
         if graph.find_rotation():
             return self._keep_old(Fact("robots would rotate"))
-        notes, moved = self._list_unserved(planned), list_lost(ledger, routes)
+        takeover, moved = seen.view.takeover, list_lost(ledger, routes)
+        notes = [*self._list_unserved(planned), *list_planned_ends(ledger, planned, takeover)]
         try:
             messages = control.splice(routes, graph, withdrawn=moved, notes=notes)
         except InputError as error:  # the guard: no round ends the control
             return self._keep_old(error.explain())
         ends = sum(int(track.enter[-1]) for track in planned.tracks)
-        self.watch.take_over(map_later(ledger, seen, planned), seen.view.takeover, ends)
+        self.watch.take_over(map_later(ledger, seen, planned), takeover, ends)
         self._tell_reasons(dict(planned.unserved), planned.postponed)
         self.report(None, True)
         return messages

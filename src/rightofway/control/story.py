@@ -50,7 +50,7 @@ class _Chapter:
 
 
 class Story:
-    """The events of a run, each once.
+    """The events of a run, each once. Waits are counted in the ledger, for its snapshots.
 
     Parameters
     ----------
@@ -58,11 +58,6 @@ class Story:
         The records of the robots.
     names
         Of the robots.
-
-    Attributes
-    ----------
-    waits
-        How often each robot waited for others at the end of its released parts.
     """
 
     def __init__(self, ledger: Ledger, names: Sequence[str]) -> None:
@@ -71,7 +66,6 @@ class Story:
             _Chapter(finished=own.jobs_done, has_set_out=own.arrived > 0, has_ended=own.is_done)
             for own in ledger.robots
         ]
-        self.waits = [0] * len(names)
 
     def go_on(self) -> Iterator[Happening]:
         """Yield all that is new, of the robots that have changed.
@@ -118,7 +112,7 @@ class Story:
         is_new = chapter.waits_for is None
         if conditions and (is_new or not chapter.conditions.issuperset(conditions)):
             chapter.waits_for, chapter.conditions = next_part, frozenset(conditions)
-            self.waits[robot] += is_new
+            own.waits += is_new
             wait = Fact("waits", robot=name, place=place, arrivals=tuple(conditions))
             yield Happening(robot, "wait", wait, awaited)
 

@@ -20,20 +20,21 @@ from rightofway.kinds.numbers import format_number
 from rightofway.model import Job, Tick, UnservedReason
 from rightofway.site import Roadmap
 
-__all__ = ["EventKind", "Pool", "PoolEvent", "PooledJob"]
+__all__ = ["EventKind", "JobEnd", "Pool", "PoolEvent", "PooledJob"]
 
 EventKind = Literal[
-    "job known", "job changed", "job withdrawn", "stop begun", "stop done", "job unserved",
-    "job ended",
+    "job known", "job changed", "job withdrawn", "job planned", "stop begun", "stop done",
+    "job unserved", "job ended",
 ]  # fmt: skip
 """Kinds of events of a job; `job unserved` is final. `job ended` adds the time to a job that is
-done.
+done, `job planned` that at which it ends in the plan.
 """
 
 KEYS: dict[EventKind, tuple[str, ...]] = {
     "job known": ("job",),
     "job changed": ("job",),
     "job withdrawn": ("name",),
+    "job planned": ("name", "end"),
     "stop begun": ("name", "robot", "stop"),
     "stop done": ("name", "robot", "stop"),
     "job unserved": ("name", "reason"),
@@ -61,6 +62,8 @@ class PoolEvent:
         `stop done`. A stop is begun when its work is released to the robot.
     reason
         Why no robot does the job, of `job unserved`.
+    end
+        When the job ends in the plan, of `job planned`, from the start of the shift [ticks].
     """
 
     kind: EventKind
@@ -70,6 +73,7 @@ class PoolEvent:
     robot: int | None = None
     stop: int | None = None
     reason: UnservedReason | None = None
+    end: Tick | None = None
 
     def to_document(self, roadmap: Roadmap) -> dict[str, Any]:
         """Return the event as JSON has it, with the job as scenario files have it."""
@@ -118,6 +122,11 @@ class PooledJob:
         Index of the robot that has begun it; None before.
     begun, done
         The numbers of its first stops that are begun, and that are done.
+    planned
+        When it ends in the first plan that has it [ticks]: that of the begin or of a round, since
+        the job became known or was changed; None before.
+    expected
+        The same in the latest plan.
     """
 
     job: Job
@@ -125,6 +134,8 @@ class PooledJob:
     robot: int | None = None
     begun: int = 0
     done: int = 0
+    planned: Tick | None = None
+    expected: Tick | None = None
 
     @property
     def is_begun(self) -> bool:
@@ -144,24 +155,35 @@ class JobEnd:
         Those of the job.
     at
         When it ended [ticks]; None until that is noted.
+    planned, expected
+        Those of `PooledJob`, at its end.
     """
 
     robot: int
     earliest: Fraction
     due: Fraction | None
     at: Tick | None = None
+    planned: Tick | None = None
+    expected: Tick | None = None
 
     def to_document(self) -> list[Any]:
         """Return the end as JSON has it."""
         due = None if self.due is None else format_number(self.due)
-        return [self.robot, format_number(self.earliest), due, self.at]
+        times = self.at, self.planned, self.expected
+        return [self.robot, format_number(self.earliest), due, *times]
 
     @classmethod
     def of_document(cls, document: Sequence[Any]) -> JobEnd:
         """Return the end of a document."""
-        robot, earliest, due, at = document
-        late = None if due is None else Fraction(due)
-        return cls(robot=robot, earliest=Fraction(earliest), due=late, at=at)
+        robot, earliest, due, at, planned, expected = document
+        return cls(
+            robot=robot,
+            earliest=Fraction(earliest),
+            due=None if due is None else Fraction(due),
+            at=at,
+            planned=planned,
+            expected=expected,
+        )
 
 
 class Pool:
@@ -218,9 +240,14 @@ class Pool:
             del self.jobs[event.name]
             self.left[event.name] = later
             if later == "done" and event.robot is not None:
-                job, robot = own.job, event.robot
-                self.ends[job.name] = JobEnd(robot=robot, earliest=job.earliest, due=job.due)
-                self.unnoted.add(job.name)
+                self.ends[event.name] = JobEnd(
+                    robot=event.robot,
+                    earliest=own.job.earliest,
+                    due=own.job.due,
+                    planned=own.planned,
+                    expected=own.expected,
+                )
+                self.unnoted.add(event.name)
             return True
         self.jobs[event.name] = later
         return later != own
@@ -250,6 +277,8 @@ class Pool:
                 "robot": own.robot,
                 "begun": own.begun,
                 "done": own.done,
+                "planned": own.planned,
+                "expected": own.expected,
             }
             for own in self.jobs.values()
         ]
@@ -274,6 +303,8 @@ class Pool:
                 robot=own["robot"],
                 begun=own["begun"],
                 done=own["done"],
+                planned=own["planned"],
+                expected=own["expected"],
             )
         pool.left.update(document["left"])
         for name, end in document["ends"].items():
@@ -286,7 +317,10 @@ def _advance_job(own: PooledJob, event: PoolEvent) -> PooledJob | str:
     """Return a job after an event, or how it has left the pool."""
     match event.kind:
         case "job changed" if event.job is not None and not own.is_begun:
-            return replace(own, job=event.job)
+            return replace(own, job=event.job, planned=None, expected=None)
+        case "job planned":
+            first = event.end if own.planned is None else own.planned
+            return replace(own, planned=first, expected=event.end)
         case "job withdrawn" if not own.is_begun:
             return "withdrawn"
         case "job unserved":

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from rightofway.execution.drive_result import DrivenJob, DriveResult
+from rightofway.execution.drive_result import DriveResult, measure_punctuality, sort_latest_first
 from rightofway.model import Tick
 from rightofway.report.lines import Facts, Part, Table, lay_out
 from rightofway.report.phrases import chain_items, say_count
@@ -33,6 +33,11 @@ def report_drive(result: DriveResult, quantities: Quantities) -> str:
 
 def _list_totals(result: DriveResult, quantities: Quantities) -> Iterator[tuple[str, str]]:
     yield "jobs", _count_jobs(result)
+    delay = measure_punctuality(result.ends).delay
+    if delay is not None:
+        direction = "later" if delay >= 0 else "earlier"
+        time = quantities.format_duration(abs(delay))
+        yield "delay", f"{time} {direction} than planned on average"
     if result.completion is None:
         time = quantities.format_duration(result.now)
         yield "laps", f"{sum(result.laps)} in {time}"
@@ -65,23 +70,21 @@ def _list_totals(result: DriveResult, quantities: Quantities) -> Iterator[tuple[
 
 
 def _count_jobs(result: DriveResult) -> str:
-    """Return how many jobs are done, and how many of those with a due time in time and late."""
-    done, late = f"{sum(result.jobs)} done", sum(job.is_late for job in result.ended)
-    in_time = sum(job.due is not None for job in result.ended) - late
-    return f"{done}, {in_time} in time and {late} late" if in_time + late else done
+    """Return how many jobs are done, in time and late, and how many are open."""
+    done = f"{sum(result.jobs)} done"
+    if not result.ends:
+        return done
+    ended = [end for end in result.ends if end.ended is not None]
+    late = sum(end.is_late for end in ended)
+    text = f"{done}, {len(ended) - late} in time and {late} late"
+    n_open = len(result.ends) - len(ended)
+    return f"{text}; {n_open} open" if n_open else text
 
 
 def _make_jobs(result: DriveResult, quantities: Quantities) -> Iterator[Part]:
-    """Yield a table of the jobs that are done, those that ended latest after they were due first.
-
-    Jobs without a due time are compared with the plan.
-    """
-    if not result.ended:
+    """Yield a table of jobs: those that end latest after they were due or planned, then others."""
+    if not result.ends:
         return
-
-    def measure_delay(job: DrivenJob) -> int:
-        wanted = job.planned if job.due is None else job.due
-        return 0 if wanted is None else wanted - job.ended
 
     def write(tick: Tick | None) -> str:
         return "-" if tick is None else quantities.format_point(tick)
@@ -89,13 +92,21 @@ def _make_jobs(result: DriveResult, quantities: Quantities) -> Iterator[Part]:
     yield ""
     yield quantities.format_heading("end of each job, the latest first")
     names = [robot.name for robot in result.plan.scenario.robots]
+    ends = sort_latest_first(result.ends)[:MAX_JOBS]
+    has_open = any(end.ended is None for end in result.ends)
     rows = [
-        (job.name, names[job.robot], write(job.planned), write(job.due), write(job.ended))
-        for job in sorted(result.ended, key=measure_delay)[:MAX_JOBS]
+        (
+            end.name,
+            "-" if end.robot is None else names[end.robot],
+            *map(write, (end.planned, end.due, end.ended)),
+            *([write(end.expected)] if has_open else []),
+        )
+        for end in ends
     ]
-    yield Table(("job", "robot", "planned", "due", "actual"), rows)
-    if len(result.ended) > MAX_JOBS:
-        yield f"… and {say_count(len(result.ended) - MAX_JOBS, 'more job', 'more jobs')}"
+    expected = ("expected",) if has_open else ()
+    yield Table(("job", "robot", "planned", "due", "actual", *expected), rows)
+    if len(result.ends) > MAX_JOBS:
+        yield f"… and {say_count(len(result.ends) - MAX_JOBS, 'more job', 'more jobs')}"
 
 
 def _make_robots(result: DriveResult, quantities: Quantities) -> Iterator[Part]:
