@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from rightofway.control import Message, Order, SimulatedRobot
 from rightofway.control.dispatcher import Dispatcher
+from rightofway.control.joins import Joins
 from rightofway.control.operator import Operator
 
 __all__ = ["Floor"]
@@ -14,13 +15,21 @@ __all__ = ["Floor"]
 class Floor:
     """Robots that drive one after another, without any fault.
 
-    They begin at their homes, or at the places given, and know of no order.
+    They begin at their homes, or at the places given, and know of no order; or they are the
+    ``robots`` of a floor whose control has begun again.
     """
 
-    def __init__(self, dispatcher: Dispatcher, places: Sequence[str] = ()) -> None:
-        self.dispatcher, self.operator = dispatcher, Operator(dispatcher)
+    def __init__(
+        self,
+        dispatcher: Dispatcher,
+        places: Sequence[str] = (),
+        *,
+        robots: Sequence[SimulatedRobot] = (),
+        joins: Joins | None = None,
+    ) -> None:
+        self.dispatcher, self.operator = dispatcher, Operator(dispatcher, joins)
         homes = [own.route.places[0] for own in dispatcher.ledger.robots]
-        self.robots = [SimulatedRobot(place) for place in places or homes]
+        self.robots = [*robots] or [SimulatedRobot(place) for place in places or homes]
         self.send(dispatcher.control.start())
 
     def send(self, messages: list[Message]) -> None:

@@ -41,6 +41,7 @@ NAMED: Mapping[str, str] = {
     "open": "place",
     "cancel": "robot",
     "clear": "robot",
+    "join": "robot",
     "remove": "robot",
     "place": "robot",
     "seen": "person",

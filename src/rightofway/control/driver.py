@@ -23,6 +23,7 @@ from rightofway.control.endpoints import ControlEnd, Letter, make_timestamp
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.identities import Identity
 from rightofway.control.job_events import list_driven_jobs
+from rightofway.control.joins import Joins, grow_identities, grow_plan
 from rightofway.control.journal import BatchedJournal, Entry, Journal, JournalFailed
 from rightofway.control.laps import LapsToDrive
 from rightofway.control.messages import LOOK_AHEAD, Message
@@ -121,49 +122,89 @@ class Driver:
         began: float | None = None,
         look_ahead: int = LOOK_AHEAD,
     ) -> None:
-        names = [robot.name for robot in plan.scenario.robots]
-        maps = make_order_maps(plan.scenario, identities)
-        self._journal, self._report = BatchedJournal(journal), report
-        self._notices = notices = Notices(names, report, keep=self._keep, alarm=alarm)
-        self._metrics, self._watch = metrics, watch
+        self._given, self._journal = (plan, identities), BatchedJournal(journal)
+        self._report, self._alarm, self._watch, self._metrics = report, alarm, watch, metrics
+        self._laps, self._commands, self._look_ahead = laps, commands, look_ahead
         self._task: asyncio.Task[None] | None = None  # of the run
         self.is_stopped, self._is_connected = False, False
         self._turned = time.monotonic()  # when the last turn began, or a connection failed
-        roadmap = plan.scenario.roadmap
-        self.control = FleetControl(
-            self._journal, look_ahead=look_ahead, report=notices.report_on, roadmap=roadmap
-        )
-        repeated = None if laps is None else LapsToDrive(plan, laps)
-        rounds = None if plan.scenario.jobs is None else ProcessRounds()
-        self._dispatcher = dispatcher = Dispatcher(self.control, plan, repeated, rounds=rounds)
         start = plan.scenario.units.start  # without an offset in the zone of this machine
         begin = None if start is None else start.timestamp()
         self._began = next(given for given in (began, begin, time.time()) if given is not None)
         self._tick = float(plan.scenario.problem.clock.tick * (plan.scenario.units.seconds or 1))
-        self._supervisor = Supervisor(dispatcher, notices, self._read_ticks, commands)
-        self.operator, self._switches = self._supervisor.operator, switch
-        ledger, digest = self.control.ledger, _compute_digest(plan, maps)
-        if not ledger.run:
-            dispatcher.begin(f"{digest}-{secrets.token_hex(4)}", begin)
-            if start is not None:
-                now = datetime.now(start.tzinfo).replace(microsecond=0)
-                report(Fact("clock of run", start=write_start(start), now=write_start(now)))
-            self._journal.flush()
-        elif not ledger.run.startswith(f"{digest}-"):
-            message = "is of another plan, or of other identities (give those, or another journal)"
-            raise InputError.at("journal", message)
-        else:  # trouble of before is reported again if it lasts
-            notices.report(None, EVERY_KIND, is_over=True)
-        self.end = ControlEnd(self.control, maps, make_timestamp, notices)
-        self._story = Story(ledger, names)
-        self._heard = [time.monotonic()] * len(names)
+        self._switches = switch
+        self._digest = _compute_digest(plan, make_order_maps(plan.scenario, identities))
         self._inbox: dict[str, tuple[float, Letter]] = {}  # the latest of each topic
         self._outbox: list[Letter] = []
         self._news = asyncio.Event()
         self._fails = False
         self._sent = Counter[str]()  # messages of both sides
         self._ends: dict[int, Tick] = {}  # when robots came to the end of their routes
-        self._plan, self._is_endless = plan, laps is not None
+        self._waits: list[int] = []  # of each robot, before it was built
+        self._build(begin)
+
+    def _build(self, begin: float | None = None) -> None:
+        """Build all that depends on the fleet, of the plan and of the robots that have joined."""
+        plan, identities = self._given
+        names, scenario = [robot.name for robot in plan.scenario.robots], plan.scenario
+        self.control = FleetControl(
+            self._journal, look_ahead=self._look_ahead, report=self._report_on,
+            roadmap=scenario.roadmap,
+        )  # fmt: skip
+        ledger = self.control.ledger
+        if ledger.run and not ledger.run.startswith(f"{self._digest}-"):
+            message = "is of another plan, or of other identities (give those, or another journal)"
+            raise InputError.at("journal", message)
+        if ledger.grows:
+            self.control.commit({"kind": "fleet grown"})
+        if ledger.joined:
+            plan = grow_plan(plan, ledger.joined.values())
+            identities = grow_identities(names, identities, ledger.joined.values())
+            names = [*ledger.names]
+        self._plan = plan
+        self._notices = Notices(names, self._report, keep=self._keep, alarm=self._alarm)
+        laps = None if self._laps is None else LapsToDrive(plan, self._laps)
+        rounds = None if scenario.jobs is None else ProcessRounds()
+        self._dispatcher = Dispatcher(self.control, plan, laps, rounds=rounds)
+        joins = None if rounds is None else Joins(*self._given, self._dispatcher)
+        self._supervisor = Supervisor(
+            self._dispatcher, self._notices, self._read_ticks, self._commands, joins
+        )
+        self.operator = self._supervisor.operator
+        if not ledger.run:
+            self._begin(begin)
+        else:  # trouble of before is reported again if it lasts
+            self._notices.report(None, EVERY_KIND, is_over=True)
+        maps = make_order_maps(plan.scenario, identities)
+        self.end = ControlEnd(self.control, maps, make_timestamp, self._notices)
+        self._story = Story(ledger, names)
+        self._story.waits[: len(self._waits)] = self._waits
+        self._heard = [time.monotonic()] * len(names)
+        if self._metrics is not None:
+            self._metrics.take_names(names)
+
+    def _begin(self, begin: float | None) -> None:
+        """Give the plan to an empty journal."""
+        self._dispatcher.begin(f"{self._digest}-{secrets.token_hex(4)}", begin)
+        start = self._plan.scenario.units.start
+        if start is not None:
+            now = datetime.now(start.tzinfo).replace(microsecond=0)
+            self._report(Fact("clock of run", start=write_start(start), now=write_start(now)))
+        self._journal.flush()
+
+    def _build_again(self) -> None:
+        """Build all anew with the robots that have joined, as a start after a kill does."""
+        self._close_rounds()
+        self._waits = self._story.waits
+        self._build()
+
+    def _close_rounds(self) -> None:
+        if self._dispatcher.rounds is not None:
+            self._dispatcher.rounds.rounds.close()
+
+    def _report_on(self, robot: int, fact: Fact) -> None:
+        """Report a fact about a robot."""
+        self._notices.report_on(robot, fact)
 
     def _keep(self, entry: Entry) -> None:
         """Write the messages to people into the journal."""
@@ -189,8 +230,7 @@ class Driver:
             if self.is_stopped:
                 self._notices.report(Fact("control ended"))
                 self._flush()
-            if self._dispatcher.rounds is not None:
-                self._dispatcher.rounds.rounds.close()
+            self._close_rounds()
 
     def stop(self) -> None:
         """End the run in order: nothing more is released, and the journal is whole.
@@ -228,7 +268,8 @@ class Driver:
                     connected = Fact("broker connected", broker=broker.address)
                     self._notices.report(connected, BROKER, is_over=True)
                     wait, is_lost, self._is_connected = RETRY[0], False, True
-                    await self._serve(client, stays=stays)
+                    while await self._serve(client, stays=stays):
+                        self._build_again()
             except* aiomqtt.MqttError as errors:
                 self._is_connected, self._turned = False, time.monotonic()
                 if not is_lost:
@@ -261,7 +302,7 @@ class Driver:
         return DriveResult(
             plan=self._plan,
             trace=None,
-            completion=None if self._is_endless else ends,
+            completion=ends if self._laps is None else None,
             jobs=self.control.ledger.count_jobs(),
             ends=list_driven_jobs(self.control.ledger, self._plan.scenario, now),
             laps=tuple(own.laps_done for own in robots),
@@ -281,8 +322,8 @@ class Driver:
         self._outbox += self.end.make_letters(messages)
         self._news.set()
 
-    async def _serve(self, client: aiomqtt.Client, *, stays: bool) -> None:
-        """Take turns as long as the connection lasts."""
+    async def _serve(self, client: aiomqtt.Client, *, stays: bool) -> bool:
+        """Take turns as long as the connection lasts; return whether a robot has joined."""
         self._inbox.clear()
         self._outbox.clear()
         await client.subscribe(
@@ -296,7 +337,7 @@ class Driver:
             fresh = [*self.end.make_letters(begun), *self.end.ask_for_factsheets()]
             await self._turn(client, fresh)
             reminded = time.monotonic()
-            while (stays or not self.is_done) and not self.is_stopped:
+            while (stays or not self.is_done) and not self.is_stopped and not self._has_joined:
                 try:
                     async with asyncio.timeout(max(reminded + REMIND - time.monotonic(), 0)):
                         await self._news.wait()
@@ -311,6 +352,12 @@ class Driver:
                 self._news.clear()
                 await self._turn(client, fresh)
             reader.cancel()
+        return self._has_joined and not self.is_stopped
+
+    @property
+    def _has_joined(self) -> bool:
+        """Whether a robot has joined that is on the disk, and is not in the fleet yet."""
+        return self.control.ledger.grows and not self._fails
 
     async def _read(self, client: aiomqtt.Client) -> None:
         async for message in client.messages:

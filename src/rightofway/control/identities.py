@@ -6,10 +6,10 @@ do not have them themselves.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field
 
@@ -25,10 +25,12 @@ from rightofway.model.actions import ACTION
 from rightofway.site.geometry import Frame
 
 __all__ = [
+    "IDENTITY_KEYS",
     "VERSIONS",
     "Identity",
     "format_identities",
     "load_identities",
+    "make_identity_like",
     "make_simulated_identities",
 ]
 
@@ -197,6 +199,10 @@ class _SharedDocument(Document):
     )
 
 
+IDENTITY_KEYS = frozenset(_SharedDocument.model_fields)
+"""Keys of robots in the file of identities, apart from the serial number."""
+
+
 class _RobotDocument(_SharedDocument):
     """A robot of the plan."""
 
@@ -258,10 +264,36 @@ def load_identities(path: Path | str, names: Sequence[str]) -> list[Identity]:
 
 
 def _read_identity(own: _RobotDocument, shared: _SharedDocument) -> Identity:
-    keys = _SharedDocument.model_fields
-    given = {**shared.get_given(*keys), **own.get_given(*keys)}
+    given = {**shared.get_given(*IDENTITY_KEYS), **own.get_given(*IDENTITY_KEYS)}
     if "manufacturer" not in given:
         raise InputError.at("manufacturer", "is missing (give it here, or for all robots)")
+    return Identity(serial_number=own.serial, **_convert_keys(given))
+
+
+def make_identity_like(like: Identity, document: Mapping[str, Any]) -> Identity:
+    """Return the identity of one more robot.
+
+    Parameters
+    ----------
+    like
+        The identity that has the values of keys that are not given.
+    document
+        The serial number of the robot, and other keys of robots in the file of identities.
+
+    Raises
+    ------
+    InputError
+        With every fault of the document.
+    """
+    own = validate(_RobotDocument, document)
+    given = _convert_keys(own.get_given(*IDENTITY_KEYS))
+    if "version" in given:
+        given.setdefault("interface", "")  # the usual one of that version
+    return replace(like, serial_number=own.serial, **given)
+
+
+def _convert_keys(given: dict[str, Any]) -> dict[str, Any]:
+    """Return the attributes of an identity that keys of a file give."""
     frame = given.pop("frame", None)
     if frame is not None:
         given["frame"] = Frame(**frame.get_given("x", "y", "yaw"))
@@ -269,7 +301,7 @@ def _read_identity(own: _RobotDocument, shared: _SharedDocument) -> Identity:
         given["map_id"] = given.pop("map")
     if "deviation" in given:
         given["deviation"] = float(given["deviation"])
-    return Identity(serial_number=own.serial, **given)
+    return given
 
 
 def make_simulated_identities(names: Sequence[str], version: str = "2.1.0") -> list[Identity]:

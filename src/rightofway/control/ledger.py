@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
-from typing import Any, get_args
+from typing import Any, ClassVar, get_args
 
 from rightofway.control.journal import UNFOLDED, Entry
 from rightofway.control.robot_ledger import APPLY_TO_ROBOT, RobotLedger
-from rightofway.control.routes import RouteToDrive
+from rightofway.control.routes import RouteToDrive, make_route_to_join
 from rightofway.control.work_items import find_stop
 from rightofway.dispatch.pool import EventKind, Pool, PoolEvent
 from rightofway.errors import InputError, describe_error, quote
@@ -50,6 +50,9 @@ class Ledger:
         self.answer: Entry | None = None  # to it, as a fact has it
         self.failed = False  # whether it has raised
         self.changed = set[int]()
+        self.joined: dict[str, Entry] = {}  # robots that no plan has, by name
+        self.joining = set[str]()  # those of them that have not been placed yet
+        self.grows = False  # whether some of them are not among the robots yet
 
     @property
     def arrived(self) -> list[int]:
@@ -155,20 +158,8 @@ class Ledger:
             The next entry of the journal.
         """
         kind = entry["kind"]
-        if kind == "started":
-            self.starts += 1
-        elif kind in {"plan", "splice"}:
-            self._apply_plan(entry)
-        elif kind == "snapshot":
-            self._apply_snapshot(entry)
-        elif kind == "closed":
-            self.closed[tuple(entry["names"])] = tuple(map(tuple, entry["edges"]))
-            self.changed.update(range(len(self.robots)))  # robots may wait for it to be open
-        elif kind == "opened":
-            self.closed.pop(tuple(entry["names"]), None)
-        elif kind == "command":
-            self.commands, self.answer = entry["number"], entry["answer"]
-            self.failed = entry["failed"]
+        if kind in self._apply_to_fleet:
+            self._apply_to_fleet[kind](self, entry)
         elif kind in JOB_EVENTS:
             self._apply_job_event(PoolEvent.of_document(entry, self.roadmap))
         elif kind in UNFOLDED:
@@ -176,8 +167,42 @@ class Ledger:
         else:
             APPLY_TO_ROBOT[kind](self.robots[entry["robot"]], entry)
             self._follow_jobs(entry)
+            if kind in {"placed", "taken off"}:
+                self.joining.discard(self.names[entry["robot"]])
             others = range(len(self.robots)) if kind == "fault" else ()  # it may be in their way
             self.changed.update((entry["robot"], *others))
+
+    def _apply_start(self, _: Entry) -> None:
+        self.starts += 1
+
+    def _close(self, entry: Entry) -> None:
+        self.closed[tuple(entry["names"])] = tuple(map(tuple, entry["edges"]))
+        self.changed.update(range(len(self.robots)))  # robots may wait for it to be open
+
+    def _open(self, entry: Entry) -> None:
+        self.closed.pop(tuple(entry["names"]), None)
+
+    def _apply_command(self, entry: Entry) -> None:
+        self.commands, self.answer = entry["number"], entry["answer"]
+        self.failed = entry["failed"]
+
+    def _join(self, entry: Entry) -> None:
+        self.joined[entry["name"]] = entry
+        self.joining.add(entry["name"])
+        self.grows = True
+
+    def _grow_fleet(self, _: Entry) -> None:
+        """Take in the robots that have joined, off the floor until they are placed."""
+        self.grows = False
+        for name in sorted(self.joining, key=[*self.joined].index):
+            route = make_route_to_join(self.joined[name]["at"])
+            number = self.names.index(name) if name in self.names else len(self.names)
+            self.robots[number : number + 1] = [RobotLedger(route, is_off=True)]
+            self.names = (*self.names[:number], name, *self.names[number + 1 :])
+            self.changed.add(number)
+        old, ends = self.graph, [own.route.end for own in self.robots]
+        waits = {part: old.waits(part) for part in old.list_waiting_parts()}
+        self.graph = ReleaseGraph(ends, waits, [own.route.first for own in self.robots])
 
     @property
     def roadmap(self) -> Roadmap:
@@ -238,6 +263,9 @@ class Ledger:
             "failed": self.failed,
             "robots": robots,
             "waits": waits,
+            "joined": [*self.joined.values()],
+            "joining": sorted(self.joining),
+            "grows": self.grows,
             "outdated": sorted(self.outdated),
             "pool": self.pool.to_document(self.roadmap) if self._roadmap else None,
         }
@@ -263,10 +291,25 @@ class Ledger:
         self.failed = entry["failed"]
         self.robots = [RobotLedger.of_document(robot) for robot in entry["robots"]]
         self.graph = _make_graph([own.route for own in self.robots], entry["waits"])
+        self.joined = {own["name"]: own for own in entry.get("joined", ())}
+        self.joining, self.grows = set(entry.get("joining", ())), entry.get("grows", False)
         self.outdated = set(entry.get("outdated", ()))  # journals of version 2 have no jobs
         if entry.get("pool") is not None:
             self.pool = Pool.of_document(entry["pool"], self.roadmap)
         self.changed.update(range(len(self.robots)))
+
+    _apply_to_fleet: ClassVar[Mapping[str, Callable[[Ledger, Entry], None]]] = {
+        "started": _apply_start,
+        "plan": _apply_plan,
+        "splice": _apply_plan,
+        "snapshot": _apply_snapshot,
+        "closed": _close,
+        "opened": _open,
+        "command": _apply_command,
+        "joined": _join,
+        "fleet grown": _grow_fleet,
+    }
+    """How each kind of entry is taken in that is about no robot and no job."""
 
 
 Waits = list[list[list[Any]]]

@@ -80,6 +80,17 @@ class FleetMetrics:
         )  # fmt: skip
         self._names, self._waits_seen = names, [0] * len(names)
 
+    def take_names(self, names: Sequence[str]) -> None:
+        """Take in that more robots are in the fleet.
+
+        Parameters
+        ----------
+        names
+            Of all robots.
+        """
+        self._waits_seen += [0] * (len(names) - len(self._names))
+        self._names = names
+
     def serve(self, port: int, host: str, report_health: Callable[[], Mapping[str, Any]]) -> None:
         """Serve metrics and health over HTTP: ``/metrics``, ``/healthz`` and ``/readyz``.
 

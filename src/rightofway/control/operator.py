@@ -23,6 +23,7 @@ from rightofway.control.detours import Detours, list_neighbours
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.fleet_control import UNSOUND
 from rightofway.control.job_commands import JobCommands, list_pooled_jobs
+from rightofway.control.joins import Joins
 from rightofway.control.journal import Entry
 from rightofway.control.messages import Message
 from rightofway.control.names import (
@@ -69,10 +70,13 @@ class Operator:
     ----------
     dispatcher
         The work of robots.
+    joins
+        The robots that join; None where none can.
     """
 
-    def __init__(self, dispatcher: Dispatcher) -> None:
+    def __init__(self, dispatcher: Dispatcher, joins: Joins | None = None) -> None:
         self._dispatcher, self._scenario = dispatcher, dispatcher.plan.scenario
+        self._joins = joins
         self._ledger = dispatcher.ledger
         self._detours = Detours(self._scenario, self._ledger)
         self._number: int | None = None  # of the command under way, until it is committed
@@ -156,6 +160,7 @@ class Operator:
             "close": lambda: self.close(*places),
             "open": lambda: self.open(*places),
             "place": lambda: self.place_robot(name, at),
+            "join": lambda: self.join_robot(command),
             "replan": lambda: self._plan_rest(
                 self._dispatcher.list_stops(), fact=Fact("replanned")
             ),
@@ -276,6 +281,27 @@ class Operator:
         begun.arrived = begun.released = first
         fact = Fact("robot placed", robot=name, place=place)
         return self._plan_rest(stops, placed={robot: begun}, fact=fact)
+
+    def join_robot(self, given: Mapping[str, Any]) -> list[Message]:
+        """Take in a robot that no plan has, as soon as its state shows it at its place.
+
+        Parameters
+        ----------
+        given
+            As for `Joins.judge`.
+
+        Raises
+        ------
+        InputError
+            With every fault of the robot, or if robots cannot join here.
+        GaveUp
+            If another robot is in the way, or no way leads home from there.
+        """
+        if self._joins is None:
+            remedy = "drive a plan with jobs at a broker; else plan again with the robot"
+            raise InputError.at("join", f"is not possible with this plan, or in a demo ({remedy})")
+        entry, fact = self._joins.judge(given)
+        return self._note(entry, fact=fact)
 
     # --- jobs ------------------------------------------------------------------------------------
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from rightofway.control.job_events import list_driven_jobs
+from rightofway.control.joins import grow_plan
 from rightofway.control.journal import Entry, JournalRow
 from rightofway.control.ledger import Ledger, refuse_entry
 from rightofway.control.notices import EVERY_KIND
@@ -38,7 +39,7 @@ DECIMALS = 2
 OF_LEDGER = frozenset({"fault", "failed"})
 """Kinds of alarms that begin and end with entries on robots, not with notices."""
 
-EVERYBODY = ("plan", "splice", "snapshot")
+EVERYBODY = ("plan", "splice", "snapshot", "fleet grown")
 """Kinds of entries that may change what is known of all robots."""
 
 
@@ -93,7 +94,7 @@ class Recording:
     def __init__(
         self, plan: Plan, source: RowSource, clock: Callable[[], float] = time.time
     ) -> None:
-        self._plan, self._source, self._clock = plan, source, clock
+        self._given, self._plan, self._source, self._clock = plan, plan, source, clock
         self._roadmap, self._writer = plan.scenario.roadmap, FactWriter(plan.scenario)
         seconds = plan.scenario.units.seconds or 1
         self._per_second = 1 / float(plan.scenario.problem.clock.tick * seconds)
@@ -241,10 +242,8 @@ class Recording:
         if kind == "started":
             self._rows.append((tick, -1, "says", "news", self._write(Fact("control started")), []))
         if kind in EVERYBODY:
-            if not self._shown:
-                self._refuse_another_plan()
-                self._shown = [_Shown() for _ in self._ledger.robots]
-                self._story = Story(self._ledger, self._ledger.names)
+            if not self._shown or kind == "fleet grown":
+                self._take_fleet()
             return range(len(self._shown))
         robot = int(entry.get("robot", -1))
         if kind == "fault":
@@ -254,6 +253,22 @@ class Recording:
         elif kind == "failed":
             self._update_alarm(robot, "failed", self._told.get(robot, entry["job"]), tick)
         return () if robot < 0 else (robot,)
+
+    @property
+    def plan(self) -> Plan:
+        """The plan with the robots that have joined."""
+        return self._plan
+
+    def _take_fleet(self) -> None:
+        """Take in the robots of the plan, and those that have joined."""
+        ledger = self._ledger
+        joined = (own for name, own in ledger.joined.items() if name in ledger.names)
+        self._plan = grow_plan(self._given, joined)
+        self._refuse_another_plan()
+        self._shown += (_Shown() for _ in ledger.robots[len(self._shown) :])
+        waits = self._story.waits if self._story else []
+        self._story = Story(ledger, ledger.names)
+        self._story.waits[: len(waits)] = waits
 
     def _refuse_another_plan(self) -> None:
         names = tuple(robot.name for robot in self._plan.scenario.robots)

@@ -288,6 +288,7 @@ async def run_robots(
     trouble: Trouble | None = None,
     seed: int = 0,
     time_scale: float = 1.0,
+    begin: int = 0,
     is_up: Callable[[], None] = lambda: None,
     on_failure: Callable[[BaseException], None] = lambda _error: None,
 ) -> None:
@@ -307,6 +308,8 @@ async def run_robots(
         Of the trouble; each robot draws its own.
     time_scale
         Seconds of robot time in a second.
+    begin
+        The number of the first robot that is run; those before it are left out.
     is_up
         Is called once all robots have been connected.
     on_failure
@@ -329,8 +332,9 @@ async def run_robots(
             trouble=trouble or {},
         )
         for number, (track, identity) in enumerate(zip(plan.tracks, identities, strict=True))
+        if number >= begin
     ]
-    names = {identity.serial_number for identity in identities}
+    names = {robot.identity.serial_number for robot in robots}
     arrivals = _Arrivals(missing=names, is_up=is_up, on_failure=on_failure)
     asyncio.get_running_loop().set_exception_handler(_skip_cut_cables)
     async with asyncio.TaskGroup() as tasks:

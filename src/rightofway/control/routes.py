@@ -15,6 +15,7 @@ from rightofway.model import Battery, Plan, PlannedItem, Scenario, Tick, Track, 
 __all__ = [
     "RouteToDrive",
     "make_route_from",
+    "make_route_to_join",
     "make_route_with_work",
     "make_routes_to_drive",
 ]
@@ -316,6 +317,11 @@ def _follow_tour(
     path = track.vertices.tolist()
     charges = follow_charge(scenario, battery, path, tour, soc=soc, begin=Tick(ready))
     yield from zip(tour, charges, strict=True)
+
+
+def make_route_to_join(place: str) -> RouteToDrive:
+    """Return the route of a robot that has joined and is at a place."""
+    return RouteToDrive(places=(place,), jobs=((),), work=((),), enter=(0,), in_step=False)
 
 
 def make_route_from(route: RouteToDrive, place: str) -> RouteToDrive:

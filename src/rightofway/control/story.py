@@ -88,6 +88,9 @@ class Story:
             if (item := _find_last_item(own)) is not None:
                 done = Fact("item done", robot=name, place=place, item=item)
             yield Happening(robot, "work", done)
+        next_part = own.released + 1
+        if chapter.has_ended and next_part < own.route.end:  # it was given more to do
+            chapter.has_ended = chapter.has_set_out = False
         waited = chapter.waits_for is not None and own.released >= chapter.waits_for
         if waited or (own.released > own.arrived and not chapter.has_set_out):
             kind = "goes on" if chapter.has_set_out else "sets out"
@@ -95,14 +98,11 @@ class Story:
             target = own.route.get_place(own.released)
             drive = Fact(kind, robot=name, place=place, target=target)
             yield Happening(robot, "drive", drive)
-        next_part = own.released + 1
         if next_part == own.route.end:
             if own.is_done and not chapter.has_ended:
                 chapter.has_ended = True
                 yield Happening(robot, "end", Fact("end of way", robot=name, place=place))
             return
-        if chapter.has_ended:  # it was given more to do
-            chapter.has_ended = chapter.has_set_out = False
         is_at_end = own.arrived == own.released and own.finished.issuperset(
             own.route.get_jobs(own.arrived)
         )

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from rightofway.control.battery_watch import BatteryWatch
 from rightofway.control.commands import Answer, Commands, CommandsFailed
 from rightofway.control.dispatcher import Dispatcher
+from rightofway.control.joins import Joins
 from rightofway.control.messages import Message
 from rightofway.control.notices import Notices
 from rightofway.control.operator import Operator
@@ -37,6 +38,8 @@ class Supervisor:
         Returns the time since the run began [ticks].
     commands
         Where people ask for more: jobs, closures, holds; None where nobody can.
+    joins
+        The robots that join; None where none can.
 
     Attributes
     ----------
@@ -50,9 +53,11 @@ class Supervisor:
         notices: Notices,
         read_ticks: Callable[[], int],
         commands: Commands | None = None,
+        joins: Joins | None = None,
     ) -> None:
         self._dispatcher, self._notices, self._commands = dispatcher, notices, commands
-        self.operator = Operator(dispatcher)
+        self._joins = joins
+        self.operator = Operator(dispatcher, joins)
         self._answers: list[tuple[int, Answer]] = []  # to commands, once all is on the disk
         self._has_lost_commands = False  # their file could not be used
         self._told = dict[int, int]()  # of each robot, the last part that a closure kept it from
@@ -72,6 +77,8 @@ class Supervisor:
         if self._batteries is not None:
             self._batteries.look()
         messages = [*self._dispatcher.follow_time(), *self._dispatcher.pass_stuck()]
+        if self._joins is not None:
+            messages += self._joins.look(self._notices)
         self.tell_closures()
         self._standstill.look()
         self._notices.settle()

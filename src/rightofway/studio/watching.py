@@ -10,7 +10,6 @@ import asyncio
 import json
 import secrets
 from collections.abc import AsyncGenerator, Mapping
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -65,10 +64,11 @@ class Watched:
     def __init__(
         self, plan: Plan, journal: Path, *, title: str, address: str = "/", takes_orders: bool
     ) -> None:
-        self._plan, self._journal, self._title = plan, journal, title
+        self._journal, self._title = journal, title
         self._address, self._takes_orders = address, takes_orders
         self._recording = Recording(plan, JournalReader(journal))
         self._token = secrets.token_hex(4)  # of this reading: rows have their numbers in it
+        self._payload: tuple[Plan, Payload] | None = None  # of the robots that have joined, too
         self._pages = 0
         self._is_over = False
 
@@ -103,15 +103,17 @@ class Watched:
 
     def _write_page(self, feed: FeedData, *, is_whole: bool = False) -> str:
         """Return the page of the plan with a feed."""
-        payload = self._payload.copy()
+        plan = self._recording.plan
+        if self._payload is None or self._payload[0] is not plan:
+            self._payload = plan, self._make_payload(plan)
+        payload = self._payload[1].copy()
         payload["driven"] = feed
-        about = f"{self._title}: {len(self._plan.scenario.robots)} robots"
+        about = f"{self._title}: {len(plan.scenario.robots)} robots"
         return make_document(about, payload, "watch_main", connects=not is_whole)
 
-    @cached_property
-    def _payload(self) -> Payload:
-        """The plan as all pages get it, without its jobs."""
-        payload = make_payload(self._plan, title=self._title)
+    def _make_payload(self, plan: Plan) -> Payload:
+        """Return the plan as all pages get it, without its jobs."""
+        payload = make_payload(plan, title=self._title)
         payload.pop("work", None)
         return payload
 
@@ -207,7 +209,7 @@ class Watched:
         """
         if not self._takes_orders:
             raise Refused("this page only watches (open that of the control)", 403)
-        if self._plan.scenario.jobs is None:
+        if self._recording.plan.scenario.jobs is None:
             raise Refused("the plan has no jobs (drive one of a scenario with jobs)", 409)
         answer = self._ask(command)
         if answer is None:

@@ -36,6 +36,7 @@ ACTIONS = {
     "clear": "confirm that the faulty robot NAME is where the journal has it",
     "remove": "confirm that the robot NAME is off the floor",
     "place": "take the robot NAME in again where it says that it is, or at --at",
+    "join": "take in the robot NAME, which no plan has: --serial and --at (plans with jobs)",
     "replan": "replan the rest as robots stand, round those that do not go on",
 }
 
@@ -50,6 +51,7 @@ Examples:
   rightofway jobs plan.journal close N4
   rightofway jobs plan.journal close N4 --to N7
   rightofway jobs plan.journal hold
+  rightofway jobs plan.journal join R3 --serial A-003 --at N8
 """
 
 
@@ -73,6 +75,24 @@ def _read_moment(
     if is_clock_time(given):
         return given
     return _read_duration(context, parameter, given)
+
+
+def _read_keys(
+    _context: click.Context, _parameter: click.Parameter, given: tuple[str, ...]
+) -> dict[str, Any]:
+    """Return keys with their values, which are written as in YAML."""
+    from rightofway.io.documents import parse_document
+
+    keys = dict[str, Any]()
+    for text in given:
+        key, is_key, value = text.partition("=")
+        if not is_key or not value:
+            raise click.BadParameter(f"{text!r} has no value (give KEY=VALUE, like speed=1.4)")
+        try:
+            keys[key] = parse_document(value, Path("value.yaml"))
+        except InputError as error:
+            raise click.BadParameter(f"{text!r}: {error.faults[0].message}") from None
+    return keys
 
 
 def _add_job_options(command: Any) -> Any:
@@ -114,6 +134,15 @@ def _add_job_options(command: Any) -> Any:
                          help="A job that ends before this one begins; may be repeated. In a plan"
                          " without jobs, the job that its robot does directly before this one,"
                          " like R1/job2."),
+            click.option("--serial", metavar="SERIAL",
+                         help="With join: the serial number of the robot, as its topics have it."),
+            click.option("--like", metavar="ROBOT",
+                         help="With join: the robot of the plan whose attributes and identity it"
+                         " has; needed if robots of the plan differ."),
+            click.option("--set", "given", metavar="KEY=VALUE", multiple=True, callback=_read_keys,
+                         help="With join: another value of a key of robots, of scenario files or"
+                         " of the file of identities, like home=Dock3, speed=1.4 or version=3.0.0;"
+                         " may be repeated."),
         )
     ):  # fmt: skip
         command = option(command)
@@ -152,6 +181,8 @@ def jobs(
     given = _list_given(name, options, is_lane=action in {"close", "open"})
     if action == "add" and not {"at", "pickup"} & given.keys() and name != "-":
         raise click.UsageError("a job is somewhere (give --at, or --from and --to)")
+    if action == "join" and not {"at", "serial"} <= given.keys():
+        raise click.UsageError("join needs --serial and --at")
     from rightofway.control.commands import NAMED, Commands
     from rightofway.control.journal import JournalReader
     from rightofway.facts import read_fact
@@ -188,6 +219,7 @@ def jobs(
 def _list_given(name: str | None, options: Mapping[str, Any], *, is_lane: bool) -> dict[str, Any]:
     """Return the values of a command, with the keys of jobs in scenario files."""
     values = {"name": name, **options, "after": [*options["after"]] or None}
+    values["set"] = values.pop("given") or None
     values["urgent"] = options["urgent"] or None
     if values["pickup"] is not None and not is_lane:
         values["dropoff"] = values.pop("to")

@@ -34,6 +34,12 @@ Examples:
 @click.option("--vda-version", default="2.1.0", show_default=True, metavar="VERSION",
               help="The version of VDA 5050 of robots without --identities: 2.0.0, 2.1.0 or"
               " 3.0.0.")  # fmt: skip
+@click.option("--serial", metavar="SERIAL",
+              help="Simulate one robot more, of this serial number, in place of those of the PLAN:"
+              " one that joins with `rightofway jobs`. With --at.")  # fmt: skip
+@click.option("--at", metavar="PLACE", help="Where that robot is: a vertex or a station.")
+@click.option("--like", metavar="ROBOT",
+              help="The robot of the PLAN that it is like; needed if they differ.")  # fmt: skip
 @click.option("--trouble", "troubles", multiple=True, metavar="KIND:SHARE",
               help="Random trouble: late:0.5 (drives take half as long again on average), or stop,"
               " error, offline or reset with their share of drives. May be"
@@ -49,6 +55,9 @@ def robots(
     identities: str | None,
     write_identities: str | None,
     vda_version: str,
+    serial: str | None,
+    at: str | None,
+    like: str | None,
     troubles: tuple[str, ...],
     time_scale: float,
     seed: int,
@@ -76,6 +85,13 @@ def robots(
         if identities is None
         else load_identities(identities, names)
     )
+    begin = 0
+    if serial is not None or at is not None or like is not None:
+        from rightofway.control.joins import grow_identities, grow_plan, make_join_entry
+
+        given = {"name": f"{names[0]} {serial}", "serial": serial, "at": at, "like": like}
+        joined, begin = [make_join_entry(opened, given)], len(names)
+        opened, fleet = grow_plan(opened, joined), grow_identities(names, fleet, joined)
     address = login.make_broker()
     trouble = parse_troubles(troubles)
     if write_identities is not None:
@@ -83,7 +99,7 @@ def robots(
         say_written(write_identities)
 
     def is_up() -> None:
-        say(f"{len(fleet)} robots are at {address.address}; end them with Ctrl-C")
+        say(f"{len(fleet) - begin} robots are at {address.address}; end them with Ctrl-C")
 
     def on_failure(error: BaseException) -> None:
         say(f"no connection to {address.address}: {error}; trying again")
@@ -96,6 +112,7 @@ def robots(
             trouble=trouble,
             seed=seed,
             time_scale=time_scale,
+            begin=begin,
             is_up=is_up,
             on_failure=on_failure,
         )

@@ -317,6 +317,19 @@ def _place_robot(robot: ListedRobot, on: LoadedMap | None) -> PlacedRobot | None
     return PlacedRobot(robot=resolved, place=place, aliases=aliases)
 
 
+def read_robot_of_jobs(data: Any, on: LoadedMap) -> Robot:
+    """Return the robot of a document on a map, for a scenario with jobs.
+
+    Raises
+    ------
+    InputError
+        With every fault of the document.
+    """
+    placed = _place_robot(read_robot(0, data, has_jobs=True), on)
+    assert placed is not None, "there is a map"
+    return placed.robot
+
+
 def _place_rows(robots: FleetRows, on: LoadedMap, faults: Faults) -> list[PlacedRobot]:
     """Return the robots on the rows of a file, or none after noting why."""
     placed = list[PlacedRobot]()

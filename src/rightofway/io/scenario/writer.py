@@ -46,7 +46,7 @@ def dump_scenario(scenario: Scenario) -> dict[str, Any]:
         "format": SCENARIO_FORMAT,
         "map": _map(roadmap) | _write_spacing(scenario),
         **_write_units(scenario.units),
-        "robots": [_write_robot(robot, scenario) for robot in scenario.robots],
+        "robots": [dump_robot(robot, scenario) for robot in scenario.robots],
         "rules": list_plain_attributes(scenario.rules) | dump_rules_of_jobs(scenario.rules),
         **_write_closures(scenario),
         **_write_actions(scenario),
@@ -323,7 +323,8 @@ def _write_actions(scenario: Scenario) -> dict[str, Any]:
     return {"actions": actions} if actions else {}
 
 
-def _write_robot(robot: Robot, scenario: Scenario) -> dict[str, Any]:
+def dump_robot(robot: Robot, scenario: Scenario) -> dict[str, Any]:
+    """Return a robot as scenario files have it."""
     roadmap = scenario.roadmap
     stops = [
         {

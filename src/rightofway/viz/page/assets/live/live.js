@@ -83,6 +83,10 @@ export class Live {
   take(frame) {
     const { driven, clock, plan } = this;
     const sentences = driven.story.length;
+    if (frame.rows.some(([, robot]) => robot >= driven.raw.length)) {
+      location.reload(); // a robot has joined that this page does not have
+      return;
+    }
     driven.take(frame);
     plan.robots = plan.happened = driven.robots;
     this.#lengthen();
