@@ -107,6 +107,8 @@ class Chaos:
     floor
         Whether plans with jobs have vertices that are driven through only, robots that turn slowly,
         and closures that begin and end by the clock.
+    joins
+        Share of events at which a robot joins that no plan has. It says truly where it is.
     """
 
     events: int = 500
@@ -124,6 +126,7 @@ class Chaos:
     shuffles: bool = False
     works_at_home: bool = False
     floor: bool = False
+    joins: float = 0.0
 
 
 KINDS = {
@@ -651,6 +654,16 @@ class Observer:
         self._shapes = cache(self._shapes_along)
         self._seen: list[tuple[object, ...]] = []
         self._ways: list[tuple[tuple[str, ...], ...]] = [() for _ in robots]  # driven, booked
+
+    def add_robot(self, scenario: Scenario) -> None:
+        """Look at one robot more, the last one of the scenario."""
+        self.scenario, self._excludes = scenario, _floor(scenario).excludes
+        self._arrived.append(0)
+        self._job_of.append({})
+        self._looked_at.append(None)
+        self._laps.append(0)
+        self._open.append(set())
+        self._ways.append(())
 
     def see_message(self, message: Message) -> None:
         """Hold an order against what was sent with its ids before (I4)."""

@@ -16,8 +16,11 @@ from typing import Any
 from unittest.mock import patch
 
 import rightofway
-from rightofway.control import FleetControl, Message, RobotLedger
+from rightofway.control import Condition, FleetControl, Message, RobotLedger, SimulatedRobot
 from rightofway.control.dispatcher import Dispatcher
+from rightofway.control.identities import make_simulated_identities
+from rightofway.control.joins import Joins, grow_plan
+from rightofway.control.notices import Notices
 from rightofway.control.operator import Operator
 from rightofway.control.round_worker import RoundRequest, RoundsAtOnce
 from rightofway.control.stop_actions import split_action
@@ -40,9 +43,13 @@ JOB_KINDS = {
     "arrive, wrong fields": Chaos(wrong=0.1, jobs=0.02),
     "arrive, people": Chaos(people=0.03, jobs=0.02),
     "arrive, all": Chaos(people=0.02, kills=0.03, resets=0.01, wrong=0.05, cancels=0.01, jobs=0.03),
+    "arrive, joins": Chaos(people=0.01, kills=0.02, resets=0.01, jobs=0.02, joins=0.01),
     "floor": Chaos(kills=0.0, jobs=0.02, floor=True),
     "floor, all": Chaos(
         people=0.02, kills=0.03, resets=0.01, wrong=0.05, cancels=0.01, jobs=0.03, floor=True
+    ),
+    "floor, joins": Chaos(
+        people=0.01, kills=0.02, resets=0.01, cancels=0.01, jobs=0.02, joins=0.01, floor=True
     ),
 }
 """Kinds of chaos with jobs by name."""
@@ -51,6 +58,9 @@ EVENTS_PER_TICK = 10
 
 MOST_STILL = 2_000
 """Events without faults after which rounds that find no plan will find none."""
+
+MOST_JOINED = 3
+"""Robots that join in a run, at most."""
 
 CHARGED_PER_EVENT = 0.01
 """How much a robot at a charging place charges in an event; 1 is full."""
@@ -201,6 +211,7 @@ class JobWorld(World):
         self.socs = [
             1.0 if robot.start is None else float(robot.start.soc) for robot in plan.scenario.robots
         ]
+        self.given = plan  # without the robots that join
         super().__init__(plan, seed, chaos, control)
         self.observer = JobObserver(plan.scenario, self.robots)
         self.observer.is_shut_out = self._is_shut_out
@@ -218,6 +229,9 @@ class JobWorld(World):
                 if self.chaos.floor:  # robots report any heading
                     turned = (Fraction(self.draw.randrange(0, 360, 45)) for _ in self.robots)
                     control.headings.update(enumerate(turned))
+                if control.ledger.grows:
+                    control.commit({"kind": "fleet grown"})
+                self._grow(control)
                 rounds = LateRounds(self.draw)
                 dispatcher = Dispatcher(control, self.plan, rounds=rounds, patience=2)
                 if self.several:
@@ -230,12 +244,64 @@ class JobWorld(World):
                     dispatcher.begin("run")
                 self.control, self.dispatcher = control, dispatcher
                 self.rounds = dispatcher.rounds
-                self.operator = Operator(dispatcher)
+                names = [robot.name for robot in self.given.scenario.robots]
+                self.joins = Joins(self.given, make_simulated_identities(names), dispatcher)
+                self.notices = Notices([*control.ledger.names], lambda _: None)
+                self.operator = Operator(dispatcher, self.joins)
                 self.send(control.start())
             except Killed:
                 self.counts["kills"] += 1
             else:
                 return
+
+    def _grow(self, control: FleetControl) -> None:
+        """Have the robots that have joined; some are not at their places yet."""
+        ledger = control.ledger
+        self.plan = grow_plan(self.given, ledger.joined.values())
+        self.scenario = self.plan.scenario
+        for own in ledger.robots[len(self.robots) :]:
+            anywhere = self.scenario.roadmap.name(self.draw.randrange(self._n_vertices))
+            place = own.route.places[0] if self._chance(0.7) else anywhere
+            self.robots.append(SimulatedRobot(place))
+            self.orders.append([])
+            self.conditions.append(Condition())
+            self.socs.append(1.0)
+            self.observer.add_robot(self.scenario)
+
+    @property
+    def _n_vertices(self) -> int:
+        return self.scenario.roadmap.n_vertices
+
+    def _join(self) -> list[Message]:
+        """Ask for a robot to join, or for another place of one that has not been placed."""
+        draw, ledger, roadmap = self.draw, self.control.ledger, self.scenario.roadmap
+        number = len(ledger.joined) - (draw.random() < 0.2)
+        if not 0 <= number < MOST_JOINED:
+            return []
+        places = [roadmap.name(draw.randrange(self._n_vertices)) for _ in range(2)]
+        keys: dict[str, Any] = {"speed": draw.choice([1, 2, "1/2"])}
+        if draw.random() < 0.2:
+            keys["home"] = places[1]
+        command = {
+            "kind": "join", "name": f"X{number}", "serial": f"serial{number}", "at": places[0],
+            "like": draw.choice(ledger.names), "set": keys,
+        }  # fmt: skip
+        try:
+            messages, _ = self.operator._run_command(command)
+        except (GaveUp, InputError) as error:
+            self.counts["not joined"] += 1
+            self.said.add(str(error))
+            return []
+        self.counts["joins"] += 1
+        return messages
+
+    def _move_to_join(self) -> None:
+        """Have robots that join come to their places."""
+        ledger = self.control.ledger
+        for name in sorted(ledger.joining):
+            robot = self.robots[ledger.names.index(name)]
+            if self.is_calm or self._chance(0.1):
+                robot.place = ledger.joined[name]["at"]
 
     def _note(self, fact: Fact | None, is_over: bool) -> None:
         if fact is not None and not is_over:
@@ -252,14 +318,22 @@ class JobWorld(World):
             if self.observer.is_charging(robot):
                 self.socs[robot] = min(1.0, self.socs[robot] + CHARGED_PER_EVENT)
         super()._event()
+        if self.chaos.joins and self._happens(self.chaos.joins):
+            self.call(self._join)
+        if self.control.ledger.grows:
+            self._begin()
         if self.events % EVENTS_PER_TICK == 0:
             self._tell(self.draw.randrange(len(self.robots)))
+            self._move_to_join()
             self.call(self._take_turn)
 
     def _take_turn(self) -> list[Message]:
         before = self.rounds._count
         messages = [*self.dispatcher.follow_time(), *self.dispatcher.pass_stuck()]
         self.counts["rounds"] += self.rounds._count - before
+        joining = len(self.control.ledger.joining)
+        messages += self.joins.look(self.notices)
+        self.counts["placed after a join"] += joining - len(self.control.ledger.joining)
         return messages
 
     def _step(self, robot: int) -> None:
@@ -378,6 +452,13 @@ class JobObserver(Observer):
         self.over = set[str]()  # jobs that had left without being begun
         self.steps: list[dict[str, set[int]]] = [{} for _ in robots]  # of each item, as done
         self.is_shut_out: Callable[[int], bool] = lambda _: False
+
+    def add_robot(self, scenario: Scenario) -> None:
+        """Look at one robot more, which has joined."""
+        super().add_robot(scenario)
+        self.counted.append(Counter())
+        self.charges.append(False)
+        self.steps.append({})
 
     def is_charging(self, robot: int) -> bool:
         """Return whether the last charge of a robot has begun, and it has not driven on."""

@@ -140,7 +140,6 @@ class Driver:
         self._fails = False
         self._sent = Counter[str]()  # messages of both sides
         self._ends: dict[int, Tick] = {}  # when robots came to the end of their routes
-        self._waits: list[int] = []  # of each robot, before it was built
         self._build(begin)
 
     def _build(self, begin: float | None = None) -> None:
@@ -178,7 +177,6 @@ class Driver:
         maps = make_order_maps(plan.scenario, identities)
         self.end = ControlEnd(self.control, maps, make_timestamp, self._notices)
         self._story = Story(ledger, names)
-        self._story.waits[: len(self._waits)] = self._waits
         self._heard = [time.monotonic()] * len(names)
         if self._metrics is not None:
             self._metrics.take_names(names)
@@ -194,9 +192,10 @@ class Driver:
 
     def _build_again(self) -> None:
         """Build all anew with the robots that have joined, as a start after a kill does."""
-        self._close_rounds()
-        self._waits = self._story.waits
-        self._build()
+        self._journal.begin_again(self.control.ledger.make_snapshot())  # it counts waits, too
+        if self._flush():
+            self._close_rounds()
+            self._build()
 
     def _close_rounds(self) -> None:
         if self._dispatcher.rounds is not None:

@@ -266,9 +266,7 @@ class Recording:
         self._plan = grow_plan(self._given, joined)
         self._refuse_another_plan()
         self._shown += (_Shown() for _ in ledger.robots[len(self._shown) :])
-        waits = self._story.waits if self._story else []
         self._story = Story(ledger, ledger.names)
-        self._story.waits[: len(waits)] = waits
 
     def _refuse_another_plan(self) -> None:
         names = tuple(robot.name for robot in self._plan.scenario.robots)
