@@ -6,13 +6,13 @@ import json
 import math
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from tests.builders.brokers import MOSQUITTO, Command, Mosquitto
+from tests.builders.brokers import MOSQUITTO, Command, Mosquitto, WarmCommand, wait_for
 from tests.builders.strict_robots import AgvMap, StrictAgv
 
 pytestmark = [
@@ -66,12 +66,14 @@ def make_lif_site() -> Site:
         "Lager Süd": (16, 0),
         "002": (0, -6),
         "Übergabe (A)": (8, -6),
+        "Neu 3": (24, 0),
     }
     ways = [
         ("1", "Tor 1"),
         ("Tor 1", "Lager Süd"),
         ("002", "Übergabe (A)"),
         ("Übergabe (A)", "Tor 1"),
+        ("Lager Süd", "Neu 3"),
     ]
     pick = {
         "actionType": "pick",
@@ -251,33 +253,98 @@ def broker(tmp_path: Path) -> Iterator[Mosquitto]:
     made.kill()
 
 
+class Hall:
+    """A plan of a site in a folder, and its AGVs at a broker."""
+
+    def __init__(self, site: Site, folder: Path, broker: Mosquitto) -> None:
+        self.site, self.folder, self.broker = site, folder, broker
+        for name, content in site.files.items():
+            text = content if isinstance(content, str) else json.dumps(content, ensure_ascii=False)
+            (folder / name).write_text(text, encoding="utf-8")
+        serials = {name: f"Nr. {number}" for number, name in enumerate(site.homes)}
+        robots = {name: {"serial": serial} for name, serial in serials.items()}
+        document = {"format": "rightofway-identities/1", **site.identities, "robots": robots}
+        (folder / "agv.json").write_text(json.dumps(document), encoding="utf-8")
+        planned = Command(folder, "plan", "site.yaml", *site.options, *PATIENT, "-o", "plan.json")
+        assert planned.wait(60) == 0, planned.log
+        self.agvs = list[StrictAgv]()
+        for name, home in site.homes.items():
+            self.add_agv(serials[name], home)
+
+    def add_agv(self, serial: str, node: str) -> None:
+        """Switch an AGV on at a node."""
+        of_site = self.site.identities
+        identity = (of_site["manufacturer"], serial, of_site["version"])
+        own_map, nulls = self.site.own_map, self.site.has_nulls
+        self.agvs.append(StrictAgv(self.broker.port, identity, own_map, node, has_nulls=nulls))
+
+    def drive(self) -> WarmCommand:
+        """Return a control that drives the plan."""
+        options = ("--broker", self.broker.url, "--identities", "agv.json")
+        return WarmCommand(self.folder, "drive", "plan.json", *options)
+
+    def close(self) -> None:
+        """Switch the AGVs off."""
+        for agv in self.agvs:
+            agv.close()
+
+    @property
+    def faults(self) -> list[str]:
+        """What AGVs have refused."""
+        return [fault for agv in self.agvs for fault in agv.faults]
+
+    @property
+    def done(self) -> Counter[tuple[str, str]]:
+        """Nodes and types of the actions that AGVs have done."""
+        return Counter(step for agv in self.agvs for step in agv.done)
+
+
 @pytest.mark.parametrize("site", SITES.values(), ids=SITES)
 def test_a_strict_agv_refuses_nothing(site: Site, tmp_path: Path, broker: Mosquitto) -> None:
-    for name, content in site.files.items():
-        text = content if isinstance(content, str) else json.dumps(content, ensure_ascii=False)
-        (tmp_path / name).write_text(text, encoding="utf-8")
-    serials = {name: f"Nr. {number}" for number, name in enumerate(site.homes)}
-    robots = {name: {"serial": serial} for name, serial in serials.items()}
-    document = {"format": "rightofway-identities/1", **site.identities, "robots": robots}
-    (tmp_path / "agv.json").write_text(json.dumps(document), encoding="utf-8")
-    planned = Command(tmp_path, "plan", "site.yaml", *site.options, *PATIENT, "-o", "plan.json")
-    assert planned.wait(60) == 0, planned.log
-    agvs = [
-        StrictAgv(
-            broker.port,
-            (site.identities["manufacturer"], serials[name], site.identities["version"]),
-            site.own_map,
-            home,
-            has_nulls=site.has_nulls,
-        )
-        for name, home in site.homes.items()
-    ]
-    options = ("--broker", broker.url, "--identities", "agv.json")
+    hall = Hall(site, tmp_path, broker)
     try:
-        with Command(tmp_path, "drive", "plan.json", *options).running() as drive:
+        with hall.drive().running() as drive:
             assert drive.wait(60) == 0, drive.log
     finally:
-        for agv in agvs:
-            agv.close()
-    assert [fault for agv in agvs for fault in agv.faults] == [], drive.log
-    assert Counter(step for agv in agvs for step in agv.done) == Counter(site.done)
+        hall.close()
+    assert hall.faults == [], drive.log
+    assert hall.done == Counter(site.done)
+
+
+@pytest.mark.parametrize("version", ["2.0.0", "2.1.0", "3.0.0"])
+def test_a_strict_agv_joins_a_control_that_is_killed(
+    version: str, tmp_path: Path, broker: Mosquitto
+) -> None:
+    """It is killed before it reads the command, directly after it, and after the AGV has joined."""
+    site = SITES["lif"]
+    hall = Hall(replace(site, identities={**site.identities, "version": version}), tmp_path, broker)
+    ways = ("--from", "Regal 7/3", "--to", "Übergabe (A)")
+
+    def ask(*words: str) -> None:
+        asked = Command(tmp_path, "jobs", "plan.journal", *words, "--wait", "0")
+        assert asked.wait(60) in {0, 3}, asked.log
+        asked.said.unlink()
+
+    try:
+        with hall.drive().running() as drive:
+            wait_for(lambda: "sets out" in drive.log, 60, "robots")
+            drive.kill()
+            ask("join", "Dritter", "--serial", "Nr. 2", "--at", "Neu 3")
+            for number in range(2):
+                ask("add", f"Neu {number}", *ways, "--robot", "Dritter")
+            drive.start()
+            wait_for(lambda: "Dritter joins at Neu 3" in drive.log, 60, "the command")
+            drive.kill()
+            hall.add_agv("Nr. 2", "Neu 3")
+            drive.start()
+            wait_for(lambda: "Dritter has joined" in drive.log, 60, "the AGV")
+            drive.kill()
+            drive.start()
+            assert drive.wait(90) == 0, drive.log
+    finally:
+        hall.close()
+    assert hall.faults == [], drive.log
+    assert hall.done == Counter(
+        [*site.done, *(2 * [("Lager Süd", "pick"), ("Übergabe (A)", "drop")])]
+    )
+    assert hall.agvs[2].done == 2 * [("Lager Süd", "pick"), ("Übergabe (A)", "drop")]

@@ -102,6 +102,8 @@ class Operator:
         messages: list[Message] = []
         answers: list[tuple[int, Answer]] = []
         for number, text in commands.list_unanswered():
+            if ledger.grows:
+                break  # later commands may name the robot that has joined
             if number <= ledger.commands:  # it was carried out before a start
                 is_last = number == ledger.commands
                 fact = ledger.answer if is_last else Fact("carried out before").as_dict()

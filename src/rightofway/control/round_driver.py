@@ -26,6 +26,7 @@ from rightofway.control.round_view import (
 )
 from rightofway.control.round_watch import RoundWatch
 from rightofway.control.round_worker import RoundRequest, Rounds
+from rightofway.control.work_items import find_stop
 from rightofway.dispatch import PoolEvent, Round
 from rightofway.errors import InputError
 from rightofway.facts import Fact
@@ -212,8 +213,8 @@ class RoundDriver:
         if planned.stands and not self._ignores_closures and not seen.view.is_open:
             self._begin(ignores_closures=True)
             return []
-        if planned.stands:
-            return self._keep_old(planned.facts[0].values["reason"])
+        if (reason := self._find_reason_to_keep(seen, planned)) is not None:
+            return self._keep_old(reason)
         routes = make_routes_of_round(self.scenario, ledger, seen, planned)
         absent = [robot for robot, own in enumerate(ledger.robots) if own.is_off]
         graph = build_graph_behind_released(self.scenario, routes, seen.kept_parts, absent)
@@ -230,6 +231,31 @@ class RoundDriver:
         self._tell_reasons(dict(planned.unserved), planned.postponed)
         self.report(None, True)
         return messages
+
+    def _find_reason_to_keep(self, seen: ViewOfRound, planned: Round) -> Fact | None:
+        """Return why the old plan stays valid: there is no other, or it changes nothing.
+
+        Without the second case, rounds that find no route would follow each other without a word.
+        """
+        if planned.stands:
+            reason: Fact = planned.facts[0].values["reason"]
+            return reason
+        kept = next((fact for fact in planned.facts if fact.kind == "old tours kept"), None)
+        if kept is None or not self._changes_nothing(seen, planned):
+            return None
+        self._tell_reasons(dict(planned.unserved), planned.postponed)
+        return kept
+
+    def _changes_nothing(self, seen: ViewOfRound, planned: Round) -> bool:
+        """Return whether no robot drives by a plan, and each has the work that it had."""
+        rows = zip(seen.present, planned.tracks, planned.steps, strict=True)
+        for robot, track, steps in rows:
+            own = self._control.ledger.robots[robot]
+            stops = {(step.job, step.stop) for step in steps if step.job is not None}
+            had = set(filter(None, map(find_stop, own.route.all_jobs - own.finished)))
+            if len(track) > 1 or own.released < own.route.end - 1 or stops != had:
+                return False
+        return True
 
     def _tell_reasons(self, unserved: dict[str, UnservedReason], postponed: Sequence[str]) -> None:
         """Tell why jobs are in no tour, each reason once; some follow a job that is in none."""
