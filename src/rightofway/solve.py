@@ -12,7 +12,7 @@ import numpy as np
 
 from rightofway.check import Report, check
 from rightofway.deadline import Deadline, limit_work
-from rightofway.errors import GaveUp, InputError, InvalidPlan
+from rightofway.errors import GaveUp, InputError, InvalidPlan, NoPlanExists
 from rightofway.facts import Fact
 from rightofway.kinds.arguments import checks_arguments
 from rightofway.kinds.numbers import format_number
@@ -378,6 +378,19 @@ def _format_options(request: PlanRequest) -> dict[str, Any]:
 
 
 def _make_draft(spec: PlannerSpec, request: PlanRequest, old: Plan | None) -> Draft:
+    """Return the draft of a planner, with proofs that hold for all directions of stops."""
+    has_others = request.scenario.problem.has_other_directions
+    try:
+        draft = _plan_or_adapt(spec, request, old)
+    except NoPlanExists as error:
+        if not has_others:
+            raise
+        reason = Fact("no plan in directions", request.scenario, why=error.explain())
+        raise GaveUp(reason) from error
+    return replace(draft, status=None, proof=None, forced_losses=()) if has_others else draft
+
+
+def _plan_or_adapt(spec: PlannerSpec, request: PlanRequest, old: Plan | None) -> Draft:
     """Return the draft of a planner, from an old plan where there is one that helps."""
     # Both load the native core: not for help.
     from rightofway.repair.impossible import refuse_closed_ways

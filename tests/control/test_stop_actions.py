@@ -67,6 +67,28 @@ def test_actions_of_stops_and_places_are_done_in_order_and_valid_by_the_schemas(
     assert [{"loadId": "L-1", "loadType": "EPAL"}] in loads
 
 
+def test_a_stop_in_a_further_direction_has_the_actions_of_the_stop() -> None:
+    """Robots may not turn at V; one comes to it from the side from which fewer lanes lead on."""
+    vertices = {"A": [0, 0], "V": {"at": [4, 0], "turning": False}, "B": [8, 0]}
+    stops = [{"at": "V", "work": 1, "actions": ["scan"]}, {"at": "A"}]
+    document = {
+        "format": "rightofway-scenario/1",
+        "map": {"roadmap": {"vertices": vertices, "edges": [["A", "V"], ["V", "B"]]}},
+        "robots": [{"name": "R1", "home": "B", "stops": stops}],
+        "rules": {"return": "none"},
+    }
+    done = set[tuple[str, str]]()
+
+    def look(letter: Letter) -> None:
+        for node in json.loads(letter.payload).get("nodes", ()):
+            done.update((node["nodeId"], action["actionType"]) for action in node["actions"])
+
+    plan = rightofway.solve(parse_scenario(document))
+    assert "".join(map(plan.scenario.roadmap.name, plan.tracks[0].vertices)) == "BB-V/endA"
+    drive_demo(plan, watch=look)
+    assert ("V", "scan") in done
+
+
 def test_a_stop_has_its_own_actions_else_those_of_its_place_else_the_usual_one() -> None:
     scenario = parse_scenario(document_with_actions())
     find = StopActions(scenario, Pool).find

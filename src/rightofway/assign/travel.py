@@ -1,26 +1,32 @@
 """Travel times and energies between the places that jobs use, measured once.
 
 Robots of one pace share a table, and so do robots with batteries of one kind. Times are exact for a
-robot alone on the roads: one-way lanes, speeds, limits, barred lanes and turns on the way count. Of
-the turn before the first drive nothing is known here, so with a turn rate times are lower bounds.
+robot alone on the roads: one-way lanes, speeds, limits, barred lanes and turns on the way count.
+They are lower bounds in two cases. Of the turn before the first drive, which a turn rate needs,
+nothing is known here. And where robots may not turn, the time to a stop and the time from it are
+each the least of all directions.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from math import lcm
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rightofway.model import Problem, Tick
+from rightofway.model.stop_directions import list_directions
 from rightofway.model.turning import Turning
 from rightofway.model.work import LARGEST_BATTERY, BoundBattery, BoundRobot, Work
 from rightofway.search import Distances
-from rightofway.site import VertexId
+from rightofway.site import Roadmap, VertexId
+
+T = TypeVar("T", np.int32, np.int64)
 
 __all__ = ["BatteryKind", "Travel", "measure_travel"]
 
@@ -137,18 +143,18 @@ def measure_travel(problem: Problem, distances: Distances) -> Travel:
         for itinerary, robot in zip(problem.itineraries, work.robots, strict=True)
     ]
     kinds = list(dict.fromkeys(paces))
-    distances.prepare((vertex, ticks) for ticks, *_ in kinds for vertex in vertices)
-    n_used = len(vertices) - len(work.robots)
+    places = _Places(problem.roadmap, vertices, len(vertices) - len(work.robots))
+    distances.prepare((at, ticks) for ticks, *_ in kinds for at in places.at.tolist())
     travel = Travel(
         vertices=vertices,
         ticks=np.array(
-            [_measure_ticks(vertices, n_used, pace, turnings[pace[2]], distances) for pace in kinds]
+            [_measure_ticks(places, pace, turnings[pace[2]], distances) for pace in kinds]
         ),
         kind_of=tuple(kinds.index(pace) for pace in paces),
         batteries=(),
         battery_of=(),
     )
-    return _add_batteries(travel, work.robots, paces, distances)
+    return _add_batteries(travel, places, work.robots, paces, distances)
 
 
 def _list_places(work: Work) -> list[VertexId]:
@@ -159,27 +165,60 @@ def _list_places(work: Work) -> list[VertexId]:
     return sorted(stops | charging | homes)
 
 
+class _Places:
+    """The places of travel, each with the vertices of the directions in which robots stop there."""
+
+    def __init__(self, roadmap: Roadmap, vertices: Sequence[VertexId], n_used: int) -> None:
+        self.vertices, self.n_used = vertices, n_used
+        used = [list_directions(roadmap, vertex) for vertex in vertices[:n_used]]
+        self.directions = [*used, *((start,) for start in vertices[n_used:])]
+        self.at = np.array([at for own in self.directions for at in own], np.int32)
+        self.first = np.cumsum([0, *map(len, self.directions)])[:-1]
+
+    def measure_to(
+        self, place: int, measure: Callable[[VertexId], NDArray[T]]
+    ) -> NDArray[np.int64]:
+        """Return the least from each place to a place; -1 where all are.
+
+        ``measure`` returns it from all vertices to one; shape (V,).
+        """
+        return self.find_least(map(measure, self.directions[place]))
+
+    def find_least(self, tables: Iterable[NDArray[T]]) -> NDArray[np.int64]:
+        """Return the least of some tables at each place; int64, shape (P,), -1 where all are."""
+        least = np.minimum.reduce([table[self.at].astype(np.uint64) for table in tables])
+        return np.minimum.reduceat(least, self.first).astype(np.int64)
+
+
 def _measure_ticks(
-    vertices: Sequence[VertexId],
-    n_used: int,
-    pace: _Pace,
-    turning: Turning | None,
-    distances: Distances,
+    places: _Places, pace: _Pace, turning: Turning | None, distances: Distances
 ) -> NDArray[np.int32]:
     edge_ticks, turn, _ = pace
-    at = np.array(vertices, np.int32)
-    by_target = {vertex: distances.to(vertex, edge_ticks)[at] for vertex in set(vertices)}
-    if turning is not None:  # starts are no targets
-        for vertex in set(vertices[:n_used]):
-            by_target[vertex] = distances.to_with_turns(vertex, edge_ticks, turning)[at]
-    ticks = np.stack([by_target[vertex] for vertex in vertices], axis=1)
+
+    def measure(vertex: VertexId) -> NDArray[np.int32]:
+        return distances.to(vertex, edge_ticks)
+
+    def measure_with_turns(vertex: VertexId) -> NDArray[np.int32]:
+        assert turning is not None, "the robot turns"
+        return distances.to_with_turns(vertex, edge_ticks, turning)
+
+    n_used = places.n_used
+    columns = [
+        places.measure_to(place, measure_with_turns if turning and place < n_used else measure)
+        for place in range(len(places.vertices))
+    ]
+    at, ticks = np.array(places.vertices), np.stack(columns, axis=1)
     turns = (at[:, None] != at[None, :]) & (ticks >= 0)
-    turns[n_used:] = False
+    turns[n_used:] = False  # nobody turns at a start
     return np.asarray(ticks + turns * turn, np.int32)
 
 
 def _add_batteries(
-    travel: Travel, robots: Sequence[BoundRobot], paces: Sequence[_Pace], distances: Distances
+    travel: Travel,
+    places: _Places,
+    robots: Sequence[BoundRobot],
+    paces: Sequence[_Pace],
+    distances: Distances,
 ) -> Travel:
     """Return travel with the kinds of batteries of the robots."""
     kinds: dict[object, list[int]] = {}
@@ -193,18 +232,19 @@ def _add_batteries(
         for full, group in _group_by_full(members, robots):
             for index in group:
                 battery_of[index] = len(batteries)
-            charging, (edge_ticks, *_) = robots[group[0]].charging, paces[group[0]]
+            charging = tuple(travel.place_of[vertex] for vertex in robots[group[0]].charging)
+            edge_ticks, *_ = paces[group[0]]
             battery = scale_battery(robots[group[0]].battery, full)
             key = edge_ticks, battery.drive, full
             if key not in tables:
-                tables[key] = _measure_drives(travel, battery, edge_ticks, distances)
+                tables[key] = _measure_drives(places, battery, edge_ticks, distances)
             batteries.append(
                 BatteryKind(
                     battery=battery,
-                    charging=tuple(travel.place_of[vertex] for vertex in charging),
+                    charging=charging,
                     drives=tables[key],
                     to_charging=_measure_to_charging(
-                        travel, battery, charging, edge_ticks, distances
+                        places, battery, charging, edge_ticks, distances
                     ),
                 )
             )
@@ -235,20 +275,24 @@ def _group_by_full(
 
 
 def _measure_drives(
-    travel: Travel, battery: BoundBattery, edge_ticks: tuple[Tick, ...], distances: Distances
+    places: _Places, battery: BoundBattery, edge_ticks: tuple[Tick, ...], distances: Distances
 ) -> NDArray[np.int64]:
     """Return `BatteryKind.drives`."""
-    at, most = np.array(travel.vertices, np.int32), battery.full + 1
-    drives = np.full((len(at), len(at)), most, np.int64)  # nobody drives to a start
-    for vertex, place in travel.place_of.items():
-        drives[:, place] = distances.measure_energies(vertex, edge_ticks, battery.drive, most)[at]
+    most = battery.full + 1
+
+    def measure(vertex: VertexId) -> NDArray[np.int64]:
+        return distances.measure_energies(vertex, edge_ticks, battery.drive, most)
+
+    drives = np.full((len(places.vertices),) * 2, most, np.int64)  # nobody drives to a start
+    for place in range(places.n_used):
+        drives[:, place] = places.measure_to(place, measure)
     return drives
 
 
 def _measure_to_charging(
-    travel: Travel,
+    places: _Places,
     battery: BoundBattery,
-    charging: Iterable[VertexId],
+    charging: Iterable[int],
     edge_ticks: tuple[Tick, ...],
     distances: Distances,
 ) -> NDArray[np.int64]:
@@ -258,8 +302,8 @@ def _measure_to_charging(
         -1 if ticks < 0 else min(drive + battery.on * ticks, most)
         for drive, ticks in zip(battery.drive, edge_ticks, strict=True)
     )
-    energies = distances.find_least_energies(charging, moving, most)
-    return energies.take(travel.vertices)
+    targets = [at for place in charging for at in places.directions[place]]
+    return places.find_least([distances.find_least_energies(targets, moving, most)])
 
 
 def scale_battery(battery: BoundBattery | None, full: int) -> BoundBattery:

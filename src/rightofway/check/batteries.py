@@ -132,7 +132,8 @@ class _Charge:
         shares = self._list_shares()
         unit = lcm(*(share.denominator for share in shares if share is not None))
         costs = [None if share is None else int(share * unit) for share in shares]
-        roadmap, goals = self.scenario.roadmap, set(self.own.state.charging)
+        roadmap = self.scenario.roadmap
+        goals = {at for vertex in self.own.state.charging for at in roadmap.list_place(vertex)}
         rest = self.own.vertices[-1]
         if not 0 <= rest < roadmap.n_vertices:
             return None

@@ -25,7 +25,7 @@ from rightofway.model import (
     Scenario,
     Tick,
 )
-from rightofway.site import VertexId
+from rightofway.site import Roadmap, VertexId
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -109,7 +109,7 @@ def _find_items(own: TourOfPlan, scenario: Scenario) -> Iterator[Fault]:
             continue
         job = _get_jobs(scenario)[item.job]
         stop = job.stops[item.stop]
-        if at != stop.at:
+        if at not in _list_directions(scenario.roadmap, stop.at):
             yield write("wrong stop", at, item.begin, place=stop.at)
         load += stop.load
         if not 0 <= load <= own.state.capacity:
@@ -247,6 +247,12 @@ def _find_wrong_order(
             yield write("after unserved", at, first.begin, **names)
         elif end > first.begin:
             yield write("wrong order", at, first.begin, **names, end=end)
+
+
+def _list_directions(roadmap: Roadmap, vertex: VertexId) -> tuple[VertexId, ...]:
+    """Return the vertices where robots may work: those of all directions without a heading."""
+    is_directed = vertex in {at for at, _ in roadmap.drawing.headings}
+    return (vertex,) if is_directed else roadmap.list_place(vertex)
 
 
 def _get_jobs(scenario: Scenario) -> Sequence[Job]:

@@ -218,7 +218,7 @@ def bound(
     alone, names = compute_alone_completions(problem), [robot.name for robot in problem.robots]
     proof, is_reached = None, False
     losses: tuple[ForcedLoss, ...] = ()
-    if time_limit is not None:
+    if time_limit is not None and not problem.problem.has_other_directions:
         share = deadline.shorten(SHARE_OF_PAIRS).measure_seconds_left()
         losses = find_forced_losses(problem, time_limit=share)
         proof, is_reached = prove_bound(problem, time_limit=deadline.measure_seconds_left())
@@ -228,7 +228,7 @@ def bound(
         if proof is not None:
             bounds[proof.objective.value] = proof.bound
         forced: dict[str, Any] = {}
-        if time_limit is not None:
+        if proof is not None:
             forced = {"forced_losses": [], **make_forced_losses(losses, problem)}
         put_json({**describe_measures(problem), "lower_bound": bounds, "robots": robots, **forced})
         return

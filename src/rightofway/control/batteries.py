@@ -73,7 +73,8 @@ class FleetBatteries:
         """
         if robot not in self._needs:
             into = self._list_edges_into(robot)
-            least = {int(vertex): Fraction(0) for vertex in self._list_charging(robot)}
+            place_of, charging = self._scenario.roadmap.list_place, self._list_charging(robot)
+            least = {int(at): Fraction(0) for vertex in charging for at in place_of(vertex)}
             heap = [(share, vertex) for vertex, share in least.items()]
             while heap:
                 share, vertex = heappop(heap)

@@ -182,7 +182,7 @@ class OrderMap:
             The name of a vertex.
         """
         vertex, roadmap = self._find_vertex(place), self.scenario.roadmap
-        return place if vertex is None else roadmap.name(roadmap.originals.get(vertex, vertex))
+        return place if vertex is None else roadmap.name(roadmap.get_original(vertex))
 
     def list_vertices(self, node: str) -> list[str]:
         """Return the names of the vertices that a node of the robot stands for.

@@ -105,7 +105,8 @@ class StopActions:
         if find_charge_step(item) is not None:
             return (USUAL,)
         use: ActionUse = "work"
-        at, load = self._scenario.roadmap.get_vertex(place), dict[str, str]()
+        roadmap, load = self._scenario.roadmap, dict[str, str]()
+        at = roadmap.get_original(roadmap.get_vertex(place))
         own: tuple[StopAction, ...] = ()
         job, stop = self._find_job(item)
         if job is not None:

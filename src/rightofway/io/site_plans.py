@@ -150,7 +150,7 @@ class _Site:
         """
         if vertex in self._joints:
             return None
-        return self.roadmap.name(self.roadmap.originals.get(VertexId(vertex), vertex))
+        return self.roadmap.name(self.roadmap.get_original(VertexId(vertex)))
 
     def locate_vertex(self, vertex: int) -> tuple[Fraction, Fraction]:
         """Return where a vertex is [m]."""

@@ -3,6 +3,7 @@
 from rightofway.model.actions import ActionUse, Blocking, PlaceActions, StopAction
 from rightofway.model.booking_rules import BookingRules
 from rightofway.model.closures import Closure, Closures
+from rightofway.model.itinerary import Arc, Itinerary, Stage, compute_least_dwell
 from rightofway.model.kept_facts import RerouteReason, Status
 from rightofway.model.lap import Lap, make_lap, make_visits_of_laps
 from rightofway.model.lost_time import Loss, LostTime, Wait
@@ -17,7 +18,7 @@ from rightofway.model.plan import (
     StartPlan,
 )
 from rightofway.model.planned_tour import PlannedItem, PlannedTour
-from rightofway.model.problem import Arc, Itinerary, Problem, Stage, compute_least_dwell
+from rightofway.model.problem import Problem
 from rightofway.model.resources import Resources
 from rightofway.model.robot import Occupancy, Robot, Rules, Stop, TripEnd, Turn, Walls
 from rightofway.model.route import (

@@ -10,16 +10,15 @@ from math import lcm
 from typing import Protocol
 
 from rightofway.errors import InputError, InputFault, Steps, quote
+from rightofway.model.itinerary import Arc, Itinerary, Stage
 from rightofway.model.problem import (
     MAX_TICKS,
-    Arc,
-    Itinerary,
     Problem,
-    Stage,
     compute_turning_time,
     scale_weights,
 )
 from rightofway.model.robot import Robot, Rules
+from rightofway.model.stop_directions import choose_directions
 from rightofway.model.turning import compute_first_turns, find_heading_on_map
 from rightofway.model.units import Clock, Tick
 from rightofway.model.work import (
@@ -116,11 +115,11 @@ def bind_tours(problem: Problem, tours: Sequence[Tour]) -> Problem:
 def _bind_tour(problem: Problem, robot: BoundRobot, itinerary: Itinerary, tour: Tour) -> Itinerary:
     assert problem.work is not None, "the problem has jobs"
     stages = [_bind_item(problem.work.jobs, item, robot.turn) for item in tour]
+    home = robot.start if robot.home is None else robot.home
     if robot.home is not None or not tour:
-        last = robot.start if robot.home is None else robot.home
-        stages.append(Stage(vertex=last, work=Tick(0), turn=Tick(0)))
+        stages.append(Stage(vertex=home, work=Tick(0), turn=Tick(0)))
     heading = robot.heading if itinerary.turning is not None else None
-    return replace(
+    itinerary = replace(
         itinerary,
         home=robot.start,
         stages=tuple(stages),
@@ -129,6 +128,7 @@ def _bind_tour(problem: Problem, robot: BoundRobot, itinerary: Itinerary, tour: 
         first_turns=compute_first_turns(problem.roadmap, itinerary.turning, robot.start, heading),
         ends_anywhere=robot.home is None,
     )
+    return choose_directions(problem.roadmap, itinerary, home)
 
 
 def _bind_item(jobs: Sequence[BoundJob], item: TourItem, turn: Tick) -> Stage:

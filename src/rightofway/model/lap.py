@@ -10,7 +10,7 @@ from itertools import takewhile
 import numpy as np
 from numpy.typing import NDArray
 
-from rightofway.model.problem import Itinerary, Stage, compute_least_dwell
+from rightofway.model.itinerary import Itinerary, Stage, compute_least_dwell
 from rightofway.model.route import Route, compute_turns_along
 from rightofway.model.units import Tick
 from rightofway.site import Roadmap, VertexId

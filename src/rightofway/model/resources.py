@@ -136,7 +136,7 @@ def close_pairs(roadmap: Roadmap, distance: Fraction) -> ClosePairs:
 
 def _merge_copies(roadmap: Roadmap, pairs: ClosePairs) -> ClosePairs:
     """Return pairs without those of one place; copies of a vertex count as the vertex."""
-    drawn = {at: roadmap.originals.get(VertexId(at), at) for at in range(roadmap.n_vertices)}
+    drawn = {at: roadmap.get_original(VertexId(at)) for at in range(roadmap.n_vertices)}
 
     def merge(lane: tuple[int, int]) -> tuple[int, int]:
         return drawn[lane[0]], drawn[lane[1]]

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from rightofway.errors import InputError, quote
 from rightofway.kinds.table import Kind, coerce_fields, make_kind
-from rightofway.model.problem import Itinerary, Stage
+from rightofway.model.itinerary import Itinerary, Stage
 from rightofway.model.units import NEVER, Tick
 from rightofway.site import Roadmap, VertexId
 

@@ -11,7 +11,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from rightofway.model.problem import Itinerary, Problem
+from rightofway.model.itinerary import Itinerary
+from rightofway.model.problem import Problem
 from rightofway.model.route import Track
 from rightofway.model.units import Tick
 

@@ -10,8 +10,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from rightofway.model.itinerary import Itinerary
 from rightofway.model.planned_tour import PlannedTour
-from rightofway.model.problem import Itinerary, Problem
+from rightofway.model.problem import Problem
 from rightofway.model.route import (
     Track,
     add_least_dwells,

@@ -88,12 +88,13 @@ def _list_steps_of_robot(
 
 def _step(piece: Piece, awaited: int, scenario: Scenario, place: PlaceNames) -> CircuitStep:
     robot, names = scenario.robots[piece.robot], [place(vertex) for vertex in piece.places]
+    at = scenario.roadmap.get_original(piece.places[0])
     match piece.kind:
         case "way" if piece.places[-1] == robot.home:
             text = Phrase("step: drives home")
         case "way":
             text = Phrase("step: drives", place=names[-1])
-        case "work" if piece.places[0] in {stop.at for stop in robot.stops} - {robot.home}:
+        case "work" if at in {stop.at for stop in robot.stops} - {robot.home}:
             text = Phrase("step: works", place=names[0])
         case "work":
             text = Phrase("step: turns", place=names[0])

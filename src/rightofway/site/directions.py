@@ -90,9 +90,10 @@ def direct_vertices(roadmap: Roadmap, directions: Directions) -> Roadmap:
     """Return a roadmap in which robots do not turn where they may not.
 
     Each vertex with a forbidden turn keeps its number for robots that come in its heading, if it
-    has one, else for those that can drive on along most lanes. Robots stop there in this direction
-    only. The vertices for other directions come last; they are named by a lane, like ``A-B/end``
-    for robots that come to B from A.
+    has one, else for those that can drive on along most lanes. Homes are in this direction; where
+    there is no heading, robots stop in any direction (`model.stop_directions`). The vertices for
+    other directions come last; they are named by a lane, like ``A-B/end`` for robots that come to B
+    from A.
 
     Raises
     ------

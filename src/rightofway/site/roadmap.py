@@ -277,7 +277,7 @@ class Roadmap:
 
     def _find_drawn_ends(self, lane: Lane) -> tuple[VertexId, VertexId]:
         tail, head = lane.ends
-        return self.originals.get(tail, tail), self.originals.get(head, head)
+        return self.get_original(tail), self.get_original(head)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Roadmap):
@@ -401,6 +401,10 @@ class Roadmap:
     def list_place(self, vertex: VertexId) -> tuple[VertexId, ...]:
         """Return the vertices at the place of a vertex, itself first."""
         return self._places.get(vertex, (vertex,))
+
+    def get_original(self, vertex: VertexId) -> VertexId:
+        """Return the vertex of which a vertex is a copy for a further direction, else itself."""
+        return self.originals.get(vertex, vertex)
 
     def list_copies(self, vertex: VertexId) -> tuple[VertexId, ...]:
         """Return the vertices that are drawn as one with a vertex, itself first.
