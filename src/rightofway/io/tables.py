@@ -47,6 +47,7 @@ SPOTS = ("parking", "charging")
 TRUTH_KEYS = {
     "both_ways",
     "pass",
+    "turning",
     "urgent",
     *SPOTS,
     *(attribute.key for attribute in RULE_ATTRIBUTES if attribute.kind is TRUTH),
