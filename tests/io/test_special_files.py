@@ -15,6 +15,7 @@ from rightofway.cli.terminal import complain
 from rightofway.errors import InputError, InputFault, Location
 from rightofway.io import load, load_map, load_plan, parse_scenario, read_layout
 from rightofway.io.content import read_content
+from rightofway.io.faults import validate
 from rightofway.io.scenario.shape import MapDocument
 
 ROOT = Path(__file__).parents[2]
@@ -174,7 +175,7 @@ def test_the_wrong_radius_is_refused_before_a_floor_is_cut() -> None:
     """Cutting would say that the smallest cells are too large for the floor."""
     floor = {"floor": {"size": [6, 100_000]}, "cell_size": "adaptive", "smallest": 7}
     robot = {**ROBOT, "home": {"x": 1, "y": 1}, "target": {"x": 2, "y": 2}, "radius": -1}
-    assert MapDocument.model_validate(floor)
+    assert validate(MapDocument, floor)
     with pytest.raises(InputError) as caught:
         parse_scenario(document(floor, [robot]))
     assert [fault.place for fault in caught.value.faults] == ["robots[0].radius"]

@@ -190,7 +190,7 @@ def _combine(document: SuiteDocument, base: Path) -> Iterator[Case]:
     ]
     fleets = [
         faults.attempt(("fleets", index), _read_fleet, group)
-        for index, group in enumerate(document.fleets or [SuiteFleetDocument(name="default")])
+        for index, group in enumerate(document.fleets or [SuiteFleetDocument({"name": "default"})])
     ]
     _note_twins(faults, "maps", [group[0].name if group else None for group in maps])
     _note_twins(faults, "fleets", [group.name if group else None for group in fleets])

@@ -11,14 +11,14 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator
 
 from rightofway.control.work_items import find_charge_step
 from rightofway.errors import InputError, find_nearest, name_file, quote
 from rightofway.io.content import read_text
 from rightofway.io.documents import parse_document
 from rightofway.io.faults import Faults, validate
-from rightofway.io.fields import Angle, Document, NotNegative, make_optional
+from rightofway.io.fields import Angle, Document, NotNegative, make_field, make_optional
 from rightofway.io.scenario.writer import format_yaml
 from rightofway.model import ActionUse, StopAction
 from rightofway.model.actions import ACTION
@@ -199,24 +199,24 @@ class _SharedDocument(Document):
     )
 
 
-IDENTITY_KEYS = frozenset(_SharedDocument.model_fields)
+IDENTITY_KEYS = frozenset(_SharedDocument.fields)
 """Keys of robots in the file of identities, apart from the serial number."""
 
 
 class _RobotDocument(_SharedDocument):
     """A robot of the plan."""
 
-    serial: TopicPart = Field(description="the serial number of the robot, as topics have it")
+    serial: TopicPart = make_field("the serial number of the robot, as topics have it")
 
 
 class IdentitiesDocument(_SharedDocument):
     """The robots of a plan as messages name them."""
 
-    format: Literal["rightofway-identities/1"] = Field(
-        description="the format of the file: rightofway-identities/1"
+    format: Literal["rightofway-identities/1"] = make_field(
+        "the format of the file: rightofway-identities/1"
     )
-    robots: dict[str, _RobotDocument] = Field(
-        description="the robots of the plan by their names, each with a serial number"
+    robots: dict[str, _RobotDocument] = make_field(
+        "the robots of the plan by their names, each with a serial number"
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any, TypeVar, get_args
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from rightofway.errors import InputError, InputFault, Where, find_nearest, quote
 
@@ -12,13 +12,15 @@ if TYPE_CHECKING:
     from pydantic.fields import FieldInfo
     from pydantic_core import ErrorDetails
 
+    from rightofway.io.fields import Document
+
 MAX_FAULTS = 50
 """Faults of one document that are listed; further ones are counted."""
 
 
 T = TypeVar("T")
 U = TypeVar("U")
-M = TypeVar("M", bound="BaseModel")
+M = TypeVar("M", bound="Document | BaseModel")
 
 
 class Faults:
@@ -86,18 +88,32 @@ def _rank(fault: InputFault, ranks: dict[str, int]) -> tuple[int, int]:
 
 
 def validate(model: type[M], data: Any, context: Any = None) -> M:
-    """Return data as a pydantic model, or raise all its faults in words for the user.
+    """Return data as a document or a pydantic model, or raise all its faults in words for the user.
 
     Names and places in the data are looked up in the context.
     """
+    from rightofway.io.fields import Document
+    from rightofway.io.quick_reader import read_quickly
+
+    document = read_quickly(model, data, context) if issubclass(model, Document) else None
+    return _validate_thoroughly(model, data, context) if document is None else document
+
+
+def _validate_thoroughly(model: type[M], data: Any, context: Any) -> M:
     from pydantic import ValidationError
 
+    from rightofway.io.models import find_model, make_adapter
+
+    adapter: Any = make_adapter(model)  # type: ignore[arg-type]
     try:
-        return model.model_validate(data, context=context)
+        document: M = adapter.validate_python(data, context=context)
     except ValidationError as error:
-        faults = error.errors()
+        faults, owner = error.errors(), find_model(model)
+    else:
+        return document
+    assert owner is not None, "it is a document or a model"
     raise InputError(
-        fault_of_part for fault in faults for fault_of_part in _list_faults(fault, model)
+        fault_of_part for fault in faults for fault_of_part in _list_faults(fault, owner)
     )
 
 
@@ -170,13 +186,15 @@ def _walk(
     model: type[BaseModel], location: tuple[int | str, ...]
 ) -> tuple[type[BaseModel], FieldInfo | None]:
     """Return the innermost model on the way to a place, and the last field on it."""
+    from rightofway.io.models import find_model
+
     owner, field = model, None
     for part in (part for part in location if isinstance(part, str)):
         model_field = _list_fields(owner).get(part)
         if model_field is None:
             break
         field = model_field
-        inner = _find_model(model_field.annotation)
+        inner = find_model(model_field.annotation)
         if inner is None:
             break
         owner = inner
@@ -189,13 +207,6 @@ def _list_fields(model: type[BaseModel]) -> dict[str, FieldInfo]:
     return {field.alias or name: field for name, field in fields}
 
 
-def list_keys(model: type[BaseModel]) -> list[str]:
+def list_keys(document: type[Document]) -> list[str]:
     """Return the keys of a document, in the order in which it declares them."""
-    return [field.alias or name for name, field in model.model_fields.items()]
-
-
-def _find_model(annotation: Any) -> type[BaseModel] | None:
-    if hasattr(annotation, "model_fields"):
-        return annotation  # type: ignore[no-any-return]
-    inside = (_find_model(argument) for argument in get_args(annotation))
-    return next((inner for inner in inside if inner), None)
+    return [field.alias or name for name, field in document.fields.items()]

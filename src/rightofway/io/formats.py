@@ -63,14 +63,15 @@ def make_schema(kind: Literal["scenario", "plan", "shift", "suite"]) -> dict[str
     Every document that is accepted fits its schema. A schema cannot express all rules: the readers
     check, for example, that homes are free cells and that names are unique.
     """
-    from pydantic import BaseModel
+    from pydantic import TypeAdapter
 
+    from rightofway.io.fields import Document
     from rightofway.io.plan.shape import PlanDocument
     from rightofway.io.scenario.shape import ScenarioDocument
     from rightofway.io.shift import ShiftDocument
     from rightofway.io.suite import SuiteDocument
 
-    models: dict[str, type[BaseModel]] = {
+    models: dict[str, type[Document]] = {
         "scenario": ScenarioDocument,
         "plan": PlanDocument,
         "shift": ShiftDocument,
@@ -78,7 +79,7 @@ def make_schema(kind: Literal["scenario", "plan", "shift", "suite"]) -> dict[str
     }
     model = models[make_words(*sorted(models)).read_at("kind", kind)]
     dialect = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
-    return {**dialect, **_remove_titles(model.model_json_schema())}
+    return {**dialect, **_remove_titles(TypeAdapter(model).json_schema())}
 
 
 def _remove_titles(node: Any) -> Any:

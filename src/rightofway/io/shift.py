@@ -14,6 +14,7 @@ from rightofway.io.fields import (
     Share,
     TickLength,
     Ticks,
+    make_field,
     make_optional,
 )
 from rightofway.io.plan.shape import UNSERVED_REASON, TourItemDocument
@@ -29,64 +30,64 @@ REASON = "robot, way, battery, latest, after or not found"
 class FactDocument(Document):
     """Something that happened, for reports to make a sentence of."""
 
-    kind: Name = Field(description="the kind of the event")
-    values: dict[str, Any] = Field(description="a mapping of numbers, names and other facts")
+    kind: Name = make_field("the kind of the event")
+    values: dict[str, Any] = make_field("a mapping of numbers, names and other facts")
 
 
 class TimedFactDocument(FactDocument):
     """A fact of a shift."""
 
-    at: Ticks = Field(description="the time, a whole number of ticks")
+    at: Ticks = make_field("the time, a whole number of ticks")
 
 
 class RobotRecordDocument(Document):
     """All that one robot has done."""
 
-    name: Name = Field(description="the name of a robot of the scenario")
-    vertices: list[str] = Field(min_length=1, description="names of the vertices that it visited")
-    enter: list[Ticks] = Field(
-        min_length=1, description="for each vertex when its visit began, whole numbers of ticks"
+    name: Name = make_field("the name of a robot of the scenario")
+    vertices: list[str] = make_field("names of the vertices that it visited", min_length=1)
+    enter: list[Ticks] = make_field(
+        "for each vertex when its visit began, whole numbers of ticks", min_length=1
     )
-    tour: list[TourItemDocument] = Field(
-        description="a list of {visit, job, stop, begin, end} or {visit, charge, begin, end}"
+    tour: list[TourItemDocument] = make_field(
+        "a list of {visit, job, stop, begin, end} or {visit, charge, begin, end}"
     )
-    soc: list[SocPoint] = Field(
-        description="a list of [tick, state of charge], from 0 to 1; empty without a battery"
+    soc: list[SocPoint] = make_field(
+        "a list of [tick, state of charge], from 0 to 1; empty without a battery"
     )
-    drives: Amount = Field(description="driving time, a whole number of ticks")
-    turns: Amount = Field(description="time of turning on the spot, a whole number of ticks")
-    waits: list[WaitForRobot] = Field(
-        description="a list of [index of another robot, ticks]: how long it waited for it"
+    drives: Amount = make_field("driving time, a whole number of ticks")
+    turns: Amount = make_field("time of turning on the spot, a whole number of ticks")
+    waits: list[WaitForRobot] = make_field(
+        "a list of [index of another robot, ticks]: how long it waited for it"
     )
-    waits_at: list[WaitAtVertex] = Field(
-        description="a list of [name of a vertex, ticks]: how long it waited there"
+    waits_at: list[WaitAtVertex] = make_field(
+        "a list of [name of a vertex, ticks]: how long it waited there"
     )
-    lost: Ticks | None = Field(description="since when it does not go on, a tick, or null")
+    lost: Ticks | None = make_field("since when it does not go on, a tick, or null")
 
 
 class JobRecordDocument(Document):
     """The course of a job that became known."""
 
-    job: JobDocument = Field(description="the job, as in scenario files")
-    known: Ticks = Field(description="time at which it became known, a whole number of ticks")
-    robot: Amount | None = Field(description="the index of the robot that has begun it, or null")
-    begun: Ticks | None = Field(description="begin of its first work, a tick, or null")
-    ended: Ticks | None = Field(description="end of its last work, a tick, or null")
-    reason: Annotated[str, UNSERVED_REASON] | None = Field(
-        description=f"why no robot does it: {REASON}; or null"
+    job: JobDocument = make_field("the job, as in scenario files")
+    known: Ticks = make_field("time at which it became known, a whole number of ticks")
+    robot: Amount | None = make_field("the index of the robot that has begun it, or null")
+    begun: Ticks | None = make_field("begin of its first work, a tick, or null")
+    ended: Ticks | None = make_field("end of its last work, a tick, or null")
+    reason: Annotated[str, UNSERVED_REASON] | None = make_field(
+        f"why no robot does it: {REASON}; or null"
     )
 
 
 class RoundDocument(Document):
     """A round of the shift."""
 
-    begin: Ticks = Field(description="the begin, a whole number of ticks")
-    takeover: Ticks = Field(description="takeover of its plan, a whole number of ticks")
-    seconds: NotNegative = Field(description="computing time [s]")
-    jobs: Amount = Field(description="number of jobs in the round")
-    stands: bool = Field(description="true or false: did the old plan stay?")
-    facts: list[FactDocument] = Field(description="a list of {kind, values}")
-    reasons: list[FactDocument] = Field(description="why it began: a list of {kind, values}")
+    begin: Ticks = make_field("the begin, a whole number of ticks")
+    takeover: Ticks = make_field("takeover of its plan, a whole number of ticks")
+    seconds: NotNegative = make_field("computing time [s]")
+    jobs: Amount = make_field("number of jobs in the round")
+    stands: bool = make_field("true or false: did the old plan stay?")
+    facts: list[FactDocument] = make_field("a list of {kind, values}")
+    reasons: list[FactDocument] = make_field("why it began: a list of {kind, values}")
 
 
 class EventDocument(Document):
@@ -94,10 +95,8 @@ class EventDocument(Document):
 
     kind: Literal[
         "job known", "job changed", "job withdrawn", "stop begun", "stop done", "job unserved"
-    ] = Field(
-        description="job known, job changed, job withdrawn, stop begun, stop done, or job unserved"
-    )
-    at: Ticks = Field(description="the time, a whole number of ticks")
+    ] = make_field("job known, job changed, job withdrawn, stop begun, stop done, or job unserved")
+    at: Ticks = make_field("the time, a whole number of ticks")
     job: JobDocument = make_optional("the job, of job known and job changed")
     name: Name = make_optional("the name of the job, of all other kinds")
     robot: Amount = make_optional("the index of the robot, of stop begun and stop done")
@@ -108,18 +107,18 @@ class EventDocument(Document):
 class ShiftFrame(Document):
     """The keys of a shift; its scenario is read by itself."""
 
-    format: Literal["rightofway-shift/1"] = Field(description="rightofway-shift/1")
-    scenario: Any = Field(description="the scenario, its map inlined")
-    tick: TickLength = Field(description="length of a tick [time unit]")
-    until: Ticks = Field(description="end of the shift, a whole number of ticks")
-    robots: list[RobotRecordDocument] = Field(description="one for each robot of the scenario")
-    jobs: list[JobRecordDocument] = Field(description="the jobs that became known, in order")
-    rounds: list[RoundDocument] = Field(description="the rounds, in order")
-    events: list[EventDocument] = Field(description="events of jobs, in order")
-    facts: list[TimedFactDocument] = Field(description="standstills and lost robots, in order")
+    format: Literal["rightofway-shift/1"] = make_field("rightofway-shift/1")
+    scenario: Any = make_field("the scenario, its map inlined")
+    tick: TickLength = make_field("length of a tick [time unit]")
+    until: Ticks = make_field("end of the shift, a whole number of ticks")
+    robots: list[RobotRecordDocument] = make_field("one for each robot of the scenario")
+    jobs: list[JobRecordDocument] = make_field("the jobs that became known, in order")
+    rounds: list[RoundDocument] = make_field("the rounds, in order")
+    events: list[EventDocument] = make_field("events of jobs, in order")
+    facts: list[TimedFactDocument] = make_field("standstills and lost robots, in order")
 
 
 class ShiftDocument(ShiftFrame):
     """A shift that was simulated: what robots did, and what became of jobs."""
 
-    scenario: ScenarioDocument = Field(description="the scenario, its map inlined")
+    scenario: ScenarioDocument = make_field("the scenario, its map inlined")

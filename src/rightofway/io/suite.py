@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Hashable
-from typing import Annotated, Any, Literal, Self, TypeVar
+from typing import Annotated, Any, ClassVar, Literal, TypeVar
 
-from pydantic import AfterValidator, ConfigDict, Field, model_validator
+from pydantic import AfterValidator, Field
 
 from rightofway.errors import quote
 from rightofway.io.fields import (
@@ -16,7 +16,7 @@ from rightofway.io.fields import (
     Positive,
     Seed,
     choose_exactly_one,
-    finish_schema,
+    make_field,
     make_optional,
 )
 from rightofway.io.scenario.shape import RuleAttributes
@@ -79,9 +79,9 @@ Distinct = Annotated[
 class RandomGridDocument(Document):
     """A random grid; every robot stands in its largest connected part."""
 
-    size: GridSize = Field(description="[width, height] [cells]")
-    walls: Share = Field(default=0.0, description="the share of blocked cells, 0 or more, below 1")
-    seed: Seed = Field(default=0, description=f"seed of the walls, {SEED.name}")
+    size: GridSize = make_field("[width, height] [cells]")
+    walls: Share = make_field("the share of blocked cells, 0 or more, below 1", default=0.0)
+    seed: Seed = make_field(default=0, description=f"seed of the walls, {SEED.name}")
 
 
 MAPS = ("file", "random", "scenario")
@@ -90,12 +90,10 @@ MAPS = ("file", "random", "scenario")
 class MapCasesDocument(Document):
     """The map of fleets: exactly one of file (with scens), random, scenario."""
 
-    model_config = ConfigDict(
-        json_schema_extra=finish_schema(
-            oneOf=[{"required": [kind]} for kind in MAPS],
-            dependentRequired={"file": ["scens"], "scens": ["file"]},
-        )
-    )
+    schema_extra: ClassVar = {
+        "oneOf": [{"required": [kind]} for kind in MAPS],
+        "dependentRequired": {"file": ["scens"], "scens": ["file"]},
+    }
 
     name: Name = make_optional("a name of its own in results; the file's by default")
     file: Name = make_optional("a .map file, relative to the suite's own")
@@ -108,26 +106,25 @@ class MapCasesDocument(Document):
         "a list of how many robots, 1 or more; that of the suite by default, but not for a scenario"
     )
 
-    @model_validator(mode="after")
-    def _check_one_map(self) -> Self:
+    def check(self) -> None:
+        """Refuse no map or several, and files of fleets without their map."""
         kind = choose_exactly_one(self, MAPS)
         if kind == "file" and self.scens is None:
             raise ValueError("file is given without scens (give a list of .scen files too)")
         if kind != "file" and self.scens is not None:
             raise ValueError(f"scens is given with {kind} (take it out, or give a file)")
-        return self
 
 
 class SuiteFleetDocument(RuleAttributes):
     """Properties of the robots of a fleet, and their rules."""
 
-    name: Name = Field(description="a name of its own in results")
+    name: Name = make_field("a name of its own in results")
     speeds: list[Positive] = make_optional("speeds of the robots; 1 by default", min_length=1)
-    deal: Literal["in turn", "by seed"] = Field(
+    deal: Literal["in turn", "by seed"] = make_field(
+        "in turn: the first speed for R1, and so on round; by seed: drawn at random",
         default="in turn",
-        description="in turn: the first speed for R1, and so on round; by seed: drawn at random",
     )
-    work: WorkRange = Field(
+    work: WorkRange = make_field(
         default=(0, 0),
         description="[least, most]: the seed draws a whole number of time units for each robot;"
         " robots of a scenario keep theirs",
@@ -140,23 +137,23 @@ class SuiteFleetDocument(RuleAttributes):
 class SuitePlannerDocument(Document):
     """A planner and its options."""
 
-    name: Name = Field(description="the name of a planner")
-    options: dict[str, Any] = Field(default={}, description="{option = value}")
+    name: Name = make_field("the name of a planner")
+    options: dict[str, Any] = make_field("{option = value}", default={})
 
 
 class SuiteDocument(Document):
     """A suite: maps, fleets, counts, seeds, limits and planners; every combination is a case."""
 
-    format: Literal["rightofway-suite/1"] = Field(description="rightofway-suite/1")
-    maps: list[MapCasesDocument] = Field(min_length=1, description="one or more maps")
-    planners: list[SuitePlannerDocument] = Field(min_length=1, description="one or more planners")
+    format: Literal["rightofway-suite/1"] = make_field("rightofway-suite/1")
+    maps: list[MapCasesDocument] = make_field("one or more maps", min_length=1)
+    planners: list[SuitePlannerDocument] = make_field("one or more planners", min_length=1)
     fleets: list[SuiteFleetDocument] = make_optional(
         "one or more fleets; one of speed 1 by default", min_length=1
     )
     counts: Distinct[Count] = make_optional("a list of how many robots, 1 or more")
-    seeds: Distinct[Seed] = Field(
-        default=[0],
-        description="a list; each draws its own homes and targets on random grids, speeds, work,"
+    seeds: Distinct[Seed] = make_field(
+        "a list; each draws its own homes and targets on random grids, speeds, work,"
         " and is the planner's",
+        default=[0],
     )
     limits: Distinct[Positive] = make_optional("a list of time limits [s], above 0; 10 by default")

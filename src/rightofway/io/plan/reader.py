@@ -35,8 +35,7 @@ from rightofway.model import (
 from rightofway.site import VertexId
 
 if TYPE_CHECKING:
-    from pydantic import BaseModel
-
+    from rightofway.io.fields import Document
     from rightofway.io.plan.shape import (
         DecisionDocument,
         ForcedLossDocument,
@@ -46,7 +45,7 @@ if TYPE_CHECKING:
         TrackDocument,
     )
 
-D = TypeVar("D", bound="BaseModel")
+D = TypeVar("D", bound="Document")
 T = TypeVar("T")
 
 
@@ -195,7 +194,7 @@ def _run(data: Any, names: _Names | None) -> PlannerRun | None:
         decisions.append(faults.attempt(("decisions", index), _read_decision, decision, names))
     for index, reroute in enumerate(document.reroutes):
         robot = faults.attempt(("reroutes", index), names.find_robot, "robot", reroute.robot)
-        place, data = ("reroutes", index, "because"), reroute.because.model_dump()
+        place, data = ("reroutes", index, "because"), reroute.because.get_all()
         if because := faults.attempt(place, RerouteReason.read, data):
             reroutes.append(Reroute(robot=robot or 0, because=because))
     losses = [
@@ -212,14 +211,14 @@ def _run(data: Any, names: _Names | None) -> PlannerRun | None:
         seconds=None if document.seconds is None else float(document.seconds),
         decisions=tuple(decision for decision in decisions if decision),
         reroutes=tuple(reroutes),
-        start=None if document.start is None else StartPlan(**document.start.model_dump()),
+        start=None if document.start is None else StartPlan(**document.start.get_all()),
         outcome=None if document.outcome is None else _read_outcome(document.outcome),
         forced_losses=tuple(loss for loss in losses if loss),
     )
 
 
 def _read_status(document: StatusDocument | None) -> Status | None:
-    return None if document is None else Status.read(document.model_dump())
+    return None if document is None else Status.read(document.get_all())
 
 
 def _read_forced_loss(document: ForcedLossDocument, names: _Names) -> ForcedLoss:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, Self, get_args
+from typing import Annotated, Any, Literal, get_args
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from rightofway.io.fields import (
     Amount,
@@ -13,6 +13,7 @@ from rightofway.io.fields import (
     NotNegative,
     TickLength,
     Ticks,
+    make_field,
     make_optional,
 )
 from rightofway.io.scenario.shape import ScenarioDocument
@@ -27,52 +28,52 @@ UNSERVED_REASON = make_words(*get_args(UnservedReason))
 class DecisionDocument(Document):
     """The right of way between two robots that would have met, with its reason."""
 
-    tick: Ticks = Field(description="time of the avoided meeting, a whole number of ticks")
-    kind: Literal["vertex", "head-on", "following", "crossing"] = Field(
-        description="vertex, head-on, following, or crossing"
+    tick: Ticks = make_field("time of the avoided meeting, a whole number of ticks")
+    kind: Literal["vertex", "head-on", "following", "crossing"] = make_field(
+        "vertex, head-on, following, or crossing"
     )
-    vertices: list[Name] = Field(description="the names of the vertex, or of the segment in order")
-    robots: PairOfNames = Field(description="the names of the two robots")
-    waits: Name = Field(description="the name of the one that waits")
-    waits_at: Name = Field(description="the name of the vertex it waits in")
-    ticks: Ticks = Field(description="delay of its leave there, a whole number of ticks")
-    level: Literal["node", "robot", "settled", "priority", "only"] = Field(
-        description="node, robot, settled, priority, or only"
+    vertices: list[Name] = make_field("the names of the vertex, or of the segment in order")
+    robots: PairOfNames = make_field("the names of the two robots")
+    waits: Name = make_field("the name of the one that waits")
+    waits_at: Name = make_field("the name of the vertex it waits in")
+    ticks: Ticks = make_field("delay of its leave there, a whole number of ticks")
+    level: Literal["node", "robot", "settled", "priority", "only"] = make_field(
+        "node, robot, settled, priority, or only"
     )
-    conflicts_left: PairOfCounts = Field(
-        description="two counts, or null: conflicts left if the first robot waits, or the second"
+    conflicts_left: PairOfCounts = make_field(
+        "two counts, or null: conflicts left if the first robot waits, or the second"
     )
-    completion_sums: PairOfCounts | None = Field(
-        default=None, description="two sums of completion times in ticks, or null"
+    completion_sums: PairOfCounts | None = make_field(
+        "two sums of completion times in ticks, or null", default=None
     )
 
 
 class ReasonDocument(Document):
     """The reason why a robot got another route."""
 
-    kind: Name = Field(description="one of the kinds below")
-    values: dict[str, Any] = Field(default={}, description="a mapping of names")
+    kind: Name = make_field("one of the kinds below")
+    values: dict[str, Any] = make_field("a mapping of names", default={})
 
 
 class RerouteDocument(Document):
     """A robot that was sent another way."""
 
-    robot: Name = Field(description="the name of the robot")
-    because: ReasonDocument = Field(description="{kind, values} of the reason")
+    robot: Name = make_field("the name of the robot")
+    because: ReasonDocument = make_field("{kind, values} of the reason")
 
 
 class StartDocument(Document):
     """Numbers of kept routes and tracks of the plan of another scenario."""
 
-    routes: int = Field(ge=0, description="number of robots with the same route")
-    tracks: int = Field(ge=0, description="number of these robots with the same times")
+    routes: int = make_field("number of robots with the same route", ge=0)
+    tracks: int = make_field("number of these robots with the same times", ge=0)
 
 
 class OutcomeDocument(Document):
     """The proof of a plan."""
 
-    kind: Literal["optimal", "bounded", "best found", "no plan exists", "gave up"] = Field(
-        description="optimal, bounded, best found, no plan exists, or gave up"
+    kind: Literal["optimal", "bounded", "best found", "no plan exists", "gave up"] = make_field(
+        "optimal, bounded, best found, no plan exists, or gave up"
     )
     objective: Literal[
         "flowtime",
@@ -81,35 +82,34 @@ class OutcomeDocument(Document):
         "makespan",
         "makespan and flowtime",
         "service",
-    ] = Field(default="flowtime", description="the objective of the planner")
-    bound: Ticks | None = Field(
+    ] = make_field("the objective of the planner", default="flowtime")
+    bound: Ticks | None = make_field(
+        "no plan has a smaller one: a whole number of ticks, or null",
         default=None,
-        description="no plan has a smaller one: a whole number of ticks, or null",
     )
-    factor: NotNegative | None = Field(
-        default=None, description="proven factor of a bounded plan above the least cost; or null"
+    factor: NotNegative | None = make_field(
+        "proven factor of a bounded plan above the least cost; or null", default=None
     )
 
 
 class ForcedLossDocument(Document):
     """Robots that lose time to each other in every plan."""
 
-    robots: list[Name] = Field(
-        min_length=1, description="names of two robots or more; of the makespan also of one"
+    robots: list[Name] = make_field(
+        "names of two robots or more; of the makespan also of one", min_length=1
     )
-    ticks: Annotated[int, Field(ge=1)] = Field(
-        description="their least common loss, or the tick before which not all of them can have "
+    ticks: Annotated[int, Field(ge=1)] = make_field(
+        "their least common loss, or the tick before which not all of them can have "
         "completed; a whole number of ticks above 0"
     )
-    vertex: str = Field(
-        description="the name of the vertex where two of them would meet; of one robot, its last"
-        " stop"
+    vertex: str = make_field(
+        "the name of the vertex where two of them would meet; of one robot, its last stop"
     )
     objective: Literal["flowtime", "flowtime and surcharges", "weighted flowtime", "makespan"] = (
-        Field(
-            default="flowtime",
-            description="the measure of the loss: flowtime, flowtime and surcharges, "
+        make_field(
+            "the measure of the loss: flowtime, flowtime and surcharges, "
             "weighted flowtime, or makespan",
+            default="flowtime",
         )
     )
 
@@ -117,71 +117,70 @@ class ForcedLossDocument(Document):
 class StatusDocument(Document):
     """The method by which a planner found the plan."""
 
-    kind: Name = Field(description="one of the kinds below")
-    counts: dict[str, Any] = Field(
-        default={}, description="a mapping of counts and names, and of statuses of earlier plans"
+    kind: Name = make_field("one of the kinds below")
+    counts: dict[str, Any] = make_field(
+        "a mapping of counts and names, and of statuses of earlier plans", default={}
     )
 
 
 class PlannerDocument(Document):
     """The origin of a plan."""
 
-    name: Name = Field(description="the name of the planner")
-    options: dict[str, Any] = Field(default={}, description="a mapping of options to values")
-    seed: int = Field(default=0, description="a whole number")
-    status: StatusDocument | None = Field(
-        default=None, description="{kind, counts} of the method, or null"
+    name: Name = make_field("the name of the planner")
+    options: dict[str, Any] = make_field("a mapping of options to values", default={})
+    seed: int = make_field("a whole number", default=0)
+    status: StatusDocument | None = make_field(
+        "{kind, counts} of the method, or null", default=None
     )
-    seconds: NotNegative | None = Field(default=None, description="computing time [s], or null")
-    decisions: list[DecisionDocument] = Field(default=[], description="a list of decisions")
-    reroutes: list[RerouteDocument] = Field(default=[], description="a list of {robot, because}")
-    start: StartDocument | None = Field(
-        default=None, description="{routes, tracks} kept of an old plan, or null"
+    seconds: NotNegative | None = make_field("computing time [s], or null", default=None)
+    decisions: list[DecisionDocument] = make_field("a list of decisions", default=[])
+    reroutes: list[RerouteDocument] = make_field("a list of {robot, because}", default=[])
+    start: StartDocument | None = make_field(
+        "{routes, tracks} kept of an old plan, or null", default=None
     )
-    outcome: OutcomeDocument | None = Field(
-        default=None, description="{kind, objective, bound, factor} that is proven, or null"
+    outcome: OutcomeDocument | None = make_field(
+        "{kind, objective, bound, factor} that is proven, or null", default=None
     )
-    forced_losses: list[ForcedLossDocument] = Field(
+    forced_losses: list[ForcedLossDocument] = make_field(
+        "a list of {robots, ticks, vertex, objective}: why no plan is better",
         default=[],
-        description="a list of {robots, ticks, vertex, objective}: why no plan is better",
     )
 
 
 class TourItemDocument(Document):
     """Work at a stop of a job, or a charge."""
 
-    visit: Amount = Field(description="the visit of the robot, from 0")
+    visit: Amount = make_field("the visit of the robot, from 0")
     job: Name = make_optional("the name of the job; none for a charge")
     stop: Amount = make_optional("number of the stop of the job, from 0")
     charge: Literal[True] = make_optional("true for a charge")
-    begin: Ticks = Field(description="the begin, a whole number of ticks")
-    end: Ticks = Field(description="the end, a whole number of ticks")
+    begin: Ticks = make_field("the begin, a whole number of ticks")
+    end: Ticks = make_field("the end, a whole number of ticks")
 
-    @model_validator(mode="after")
-    def _check_kind(self) -> Self:
+    def check(self) -> None:
+        """Refuse a charge with a job, and work without one."""
         if self.charge and (self.job is not None or self.stop is not None):
             raise ValueError("is a charge with a job or stop (take one out)")
         if not self.charge and (self.job is None or self.stop is None):
             raise ValueError("has not both job and stop (give both, or charge: true)")
-        return self
 
 
 class UnservedDocument(Document):
     """A job that no robot does."""
 
-    job: Name = Field(description="the name of the job")
-    reason: Annotated[str, UNSERVED_REASON] = Field(
-        description="robot, way, battery, latest, after or not found"
+    job: Name = make_field("the name of the job")
+    reason: Annotated[str, UNSERVED_REASON] = make_field(
+        "robot, way, battery, latest, after or not found"
     )
 
 
 class TrackDocument(Document):
     """The visits of one robot. Each visit ends when the next one begins."""
 
-    name: Name = Field(description="the name of a robot of the scenario")
-    vertices: list[str] = Field(min_length=1, description="names of vertices, at least one")
-    enter: list[Ticks] = Field(
-        min_length=1, description="for each vertex when its visit begins, whole numbers of ticks"
+    name: Name = make_field("the name of a robot of the scenario")
+    vertices: list[str] = make_field("names of vertices, at least one", min_length=1)
+    enter: list[Ticks] = make_field(
+        "for each vertex when its visit begins, whole numbers of ticks", min_length=1
     )
     tour: list[TourItemDocument] = make_optional(
         "a list of {visit, job, stop, begin, end} or {visit, charge, begin, end}, for jobs"
@@ -191,48 +190,48 @@ class TrackDocument(Document):
 class VisitDocument(Document):
     """One visit of a robot."""
 
-    robot: Name = Field(description="the name of the robot")
-    visit: int = Field(description="number of its visit, from 0")
+    robot: Name = make_field("the name of the robot")
+    visit: int = make_field("number of its visit, from 0")
 
 
 class SteadyDocument(Document):
     """A group of robots whose visits repeat with one period."""
 
-    robots: list[Name] = Field(min_length=1, description="the names of the robots, at least one")
-    start: Ticks = Field(description="the tick from which the visits repeat, a whole number")
-    period: Ticks = Field(description="the number of ticks after which they repeat, at least one")
-    critical: list[VisitDocument] = Field(
+    robots: list[Name] = make_field("the names of the robots, at least one", min_length=1)
+    start: Ticks = make_field("the tick from which the visits repeat, a whole number")
+    period: Ticks = make_field("the number of ticks after which they repeat, at least one")
+    critical: list[VisitDocument] = make_field(
+        "the bottleneck: a list of {robot, visit} that wait for each other in a circle",
         default=[],
-        description="the bottleneck: a list of {robot, visit} that wait for each other in a circle",
     )
 
 
 class PlanFrame(Document):
     """The keys of a plan; their values are read one by one, so that faults add up."""
 
-    format: Literal["rightofway-plan/1", "rightofway-plan/2"] = Field(
-        description="rightofway-plan/1, or rightofway-plan/2 for a scenario with jobs"
+    format: Literal["rightofway-plan/1", "rightofway-plan/2"] = make_field(
+        "rightofway-plan/1, or rightofway-plan/2 for a scenario with jobs"
     )
-    scenario: Any = Field(description="a scenario, its map inlined")
-    tick: TickLength = Field(description="length of a tick [time unit]")
+    scenario: Any = make_field("a scenario, its map inlined")
+    tick: TickLength = make_field("length of a tick [time unit]")
     planner: Any = make_optional("{name, options, seed, status, seconds}")
-    metrics: dict[str, Any] = Field(
-        default={}, description="a mapping of numbers, for readers; they are not read back"
+    metrics: dict[str, Any] = make_field(
+        "a mapping of numbers, for readers; they are not read back", default={}
     )
-    robots: Any = Field(description="for each robot {name, vertices, enter}")
+    robots: Any = make_field("for each robot {name, vertices, enter}")
     unserved: Any = make_optional("a list of {job, reason}, for jobs")
-    steady: Any = Field(default=[], description="a list of {robots, start, period, critical}")
+    steady: Any = make_field("a list of {robots, start, period, critical}", default=[])
 
 
 class PlanDocument(PlanFrame):
     """A plan: routes and times for all robots of the scenario inside it."""
 
-    scenario: ScenarioDocument = Field(description="the problem, its map inlined")
+    scenario: ScenarioDocument = make_field("the problem, its map inlined")
     planner: PlannerDocument = make_optional("the origin of the plan; unknown by default")
-    robots: list[TrackDocument] = Field(description="one for each robot of the scenario")
+    robots: list[TrackDocument] = make_field("one for each robot of the scenario")
     unserved: list[UnservedDocument] = make_optional(
         "a list of {job, reason}: jobs that no robot does"
     )
-    steady: list[SteadyDocument] = Field(
-        default=[], description="robots whose visits repeat; only the page reads it"
+    steady: list[SteadyDocument] = make_field(
+        "robots whose visits repeat; only the page reads it", default=[]
     )

@@ -163,7 +163,7 @@ def _check_trip(document: RobotDocument, *, has_jobs: bool) -> None:
     """Refuse a robot without a trip; with jobs, one that has a trip."""
     from rightofway.io.scenario.shape import OF_TRIPS
 
-    trip = [key for key in OF_TRIPS if key in document.model_fields_set]
+    trip = [key for key in OF_TRIPS if key in document.given]
     if has_jobs and trip:
         remedy = f"take it out; a fixed trip is a job with robot: {document.name}"
         raise InputError(InputFault(key, f"is given beside jobs ({remedy})") for key in trip)

@@ -191,5 +191,5 @@ def _map_of_cells(document: MapDocument, cells_of_map: CellMap, file: Path) -> L
 
 def _refuse(document: MapDocument, description: str, *keys: str) -> None:
     for key in keys:
-        if key in document.model_fields_set:
+        if key in document.given:
             raise InputError.at(key, f"is given with {description}, which needs none (take it out)")

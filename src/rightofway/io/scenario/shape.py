@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Annotated, Any, Literal, Self, get_args
-
-from pydantic import ConfigDict, Field, GetJsonSchemaHandler, field_validator, model_validator
-from pydantic_core import CoreSchema
+from typing import Annotated, Any, ClassVar, Literal, get_args
 
 from rightofway.deadline import READING, check_work
 from rightofway.errors import quote
@@ -22,6 +19,7 @@ from rightofway.io.fields import (
     Moment,
     Name,
     NotNegative,
+    Pairs,
     Place,
     Position,
     Positive,
@@ -33,7 +31,7 @@ from rightofway.io.fields import (
     Words,
     add_attributes,
     choose_exactly_one,
-    finish_schema,
+    make_field,
     make_optional,
 )
 from rightofway.io.scenario.work_shape import (
@@ -43,7 +41,7 @@ from rightofway.io.scenario.work_shape import (
     JobTableDocument,
     StateDocument,
 )
-from rightofway.kinds.table import POSITION, make_words
+from rightofway.kinds.table import POSITION, Schema, make_words
 from rightofway.model import Robot, Rules, WorkObjective
 from rightofway.model.resources import circumscribe
 from rightofway.site.places import list_kinds_of_places
@@ -63,17 +61,17 @@ MAX_CELLS_ALLOWED = 10_000_000
 class ObstacleDocument(Document):
     """A rectangle of a floor that robots cannot enter."""
 
-    name: Words = Field(default="", description="the name, for messages and the map")
-    rect: Rectangle = Field(
-        description="[x, y, width, height]; x and y are the least that it covers [length unit]"
+    name: Words = make_field("the name, for messages and the map", default="")
+    rect: Rectangle = make_field(
+        "[x, y, width, height]; x and y are the least that it covers [length unit]"
     )
 
 
 class FloorDocument(Document):
     """A floor by size, to be cut into cells."""
 
-    size: Size = Field(description="[width, height] [length unit]")
-    obstacles: list[ObstacleDocument] = Field(default=[], description="a list of rectangles")
+    size: Size = make_field("[width, height] [length unit]")
+    obstacles: list[ObstacleDocument] = make_field("a list of rectangles", default=[])
     max_cells: Count = make_optional(
         f"the most cells to make, from 1 to {MAX_CELLS_ALLOWED}", le=MAX_CELLS_ALLOWED
     )
@@ -82,8 +80,8 @@ class FloorDocument(Document):
 class EdgeDocument(Document):
     """A way between two vertices; ``[A, B]`` and ``[A, B, length]`` are short for one."""
 
-    tail: Name = Field(alias="from", description="the name of the vertex it begins at")
-    head: Name = Field(alias="to", description="the name of the vertex it leads to")
+    tail: Name = make_field(alias="from", description="the name of the vertex it begins at")
+    head: Name = make_field(alias="to", description="the name of the vertex it leads to")
     length: Positive = make_optional(
         "its length [length unit]; by default the straight distance, or that along its curve,"
         " rounded up to 1/1000"
@@ -94,16 +92,16 @@ class EdgeDocument(Document):
         min_length=1,
         max_length=2,
     )
-    both_ways: bool = Field(default=True, description="true or false: can it be driven back?")
+    both_ways: bool = make_field("true or false: can it be driven back?", default=True)
     max_speed: Positive = make_optional(
         "its speed limit [length unit per time unit]; none by default"
     )
-    max_speed_by_type: dict[Name, Positive] = Field(
-        default={},
-        description="types of robots with a speed limit of their own, like {tugger: 0.5}"
+    max_speed_by_type: dict[Name, Positive] = make_field(
+        "types of robots with a speed limit of their own, like {tugger: 0.5}"
         " [length unit per time unit]; max_speed is for all others",
+        default={},
     )
-    barred: list[Name] = Field(default=[], description=BARRED)
+    barred: list[Name] = make_field(default=[], description=BARRED)
     surcharge: NotNegative = make_optional(
         "the cost added to it, without making it slower [time unit]; 0 by default"
     )
@@ -119,9 +117,9 @@ class EdgeDocument(Document):
         " without turning; unknown by default"
     )
 
-    @model_validator(mode="before")
-    @classmethod
-    def _read_list(cls, data: Any) -> Any:
+    @staticmethod
+    def read_short(data: Any) -> Any:
+        """Return the mapping of an edge that is written as a list."""
         check_work(READING)
         if not isinstance(data, list | tuple):
             return data
@@ -129,11 +127,9 @@ class EdgeDocument(Document):
             raise ValueError(f"{quote(data)} does not fit (give [A, B] or [A, B, length])")
         return dict(zip(("from", "to", "length"), data, strict=False))
 
-    @classmethod
-    def __get_pydantic_json_schema__(
-        cls, core: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> dict[str, Any]:
-        mapping = handler.resolve_ref_schema(handler(core))
+    @staticmethod
+    def extend_schema(mapping: Schema) -> Schema:
+        """Return the JSON Schema with the list that is short for a mapping."""
         ends = [mapping["properties"]["from"], mapping["properties"]["to"]]
         array = {
             "type": "array",
@@ -147,12 +143,12 @@ class EdgeDocument(Document):
 class VertexDocument(Document):
     """A vertex with more than a position; ``[x, y]`` is short for one."""
 
-    at: Position = Field(description="[x, y] [length unit]")
-    barred: list[Name] = Field(default=[], description=BARRED)
+    at: Position = make_field("[x, y] [length unit]")
+    barred: list[Name] = make_field(default=[], description=BARRED)
     surcharge: NotNegative = make_optional(
         "the cost added to each edge into it, without making it slower [time unit]; 0 by default"
     )
-    is_passed: bool = Field(
+    is_passed: bool = make_field(
         alias="pass",
         default=False,
         description="true or false: do robots only drive through, without a stop?",
@@ -160,44 +156,32 @@ class VertexDocument(Document):
     heading: Angle = make_optional(
         "heading of robots that work there: from x to y [degrees]; any by default"
     )
-    turning: bool = Field(
-        default=True, description="true or false: may robots turn on the spot there?"
-    )
+    turning: bool = make_field("true or false: may robots turn on the spot there?", default=True)
 
-    @model_validator(mode="before")
-    @classmethod
-    def _read_position(cls, data: Any) -> Any:
+    @staticmethod
+    def read_short(data: Any) -> Any:
+        """Return the mapping of a vertex that is written as a position."""
         check_work(READING)
         return data if isinstance(data, dict) else {"at": POSITION.read(data)}
 
-    @classmethod
-    def __get_pydantic_json_schema__(
-        cls, core: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> dict[str, Any]:
-        mapping = handler.resolve_ref_schema(handler(core))
+    @staticmethod
+    def extend_schema(mapping: Schema) -> Schema:
+        """Return the JSON Schema with the position that is short for a mapping."""
         return {"anyOf": [mapping["properties"]["at"], dict(mapping)]}
 
 
 class ZoneDocument(Document):
     """Vertices and edges that hold one robot at a time."""
 
-    name: Name = Field(description="a name of its own")
-    vertices: list[Name] = Field(default=[], description="names of vertices")
-    edges: list[tuple[Name, Name]] = Field(
-        default=[], description="a list of [A, B], one direction each"
-    )
-
-    @field_validator("edges", mode="before")
-    @classmethod
-    def _read_pairs(cls, data: Any) -> Any:
-        pairs = isinstance(data, list) and all(isinstance(pair, list) for pair in data)
-        return [tuple(pair) for pair in data] if pairs else data
+    name: Name = make_field("a name of its own")
+    vertices: list[Name] = make_field("names of vertices", default=[])
+    edges: Pairs = make_field("a list of [A, B], one direction each", default=[])
 
 
 class PictureDocument(Document):
     """A picture that the map is drawn over; no plan depends on it."""
 
-    file: Name = Field(description="a PNG, JPEG or PGM file, relative to the scenario's own")
+    file: Name = make_field("a PNG, JPEG or PGM file, relative to the scenario's own")
     scale: Positive = make_optional(
         "length of a pixel [length unit]; by default as wide as the map"
     )
@@ -211,30 +195,29 @@ class PictureDocument(Document):
 class RoadmapDocument(Document):
     """Named vertices and the ways between them."""
 
-    vertices: dict[Name, VertexDocument] = Field(
-        description="for each vertex its name and [x, y], or {at: [x, y], …} [length unit]"
+    vertices: dict[Name, VertexDocument] = make_field(
+        "for each vertex its name and [x, y], or {at: [x, y], …} [length unit]"
     )
-    edges: list[EdgeDocument] = Field(
-        description="a list of [A, B], [A, B, length] or {from, to, length, both_ways}"
+    edges: list[EdgeDocument] = make_field(
+        "a list of [A, B], [A, B, length] or {from, to, length, both_ways}"
     )
-    zones: list[ZoneDocument] = Field(
-        default=[], description="a list of {name, vertices, edges} that hold one robot each"
+    zones: list[ZoneDocument] = make_field(
+        "a list of {name, vertices, edges} that hold one robot each", default=[]
     )
-    stations: dict[Name, Name] = Field(
-        default={}, description="for each place to work at its name and its vertex"
+    stations: dict[Name, Name] = make_field(
+        "for each place to work at its name and its vertex", default={}
     )
-    parking: list[Name] = Field(default=[], description="names of vertices to park at")
-    charging: list[Name] = Field(default=[], description="names of vertices to charge at")
+    parking: list[Name] = make_field("names of vertices to park at", default=[])
+    charging: list[Name] = make_field("names of vertices to charge at", default=[])
     sides: list[Positive] = make_optional(
         "side of the square cell round each vertex, in their order [length unit]"
     )
 
-    @model_validator(mode="after")
-    def _check_sides(self) -> Self:
+    def check(self) -> None:
+        """Refuse sides of cells that are not one for each vertex."""
         if self.sides is not None and len(self.sides) != len(self.vertices):
             counts = f"{len(self.sides)} for {len(self.vertices)} vertices"
             raise ValueError(f"sides: {counts} (give one for each, or take them out)")
-        return self
 
 
 OF_ADAPTIVE = ("smallest", "largest")
@@ -252,19 +235,17 @@ MAPS = ("grid", "file", "floor", "roadmap", "layout")
 class MapDocument(Document):
     """The map of the fleet: exactly one of grid, file, floor, roadmap, layout."""
 
-    model_config = ConfigDict(
-        json_schema_extra=finish_schema(
-            oneOf=[{"required": [kind]} for kind in MAPS],
-            dependentSchemas={
-                "cell_size": {"not": {"required": ["roadmap"]}},
-                **{key: {"required": ["cell_size"]} for key in OF_ADAPTIVE},
-                "spacing": {"anyOf": [{"required": ["roadmap"]}, {"required": ["layout"]}]},
-                **{key: {"required": ["layout"]} for key in OF_LAYOUTS},
-                "layout": {"not": {"anyOf": [{"required": [key]} for key in BY_LAYOUTS]}},
-                "obstacles": {"anyOf": [{"required": ["grid"]}, {"required": ["file"]}]},
-            },
-        )
-    )
+    schema_extra: ClassVar = {
+        "oneOf": [{"required": [kind]} for kind in MAPS],
+        "dependentSchemas": {
+            "cell_size": {"not": {"required": ["roadmap"]}},
+            **{key: {"required": ["cell_size"]} for key in OF_ADAPTIVE},
+            "spacing": {"anyOf": [{"required": ["roadmap"]}, {"required": ["layout"]}]},
+            **{key: {"required": ["layout"]} for key in OF_LAYOUTS},
+            "layout": {"not": {"anyOf": [{"required": [key]} for key in BY_LAYOUTS]}},
+            "obstacles": {"anyOf": [{"required": ["grid"]}, {"required": ["file"]}]},
+        },
+    }
 
     grid: Lines = make_optional("rows of . (free) and @ (blocked), as a list or one text")
     file: Name = make_optional("a .map file, relative to the scenario's own")
@@ -275,8 +256,8 @@ class MapDocument(Document):
     vehicle_type: Name = make_optional(
         "the vehicle type whose lanes of a layout are used; required if they differ"
     )
-    unknown: Literal["blocked", "free"] = Field(
-        default="blocked", description="blocked, or free: pixels of a picture that are not known"
+    unknown: Literal["blocked", "free"] = make_field(
+        "blocked, or free: pixels of a picture that are not known", default="blocked"
     )
     cell_size: CellSize = make_optional(
         "side of a cell [length unit]: 1 by default, 0.5 m on a ROS map, on a floor clustered;"
@@ -286,27 +267,31 @@ class MapDocument(Document):
     largest: Positive = make_optional(
         "limit on the side of adaptive cells [length unit]; 4 smallest ones by default"
     )
-    y: YAxis = Field(default="down", description="down, or up: which way y grows")
+    y: YAxis = make_field("down, or up: which way y grows", default="down")
     origin: Position = make_optional(
         "[x, y] of the map's lower left corner on the site [length unit]"
     )
     yaw: Angle = make_optional(
         "angle by which the map is turned about its origin, from x to y [rad]"
     )
-    obstacles: list[ObstacleDocument] = Field(
-        default=[], description="names of blocked cells of a grid or file: a list of rectangles"
+    obstacles: list[ObstacleDocument] = make_field(
+        "names of blocked cells of a grid or file: a list of rectangles", default=[]
     )
-    spacing: Spacing = Field(
-        default="auto",
-        description="edges of a roadmap that are split into pieces: those longer than a length "
+    spacing: Spacing = make_field(
+        "edges of a roadmap that are split into pieces: those longer than a length "
         "[length unit]; auto: long ones, for robots with a size; whole: none",
+        default="auto",
     )
     picture: PictureDocument = make_optional(
         "{file, scale, origin, opacity}: a picture below the map"
     )
 
-    @model_validator(mode="after")
-    def _check_one_map(self) -> Self:
+    def check(self) -> None:
+        """Refuse no map or several, and keys that do not belong to the map."""
+        self._check_one_map()
+        self._check_cells()
+
+    def _check_one_map(self) -> None:
         kind = choose_exactly_one(self, MAPS)
         if kind == "roadmap" and self.cell_size is not None:
             raise ValueError("cell_size is given with a roadmap, which has no cells (take it out)")
@@ -319,29 +304,26 @@ class MapDocument(Document):
             if self.yaw is not None:
                 raise ValueError("yaw is given with a roadmap, which needs none (take it out)")
         for key in BY_LAYOUTS if kind == "layout" else OF_LAYOUTS:
-            if key in self.model_fields_set:
+            if key in self.given:
                 reason = "which has its own" if kind == "layout" else "and is for a layout"
                 raise ValueError(f"{key} is given with a {kind}, {reason} (take it out)")
-        if kind not in {"roadmap", "layout"} and "spacing" in self.model_fields_set:
+        if kind not in {"roadmap", "layout"} and "spacing" in self.given:
             raise ValueError(
                 f"spacing is given with a {kind}, which has no long edges (take it out)"
             )
-        if kind not in {"grid", "file"} and "obstacles" in self.model_fields_set:
+        if kind not in {"grid", "file"} and "obstacles" in self.given:
             remedy = "give them in the floor" if kind == "floor" else "take them out"
             raise ValueError(f"obstacles are given beside a {kind} ({remedy})")
-        return self
 
-    @model_validator(mode="after")
-    def _check_cells(self) -> Self:
+    def _check_cells(self) -> None:
         kind, word = choose_exactly_one(self, MAPS), self.cell_size
         if (word == "clustered" and kind != "floor") or (
             word == "adaptive" and kind not in {"floor", "layout"}
         ):
             raise ValueError(f"a {kind} has cells already (give cell_size as a length)")
         for key in OF_ADAPTIVE:
-            if key in self.model_fields_set and word != "adaptive":
+            if key in self.given and word != "adaptive":
                 raise ValueError(f"{key} is for cell_size: adaptive (give that, or take it out)")
-        return self
 
     @property
     def y_up(self) -> bool:
@@ -361,7 +343,7 @@ class MapDocument(Document):
 class StopDocument(Document):
     """A place to work at."""
 
-    at: Place = Field(description=f"a place: {PLACES}")
+    at: Place = make_field(f"a place: {PLACES}")
     work: NotNegative = make_optional(WORK)
     actions: Actions = make_optional(ACTIONS)
 
@@ -382,20 +364,18 @@ OF_JOBS = ("start", "capacity", "battery", "charging")
 class RobotDocument(Document):
     """A robot and its trip: target and work, or stops; in a scenario with jobs without a trip."""
 
-    model_config = ConfigDict(
-        json_schema_extra=finish_schema(
-            oneOf=[
-                {"required": ["target"]},
-                {
-                    "required": ["stops"],
-                    "not": {"anyOf": [{"required": ["work"]}, {"required": ["actions"]}]},
-                },
-                {"not": {"anyOf": [{"required": [key]} for key in OF_TRIPS]}},
-            ]
-        )
-    )
+    schema_extra: ClassVar = {
+        "oneOf": [
+            {"required": ["target"]},
+            {
+                "required": ["stops"],
+                "not": {"anyOf": [{"required": ["work"]}, {"required": ["actions"]}]},
+            },
+            {"not": {"anyOf": [{"required": [key]} for key in OF_TRIPS]}},
+        ]
+    }
 
-    name: Name = Field(description="a name of its own")
+    name: Name = make_field("a name of its own")
     home: Place = make_optional(f"the place it starts from: {PLACES}; left out with homes: parking")
     target: Place = make_optional(f"the place to work at: {PLACES}")
     work: NotNegative = make_optional(WORK)
@@ -417,8 +397,8 @@ class RobotDocument(Document):
         "a list of places where it may charge, for jobs; all charging places by default"
     )
 
-    @model_validator(mode="after")
-    def _check_one_trip(self) -> Self:
+    def check(self) -> None:
+        """Refuse parts of several trips, and two sizes."""
         of_target = next((key for key in ("work", "actions") if getattr(self, key) is not None), "")
         if of_target and self.target is None and self.stops is None:
             raise ValueError("has nowhere to go (give target, or stops)")
@@ -426,11 +406,10 @@ class RobotDocument(Document):
             raise ValueError("has both target and stops (give one of them)")
         if self.stops is not None and of_target:
             raise ValueError(f"has {of_target} beside stops (write it at each stop)")
-        if "radius" in self.model_fields_set and self.size is not None:
+        if "radius" in self.given and self.size is not None:
             raise ValueError("has both radius and size (give one of them)")
         if self.size is not None and min(self.size) <= 0:
             raise ValueError("size: length and width are not both positive (give two above 0)")
-        return self
 
     def get_own_attributes(self, owner: type) -> dict[str, Any]:
         """Return the attributes that were written; a size as the radius of the circle around it."""
@@ -454,7 +433,7 @@ FLEETS = "a list of robots, {scen: file} or {table: file}"
 class FleetDocument(Document):
     """Robots R1, R2, ... from the rows of a MovingAI .scen file."""
 
-    scen: Name = Field(description="a .scen file, relative to the scenario's own")
+    scen: Name = make_field("a .scen file, relative to the scenario's own")
     count: Count = make_optional("the number of rows to use, 1 or more; all by default")
     speeds: list[Positive] = make_optional(
         "speeds to deal out in turn: first, second, ...", min_length=1
@@ -465,7 +444,7 @@ class FleetDocument(Document):
 class RobotTableDocument(Document):
     """Robots from the rows of a CSV file, with the keys of a robot as headings."""
 
-    table: Name = Field(description="a .csv file, relative to the scenario's own")
+    table: Name = make_field("a .csv file, relative to the scenario's own")
 
 
 @add_attributes(Rules)
@@ -489,9 +468,7 @@ class RulesDocument(RuleAttributes):
 class ClosureDocument(Document):
     """A vertex or an edge that nobody may use for a while."""
 
-    model_config = ConfigDict(
-        json_schema_extra=finish_schema(oneOf=[{"required": ["at"]}, {"required": ["edge"]}])
-    )
+    schema_extra: ClassVar = {"oneOf": [{"required": ["at"]}, {"required": ["edge"]}]}
 
     at: Place = make_optional(f"the place that is closed: {PLACES}")
     edge: list[Place] = make_optional(
@@ -508,12 +485,11 @@ class ClosureDocument(Document):
         "clearance are closed for that robot, too [length unit]"
     )
 
-    @model_validator(mode="after")
-    def _check_one_place(self) -> Self:
+    def check(self) -> None:
+        """Refuse no place, and two."""
         if (self.at is None) == (self.edge is None):
             reason = "closes nothing" if self.at is None else "has both at and edge"
             raise ValueError(f"{reason} (give at, or edge)")
-        return self
 
 
 class UnitsDocument(Document):
@@ -526,14 +502,14 @@ class UnitsDocument(Document):
 class ScenarioFrame(Document):
     """The keys of a scenario; their values are read one by one, so that faults add up."""
 
-    format: Literal["rightofway-scenario/1"] = Field(description="rightofway-scenario/1")
-    map: Any = Field(description=f"one of {', '.join(MAPS)}")
+    format: Literal["rightofway-scenario/1"] = make_field("rightofway-scenario/1")
+    map: Any = make_field(f"one of {', '.join(MAPS)}")
     units: Any = make_optional("{length, time}: the units of the numbers, for reports")
     start: Any = make_optional("the instant of time 0, like 2026-11-28T06:00, for times of day")
     homes: Literal["parking"] = make_optional(
         "parking: robots without a home start from the parking and charging places of a layout"
     )
-    robots: Any = Field(description=FLEETS)
+    robots: Any = make_field(FLEETS)
     rules: Any = make_optional("classic, or rules for the whole fleet")
     closures: Any = make_optional("a list of {at or edge, from, until, radius}")
     actions: Any = make_optional(
@@ -553,15 +529,13 @@ class ScenarioFrame(Document):
 class ScenarioDocument(ScenarioFrame):
     """A scenario: the map on which the fleet drives, its robots, its rules."""
 
-    map: MapDocument = Field(description="the map on which the fleet drives")
+    map: MapDocument = make_field("the map on which the fleet drives")
     units: UnitsDocument = make_optional("the units of the numbers, for reports")
     start: Name = make_optional(
         "the instant of time 0, like 2026-11-28T06:00, perhaps with an offset like +01:00: other"
         " times may be times of day"
     )
-    robots: list[RobotDocument] | FleetDocument | RobotTableDocument = Field(
-        description="the fleet"
-    )
+    robots: list[RobotDocument] | FleetDocument | RobotTableDocument = make_field("the fleet")
     rules: Literal["classic"] | RulesDocument = make_optional(
         "classic (no turning, no way back), or rules for the whole fleet"
     )

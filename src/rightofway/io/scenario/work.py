@@ -120,7 +120,7 @@ def _read_batteries(document: Mapping[str, Any], faults: Faults) -> Iterator[tup
     for name, battery_data in data.items():
         battery = faults.attempt(("batteries", name), validate, BatteryDocument, battery_data)
         if battery is not None:
-            yield str(name), Battery(**battery.get_given(*BatteryDocument.model_fields))
+            yield str(name), Battery(**battery.get_given(*BatteryDocument.fields))
 
 
 def read_job(data: Any, on: LoadedMap) -> Job:

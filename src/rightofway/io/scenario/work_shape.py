@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Self
-
-from pydantic import ConfigDict, Field, model_validator
+from typing import Any, ClassVar
 
 from rightofway.io.fields import (
     Actions,
@@ -19,7 +17,7 @@ from rightofway.io.fields import (
     Positive,
     Share,
     Whole,
-    finish_schema,
+    make_field,
     make_optional,
 )
 from rightofway.site.places import list_kinds_of_places
@@ -37,7 +35,7 @@ LATEST = "the latest end of the work [time unit], or a time of day; none by defa
 class JobStopDocument(Document):
     """A stop of a job."""
 
-    at: Place = Field(description=f"a place: {PLACES}")
+    at: Place = make_field(f"a place: {PLACES}")
     work: NotNegative = make_optional(WORK)
     load: Whole = make_optional("by how much the load changes there, 0 by default")
     earliest: Moment = make_optional(EARLIEST)
@@ -69,16 +67,14 @@ def _refuse_others(kind: str) -> dict[str, Any]:
 class JobDocument(Document):
     """Work of one robot: a place, a pickup and a dropoff, or stops in a fixed order."""
 
-    model_config = ConfigDict(
-        json_schema_extra=finish_schema(
-            oneOf=[
-                {"required": [kind, *required], "not": _refuse_others(kind)}
-                for kind, required in (("at", ()), ("pickup", ("dropoff",)), ("stops", ()))
-            ]
-        )
-    )
+    schema_extra: ClassVar = {
+        "oneOf": [
+            {"required": [kind, *required], "not": _refuse_others(kind)}
+            for kind, required in (("at", ()), ("pickup", ("dropoff",)), ("stops", ()))
+        ]
+    }
 
-    name: Name = Field(description="a name of its own")
+    name: Name = make_field("a name of its own")
     at: Place = make_optional(f"the place to work at: {PLACES}")
     work: NotNegative = make_optional(WORK)
     pickup: Place = make_optional(f"the place where a load is picked up: {PLACES}")
@@ -110,10 +106,10 @@ class JobDocument(Document):
     load_id: Name = make_optional("the name of the load, for the actions pick and drop")
     load_type: Name = make_optional("the type of the load, for the actions pick and drop")
 
-    @model_validator(mode="after")
-    def _check_one_form(self) -> Self:
-        given, forms = self.model_fields_set, "give at, pickup and dropoff, or stops"
-        kinds = [kind for kind, keys in FORMS.items() if given.intersection(keys)]
+    def check(self) -> None:
+        """Refuse a job of no form or of several, and limits that are given twice."""
+        given, forms = self.given, "give at, pickup and dropoff, or stops"
+        kinds = [kind for kind, keys in FORMS.items() if given & set(keys)]
         if not kinds:
             raise ValueError(f"has no place to work at ({forms})")
         if len(kinds) > 1:
@@ -123,16 +119,15 @@ class JobDocument(Document):
             if key not in given:
                 raise ValueError(f"has no {key} ({forms})")
         for key, place, which in (("earliest", 0, "first"), ("latest", -1, "last")):
-            if self.stops and key in given and key in self.stops[place].model_fields_set:
+            if self.stops and key in given and key in self.stops[place].given:
                 raise ValueError(f"has {key}, and its {which} stop, too (give one of them)")
-        return self
 
 
 class JobTableDocument(Document):
     """Jobs of a file of their own: a CSV file, or orders of another program."""
 
-    table: Name = Field(
-        description="a .csv file, or a list of jobs or orders, relative to the scenario's own"
+    table: Name = make_field(
+        "a .csv file, or a list of jobs or orders, relative to the scenario's own"
     )
     begin: Name = make_optional(
         "of orders: the instant of time 0, like 2026-11-28T06:00:00Z; by default the first one"

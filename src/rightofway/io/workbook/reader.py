@@ -229,7 +229,7 @@ def _add_rules(
     from rightofway.io.scenario.shape import MAPS, MapDocument, RulesDocument
 
     rules = list_keys(RulesDocument)
-    of_map = [name for name in MapDocument.model_fields if name not in MAPS]
+    of_map = [name for name in MapDocument.fields if name not in MAPS]
     known = [*rules, *of_map, *UNIT_KEYS, *OF_SCENARIO]
     seen = set[str]()
     parts: dict[str, dict[str, Any]] = {"rules": {}, "units": {}, "map": {}}

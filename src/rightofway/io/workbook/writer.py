@@ -334,8 +334,8 @@ def _add_hint(
 
 def _find_description(model: Any, key: str) -> str:
     """Return the description of a key of a document."""
-    fields = {field.alias or name: field for name, field in model.model_fields.items()}
-    return fields[key].description or "" if key in fields else ""
+    fields = {field.alias or name: field for name, field in model.fields.items()}
+    return fields[key].description if key in fields else ""
 
 
 def _convert_to_cell(value: Any) -> Any:
