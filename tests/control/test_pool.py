@@ -13,7 +13,7 @@ import rightofway
 from rightofway.control import FleetControl
 from rightofway.control.commands import read_duration
 from rightofway.control.dispatcher import Dispatcher
-from rightofway.control.job_events import list_driven_jobs
+from rightofway.control.driven_ends import list_driven_jobs
 from rightofway.control.journal import Entry
 from rightofway.control.laps import LapsToDrive
 from rightofway.control.ledger import Ledger

@@ -87,6 +87,63 @@ def test_a_recording_says_which_job_a_robot_does_and_how_full_it_is(tmp_path: Pa
     assert all(abs(a - b) >= 5 or b in {0, 100} for a, b in pairwise(percents))
 
 
+def test_a_recording_compares_the_ends_of_jobs_with_their_planned_ends(tmp_path: Path) -> None:
+    """At 0 all jobs are open and as planned; in the end the page has what the report has."""
+    plan = floor_plan()
+    source = Journalled(recorded(plan, tmp_path, delays="exponential:0.5", seed=3))
+    recording = Recording(plan, source, clock=lambda: source.until)
+    recording.read_on()
+    before = recording.measure_ends()
+    assert before is not None
+    assert (before["hasJobs"], before["all"]) == (True, (0, 3, 0, None))
+    assert [row[2] == row[5] for row in before["rows"]] == [True, True, True]  # as planned
+    source.until = 0.5
+    assert recording.measure_ends() is before
+    source.until = 10_000.0
+    recording.read_on()
+    after, result = recording.measure_ends(), recording.result
+    assert after is not None
+    late = sum(end.is_late for end in result.ends)
+    assert late > 0
+    assert after["all"][:3] == (3, 0, late)
+    assert [sum(column) for column in zip(*(row[:3] for row in after["robots"]), strict=True)] == [
+        3, 0, late,
+    ]  # fmt: skip
+    rows = {row[0]: row[4] for row in after["rows"]}
+    assert rows == {end.name: end.ended for end in result.ends}
+    assert after["rows"][0][-1]
+
+
+def test_a_recording_of_a_plan_without_jobs_compares_the_ways_of_robots(tmp_path: Path) -> None:
+    """R2 stops for 6 at its second vertex, which R1 waits to enter.
+
+    At 9, R2 has just driven on, and R1 has not: both should have at 3. So both are 6 late.
+    """
+    source = Journalled(recorded(door(), tmp_path, delays="stop:R2@2+6"))
+    recording = Recording(door(), source, clock=lambda: source.until)
+    source.until = 9.0
+    recording.read_on()
+    ends = recording.measure_ends()
+    assert ends == {
+        "hasJobs": False,
+        "all": (0, 2, 2, None),
+        "robots": [],
+        "rows": [
+            ("R1", 0, 10, None, None, 16, 6, True),
+            ("R2", 1, 9, None, None, 15, 6, True),
+        ],
+    }
+    source.until = 100.0
+    recording.read_on()
+    ends = recording.measure_ends()
+    assert ends is not None
+    assert ends["all"] == (2, 0, 2, 7.5)
+    assert ends["rows"] == [
+        ("R1", 0, 10, None, 18, None, 8, True),
+        ("R2", 1, 9, None, 16, None, 7, True),
+    ]
+
+
 def test_read_bit_by_bit_or_at_once_a_journal_says_the_same(tmp_path: Path) -> None:
     rows = recorded(warehouse(8), tmp_path, delays="exponential:0.4", seed=2)
     whole, bit = Journalled(rows), Journalled(rows)

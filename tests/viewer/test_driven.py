@@ -24,6 +24,7 @@ from rightofway.facts import Fact
 from tests.builders.accessibility import serious
 from tests.builders.browsers import expect
 from tests.builders.drives import driven, watched
+from tests.builders.floor_jobs import floor_plan
 from tests.builders.languages import english_on
 from tests.builders.plans import door
 from tests.builders.players import Player, nameless_on
@@ -404,6 +405,35 @@ def test_alarms_are_acknowledged_by_name_and_all_screens_show_it(
         expect(alarms).to_contain_text("R2 is not connected (seen by Anna)")
         expect(alarms.get_by_text("R1 is not connected")).not_to_contain_text("seen by")
         assert viewer.complaints == []
+
+
+def test_the_page_compares_planned_and_actual_ends_of_jobs_as_they_change(
+    browser: Browser, stack: ExitStack, tmp_path: Path
+) -> None:
+    """The late jobs are first; those of a robot are summed up."""
+    journal = tmp_path / "demo.journal"
+    options = {"delays": "exponential:0.5", "seed": 3}
+    drive = stack.enter_context(driven(floor_plan(), journal, **options))
+    viewer = opened(browser, stack, stack.enter_context(watched(floor_plan(), journal)))
+    page = viewer.page
+    tab = page.get_by_role("tab", name="Delays")
+    expect(tab).to_have_text("Delays 0")
+    tab.click()
+    sums = page.locator("#ends-sums")
+    expect(sums).to_have_text("0 done · 3 open")
+    rows = page.locator("#end-list").get_by_role("option")
+    expect(rows).to_have_count(3)
+    expect(rows.filter(has_text="J1")).to_contain_text("R1 · planned")
+    drive.end()
+    expect(sums).to_contain_text("3 done · 0 open")
+    expect(rows.first.locator(".late.wrong")).to_contain_text("late")
+    expect(rows.first).to_contain_text("actual")
+    page.get_by_role("button", name="By robot").click()
+    expect(rows).to_have_count(2)
+    expect(rows.filter(has_text="R2")).to_contain_text("2 done · 0 open")
+    assert serious(viewer) == []
+    assert nameless_on(viewer) == []
+    assert viewer.complaints == []
 
 
 def test_a_screen_on_a_wall_has_large_type(

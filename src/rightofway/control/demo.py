@@ -21,10 +21,10 @@ import numpy as np
 from rightofway.check import check
 from rightofway.control.demo_record import DemoRecord, NothingKept, SimulatedClock
 from rightofway.control.dispatcher import Dispatcher
+from rightofway.control.driven_ends import list_driven_jobs
 from rightofway.control.endpoints import ControlEnd, Letter, RobotEnd, format_timestamp
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.identities import Identity, make_simulated_identities
-from rightofway.control.job_events import list_driven_jobs
 from rightofway.control.laps import LapsToDrive
 from rightofway.control.messages import LOOK_AHEAD
 from rightofway.control.notices import Notices

@@ -19,10 +19,10 @@ from typing import TYPE_CHECKING
 from rightofway.control.broker import Broker, check_cancellation
 from rightofway.control.commands import Commands
 from rightofway.control.dispatcher import Dispatcher
+from rightofway.control.driven_ends import list_driven_jobs
 from rightofway.control.endpoints import ControlEnd, Letter, make_timestamp
 from rightofway.control.fleet_control import FleetControl
 from rightofway.control.identities import Identity
-from rightofway.control.job_events import list_driven_jobs
 from rightofway.control.joins import Joins, grow_identities, grow_plan
 from rightofway.control.journal import BatchedJournal, Entry, Journal, JournalFailed
 from rightofway.control.laps import LapsToDrive

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
-from rightofway.control.job_events import list_driven_jobs
+from rightofway.control.driven_ends import list_driven_jobs, list_driven_ways, make_ends_data
 from rightofway.control.joins import grow_plan
 from rightofway.control.journal import Entry, JournalRow
 from rightofway.control.ledger import Ledger, refuse_entry
@@ -21,12 +21,12 @@ from rightofway.control.routes import RouteToDrive
 from rightofway.control.story import Story
 from rightofway.control.work_items import find_charge_step, find_stop
 from rightofway.errors import InputError, quote
-from rightofway.execution.drive_result import DriveResult
+from rightofway.execution.drive_result import DrivenEnd, DriveResult
 from rightofway.facts import Fact, read_fact
 from rightofway.model import Plan, Tick
 from rightofway.report.facts import FactWriter
 from rightofway.report.phrases import to_parts
-from rightofway.viz.page.schema import DrivenFrame, DrivenRow, SaysRow
+from rightofway.viz.page.schema import DrivenFrame, DrivenRow, EndsData, SaysRow
 
 __all__ = ["Recording", "RowSource"]
 
@@ -35,6 +35,9 @@ MAX_ROWS = 200_000
 
 DECIMALS = 2
 """Decimals of a moment [ticks]."""
+
+ENDS_EVERY = 1.0
+"""Seconds between two measurements of the ends of jobs."""
 
 OF_LEDGER = frozenset({"fault", "failed"})
 """Kinds of alarms that begin and end with entries on robots, not with notices."""
@@ -60,6 +63,7 @@ class _Shown:
 
     route: RouteToDrive | None = None
     arrived: int = -1
+    since: float = 0.0  # when it arrived there
     released: int = -1
     done: int = -1  # the last visit whose work is done
     is_on_hold: bool = False
@@ -109,6 +113,8 @@ class Recording:
         self._shown: list[_Shown] = []
         self._general = _Shown()  # what is about no robot
         self._ends: dict[int, Tick] = {}  # when robots came to the end of their routes
+        self._ends_data: EndsData | None = None
+        self._measured = float("-inf")  # when [s of this machine]
         self._told: dict[int, Any] = {}  # the last sentence on each robot
         self._rows: list[DrivenRow] = []
         self._first = 0  # the number of the first row that is kept
@@ -162,6 +168,22 @@ class Recording:
             waits=tuple(own.waits for own in robots),
             messages={},
         )
+
+    def measure_ends(self) -> EndsData | None:
+        """Return planned and actual ends of jobs, or of ways of robots; None of laps.
+
+        It is the same object until an end has changed, at least for `ENDS_EVERY`.
+        """
+        robots, now = self._ledger.robots, Tick(int(self.now))
+        if robots and self._clock() >= self._measured + ENDS_EVERY:
+            self._measured, plan = self._clock(), self._plan
+            ways = tuple[DrivenEnd, ...]()
+            if plan.scenario.jobs is None:
+                since = [known.since for known in self._shown]
+                ways = list_driven_ways(plan, self._ledger, since, self._ends, now)
+            data = make_ends_data(self.result, ways)
+            self._ends_data = self._ends_data if data == self._ends_data else data
+        return self._ends_data
 
     def take_frame(self, after: int = 0) -> DrivenFrame:
         """Return the rows after a number of rows.
@@ -340,7 +362,7 @@ class Recording:
         if own.route is not known.route:
             self._show_route(robot, own.route, known, tick)
         if own.arrived > known.arrived:
-            known.arrived = own.arrived
+            known.arrived, known.since = own.arrived, tick
             self._rows.append((tick, robot, "arrived", own.arrived))
         if own.released != known.released:
             known.released = own.released

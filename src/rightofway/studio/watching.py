@@ -93,7 +93,9 @@ class Watched:
     def _make_feed(self, *, is_whole: bool) -> FeedData:
         """Return the events so far, or their source."""
         self._recording.read_on()
-        feed: FeedData = {"frame": self._recording.take_frame()}
+        frame = self._recording.take_frame()
+        frame["ends"] = self._recording.measure_ends()
+        feed: FeedData = {"frame": frame}
         if not is_whole:
             feed["frame"]["rows"] = []  # they come with the first frame
             feed["stream"] = f"{self._address}stream"
@@ -136,13 +138,17 @@ class Watched:
         after = int(number) if token == self._token and number.isdecimal() else 0
         self._pages += 1
         try:
-            last, silence = None, 0.0
+            last, known_ends, silence = None, None, 0.0
             while not self._is_over:
                 self._recording.read_on()
                 frame = self._recording.take_frame(after)
+                ends = self._recording.measure_ends()
+                if ends is not known_ends:
+                    frame["ends"] = ends
                 said = frame["number"], frame["now"], frame["runs"]
                 silence += EVERY
-                if said != last or silence > HEARTBEAT:
+                if said != last or "ends" in frame or silence > HEARTBEAT:
+                    known_ends = ends
                     yield f"id: {self._token}-{frame['number']}\ndata: {as_compact_json(frame)}\n\n"
                     last, after, silence = said, frame["number"], 0.0
                 await asyncio.sleep(EVERY)

@@ -28,7 +28,7 @@ from rightofway.viz.palette import DARK, LIGHT
 FRAME_HEIGHT = 680
 """Room for map and diagram [pixels]."""
 
-PART_SHEETS = {"work": "jobs.css", "shift": "shift.css"}
+PART_SHEETS = {"work": "jobs.css", "shift": "shift.css", "driven": "live.css"}
 """Style that only some pages need, by the part of their content that it is for."""
 
 MARKUP = str.maketrans({character: f"\\u{ord(character):04x}" for character in "<>&"})

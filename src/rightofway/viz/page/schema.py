@@ -89,6 +89,15 @@ DrivenRow = TypeAliasType(
 """Something that happened to a fleet that is driven."""
 
 
+PunctualityRow = TypeAliasType("PunctualityRow", tuple[int, int, int, float | None])
+"""Jobs done, open and late, mean delay of those done [ticks]; see `Punctuality`."""
+
+EndRow = TypeAliasType(
+    "EndRow", tuple[str, int, int | None, int | None, int | None, int | None, int | None, bool]
+)
+"""Name, robot (-1 for none), planned, due, actual and expected end, delay, whether it is late."""
+
+
 class UnitsData(TypedDict):
     """The names of the units, null where the scenario names none; the instant of time 0."""
 
@@ -337,14 +346,30 @@ class FloorData(TypedDict):
     losses: list[LossRow]
 
 
+class EndsData(TypedDict):
+    """Planned ends next to actual or expected ones, the latest first: of jobs, or of all robots.
+
+    ``robots`` has a row for each robot, and none in a plan without jobs.
+    """
+
+    hasJobs: bool
+    all: PunctualityRow
+    robots: list[PunctualityRow]
+    rows: list[EndRow]
+
+
 class DrivenFrame(TypedDict):
-    """Events since the frame before; ``begins`` where there are none before."""
+    """Events since the frame before; ``begins`` where there are none before.
+
+    ``ends`` is there where it differs from that of the frame before.
+    """
 
     number: int
     now: float
     runs: bool
     begins: bool
     rows: list[DrivenRow]
+    ends: NotRequired[EndsData | None]
 
 
 class FeedData(TypedDict):

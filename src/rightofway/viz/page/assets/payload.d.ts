@@ -109,16 +109,27 @@ export interface DrivenData {
   completion: number | null;
 }
 
-/** Events since the frame before; ``begins`` where there are none before. */
+/** Events since the frame before; ``begins`` where there are none before. ``ends`` is there where it differs from that of the frame before. */
 export interface DrivenFrame {
   number: number;
   now: number;
   runs: boolean;
   begins: boolean;
   rows: DrivenRow[];
+  ends?: EndsData | null;
 }
 
 export type DrivenRow = RouteRow | VisitRow | HoldRow | TaskRow | ChargeRow | SaysRow | AlarmRow | SeenRow;
+
+export type EndRow = [string, number, number | null, number | null, number | null, number | null, number | null, boolean];
+
+/** Planned ends next to actual or expected ones, the latest first: of jobs, or of all robots. ``robots`` has a row for each robot, and none in a plan without jobs. */
+export interface EndsData {
+  hasJobs: boolean;
+  all: PunctualityRow;
+  robots: PunctualityRow[];
+  rows: EndRow[];
+}
 
 /** A place where the plan breaks a rule, or a reason why there is no plan; texts by index. */
 export interface FaultData {
@@ -356,6 +367,8 @@ export interface PlannerData {
   method: PhraseData;
   proven?: PhraseData;
 }
+
+export type PunctualityRow = [number, number, number, number | null];
 
 /** A robot that was rerouted. */
 export interface RerouteData {

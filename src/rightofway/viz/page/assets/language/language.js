@@ -115,7 +115,7 @@ export function askedLanguage(isPart = false) {
  */
 export function writeMarkup(within = document) {
   /** @type {Record<string, string>} */
-  const markup = texts.markup;
+  const markup = { ...texts.markup, ...texts.driven?.markup }; // labels of a fleet that is driven
   /**
    * @param {string} kind
    * @param {(found: HTMLElement, text: string, key: string | undefined) => void} write

@@ -2,7 +2,7 @@ import { lastAtMost, lastOf, toDifferences } from "../common/arrays.js";
 import { FloorRobot } from "../plan/floor.js";
 import { DONE } from "../plan/phases.js";
 
-/** @import { DrivenData, DrivenFrame, DrivenRow, PhraseData, RobotData, StageRow } from "../payload.d.ts" */
+/** @import { DrivenData, DrivenFrame, DrivenRow, EndsData, PhraseData, RobotData, StageRow } from "../payload.d.ts" */
 /** @import { Robot, Stage } from "../plan/robot.js" */
 
 /** @typedef {{ others: number[], text: PhraseData }} Wait For whom a robot waits, and why. */
@@ -367,6 +367,8 @@ export class Driven {
     this.alarms = [];
     /** @type {Told[]} */
     this.story = [];
+    /** @type {EndsData | null} */
+    this.ends = null; // planned and actual, as measured last
     /** @type {DrivenRobot[]} */
     this.robots = [];
   }
@@ -382,6 +384,7 @@ export class Driven {
     if (frame.begins) [this.logs, this.alarms, this.story] = [this.#freshLogs(), [], []];
     this.now = frame.begins ? frame.now : Math.max(this.now, frame.now);
     this.runs = frame.runs;
+    if (frame.ends !== undefined) this.ends = frame.ends;
     for (const row of frame.rows) this.#take(row);
     this.robots = this.logs.map((log, index) => {
       if (log.first < 0) log.take([0, index, "arrived", 0]);

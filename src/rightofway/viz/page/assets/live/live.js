@@ -1,6 +1,7 @@
 import { Orders } from "./orders.js";
 import { element, goTo } from "../common/dom.js";
 import { listenToFeed } from "./feed.js";
+import { Punctuality } from "./punctuality.js";
 import { said, texts } from "../language/language.js";
 import { TwoLineList, chooseAt } from "../lists/two_line_list.js";
 
@@ -50,6 +51,7 @@ export class Live {
       none: texts.driven.nothingTold,
       isLong: true,
     });
+    this.punctuality = new Punctuality(root, driven, choice, words);
     this.orders = new Orders(root, driven, choice, this.feed.orders ?? "");
     choice.alarmed = () =>
       driven.raw.map((_, robot) => robot).filter((robot) => this.isInTrouble(robot));
@@ -98,6 +100,7 @@ export class Live {
       }
     }
     if (frame.begins || driven.story.length !== sentences) this.#showStory();
+    if (frame.ends !== undefined) this.punctuality.show();
     this.choice.tell("fleet");
     this.refresh();
   }
@@ -111,6 +114,12 @@ export class Live {
     if (driven.runs && !isLong && clock.end >= planned) return;
     plan.end = driven.runs ? Math.max(planned, least * MARGIN) : Math.max(least, 1);
     clock.lengthen(plan.end);
+  }
+
+  /** Write again the rows in sight of lists that have come into sight. */
+  refreshLists() {
+    this.log.refresh();
+    this.punctuality.refresh();
   }
 
   /** Write again what depends on the moment that is shown. */

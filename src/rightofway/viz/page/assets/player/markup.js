@@ -156,8 +156,12 @@ export const foundList = ({ item, label, hint, find, key, more = "" }) => `
  * All of a player.
  *
  * @param {{ tab: string, panel: string }} [jobs] of the list of jobs
+ * @param {typeof import("../live/live_markup.js").LIVE_MARKUP} [live] of a fleet that is driven
  */
-export const makeMarkup = ({ tab, panel } = { tab: "", panel: "" }) => `
+export const makeMarkup = (
+  { tab, panel } = { tab: "", panel: "" },
+  live = { bar: "", aside: "", tab: "", panel: "", dialog: "" },
+) => `
 ${head(
   `<button type="button" id="about-open" class="quiet" data-text="details" data-title="made"></button>
     <button type="button" id="copy-link" class="quiet" aria-live="polite" data-text="link" data-title="linkAtLength"></button>
@@ -183,12 +187,7 @@ ${below(STATES, ["zoom-in", "zoom-out", "fit", "bottleneck", "corridor", "space"
       <label data-title="floorAtLength" data-key="F"><input type="radio" name="mode" value="floor"><span data-text="floor"></span></label>
       <label data-title="bothAtLength" data-key="F"><input type="radio" name="mode" value="both"><span data-text="both"></span></label>
     </fieldset>
-    <div id="live-box" class="live-box" hidden>
-      <button type="button" id="live" class="quiet live" aria-pressed="false" data-text="live" data-title="liveAtLength"></button>
-      <output id="live-state" class="live-state"></output>
-      <button type="button" id="wall" class="quiet" aria-pressed="false" data-text="wall" data-title="wallAtLength"></button>
-    </div>
-    <button type="button" id="loop" class="quiet loop" aria-pressed="false" hidden><svg viewBox="0 0 20 20"><path d="M15.5 7A6.2 6.2 0 1 0 16 11.5M15.8 3.5V7.2H12"/></svg><span data-text="loop"></span></button>
+    ${live.bar}<button type="button" id="loop" class="quiet loop" aria-pressed="false" hidden><svg viewBox="0 0 20 20"><path d="M15.5 7A6.2 6.2 0 1 0 16 11.5M15.8 3.5V7.2H12"/></svg><span data-text="loop"></span></button>
     ${READOUT}
     <button type="button" id="help-open" class="quiet help-open" data-label="keys" data-title="keys" data-key="?">?</button>
   </div>
@@ -200,36 +199,12 @@ ${below(STATES, ["zoom-in", "zoom-out", "fit", "bottleneck", "corridor", "space"
 </main>
 
 <aside class="side" data-label="side">
-  <p id="lost" class="lost" role="alert" data-text="lost" hidden></p>
-  <section id="alarms" class="alarms" aria-live="polite" aria-labelledby="alarm-title" hidden>
-    <h2 id="alarm-title" data-text="alarms"></h2>
-    <ul id="alarm-list"></ul>
-    <form id="seen-form" class="seen" hidden>
-      <label><span data-text="seenName"></span> <input id="seen-name" maxlength="40" autocomplete="name"></label>
-      <button type="submit" class="quiet" data-text="seenAll"></button>
-    </form>
-  </section>
-  <section id="hold-ups" class="alarms calm" aria-labelledby="hold-up-title" hidden>
-    <h2 id="hold-up-title" data-text="holdUps"></h2>
-    <ul id="hold-up-list"></ul>
-  </section>
-  <div id="orders" class="orders" role="toolbar" data-label="orders" hidden>
-    <button type="button" id="hold-all" class="quiet" data-text="holdAll"></button>
-    <button type="button" id="stop-all" class="quiet" data-text="stopAll"></button>
-    <button type="button" id="go-all" class="quiet" data-text="goAll"></button>
-    <button type="button" id="hold-one" class="quiet" data-text="holdOne" hidden></button>
-    <button type="button" id="clear-one" class="quiet" data-text="clearOne" hidden></button>
-    <button type="button" id="remove-one" class="quiet" data-text="removeOne" hidden></button>
-    <button type="button" id="place-one" class="quiet" data-text="placeOne" hidden></button>
-    <output id="order-answer"></output>
-  </div>
-  ${CARD}
+${live.aside}  ${CARD}
   <div class="tabs" role="tablist">
     <button type="button" role="tab" id="tab-robots" aria-controls="robots" aria-selected="true"><span data-text="robots"></span> <b></b></button>${tab}
     <button type="button" role="tab" id="tab-decisions" aria-controls="decisions" aria-selected="false" tabindex="-1"><span data-text="decisions"></span> <b></b></button>
     <button type="button" role="tab" id="tab-faults" class="tab-faults" aria-controls="faults" aria-selected="false" tabindex="-1"><span data-text="faults"></span> <b></b></button>
-    <button type="button" role="tab" id="tab-compared" aria-controls="compared" aria-selected="false" tabindex="-1"><span data-text="compared"></span> <b></b></button>
-    <button type="button" role="tab" id="tab-log" aria-controls="log" aria-selected="false" tabindex="-1"><span data-text="log"></span> <b></b></button>
+    <button type="button" role="tab" id="tab-compared" aria-controls="compared" aria-selected="false" tabindex="-1"><span data-text="compared"></span> <b></b></button>${live.tab}
   </div>
   <div class="panel" id="robots" role="tabpanel" aria-labelledby="tab-robots">
     ${foundList({
@@ -252,10 +227,7 @@ ${below(STATES, ["zoom-in", "zoom-out", "fit", "bottleneck", "corridor", "space"
       <input type="search" id="find-compared" data-hint="findRobot" data-label="findCompared" autocomplete="off" spellcheck="false">
     </div>
     <div id="compared-robots" class="compared-wide robots-pane"></div>
-  </div>
-  <div class="panel" id="log" role="tabpanel" aria-labelledby="tab-log" hidden>
-    ${foundList({ item: "told", label: "log", hint: "findPlace", find: "findTold" })}
-  </div>
+  </div>${live.panel}
 </aside>
 
 <section class="paper" aria-hidden="true">
@@ -269,16 +241,7 @@ ${below(STATES, ["zoom-in", "zoom-out", "fit", "bottleneck", "corridor", "space"
   <form method="dialog"><button type="submit" data-text="close"></button></form>
 </dialog>
 
-<dialog id="order-confirm" class="about" aria-labelledby="order-question">
-  <p id="order-question"></p>
-  <label id="order-place" class="order-place" hidden><span data-text="orderAt"></span> <input type="text" id="order-at" autocomplete="off" spellcheck="false"></label>
-  <form method="dialog">
-    <button type="submit" id="order-yes" data-text="yes"></button>
-    <button type="submit" data-text="cancel"></button>
-  </form>
-</dialog>
-
-<dialog id="help" class="help" data-label="keys">
+${live.dialog}<dialog id="help" class="help" data-label="keys">
   <h2 data-text="keys"></h2>
   <dl>
     <dt><kbd data-text="spaceBar"></kbd></dt><dd data-text="keyPlay"></dd>

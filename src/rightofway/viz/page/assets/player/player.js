@@ -51,7 +51,7 @@ import { Words } from "../language/words.js";
 export function createPlayer(element, payload, watching = null, working = null) {
   const root = new Root(element);
   const jobs = payload.work ? working : null;
-  root.fill(makeMarkup(jobs ?? undefined));
+  root.fill(makeMarkup(jobs ?? undefined, watching?.markup));
   learn(payload.texts);
   setLanguage(askedLanguage(root.isPart), root.top);
   writeMarkup(element);
@@ -113,9 +113,15 @@ export function createPlayer(element, payload, watching = null, working = null) 
       jobs: plan.shift ? plan.shift.countKnown(0) : plan.jobs.length,
       shift: shiftViews && "",
       rounds: plan.shift && plan.shift.raw.rounds.length,
-      decisions: plan.shift ? null : hasNoReasons(plan) ? "–" : decisionList.items.length,
+      decisions:
+        plan.shift || (live && hasNoReasons(plan))
+          ? null
+          : hasNoReasons(plan)
+            ? "–"
+            : decisionList.items.length,
       faults: plan.faultCount || null,
       compared: comparison && comparison.plans.length,
+      ends: live && live.punctuality.lateCount,
       log: plan.driven && plan.driven.story.length,
     },
     () => {
@@ -125,7 +131,7 @@ export function createPlayer(element, payload, watching = null, working = null) 
       decisionList.refresh();
       faultList.refresh();
       comparison?.refresh();
-      live?.log.refresh();
+      live?.refreshLists();
     },
   );
   const deepLink = new DeepLink(root, plan, clock, choice);
