@@ -256,6 +256,9 @@ def test_an_angle_that_is_not_in_radians_is_named(
     at = {"x": 0, "y": 0, "theta": theta}
     notes = list_notes(in_lif(put("stations", 0, stationPosition=at)), tmp_path / "a")
     assert (note.replace("A (", "Press (") in notes) == is_odd
+    notes = list_notes(in_lif(put(*EDGE, vehicleOrientation=theta)), tmp_path / "a")
+    edge = f"vehicleOrientation is not from -pi to pi (it is in radians): AB ({theta})"
+    assert (edge in notes) == is_odd
 
 
 @pytest.mark.parametrize(("thetas", "is_noted"), [((1.57, -1.57), True), ((1.57, 1.57), False)])

@@ -52,6 +52,7 @@ EDGE_KEYS = {"edgeId", "edgeName", "edgeDescription", "startNodeId", "endNodeId"
 TURNS = ("rotationAtStartNodeAllowed", "rotationAtEndNodeAllowed")
 PROPERTY_KEYS = {"vehicleTypeId", "mobileRobotTypes", "orientationType", "trajectory",
                  *ACTIONS, *SPEEDS}  # fmt: skip
+ANGLES = ("theta", "vehicleOrientation")
 STATION_KEYS = {"stationId", "stationName", "stationDescription", "interactionNodeIds",
                 "stationPosition"}  # fmt: skip
 """The keys that are read, and those for people."""
@@ -367,20 +368,21 @@ def _note_unused_properties(
         kind = action.value.get("actionType") if isinstance(action.value, dict) else None
         if kind not in CHARGING and kind not in taken:
             draft.note_unused_key(f"action {kind}", name)
-    _check_theta(own, name, draft)
+    for key in ANGLES:
+        _check_angle(own, key, name, draft)
 
 
-def _check_theta(own: Source, name: str, draft: LayoutDraft) -> None:
+def _check_angle(own: Source, key: str, name: str, draft: LayoutDraft) -> None:
     """Note an angle that is not in radians."""
-    if own.value.get("theta") is None:
+    if own.value.get(key) is None:
         return
     try:
-        theta = own.need("theta").number()
+        angle = own.need(key).number()
     except InputError:
         return  # no plan depends on it
-    if abs(theta) > HALF_TURN:
-        mending = Fact("theta too large")
-        draft.repair(mending, Fact("name with number", name=name, what=theta))
+    if abs(angle) > HALF_TURN:
+        mending = Fact("angle too large", key=key)
+        draft.repair(mending, Fact("name with number", name=name, what=angle))
 
 
 def _add_station(level: LevelDraft, station: Source, draft: LayoutDraft) -> None:
@@ -395,7 +397,7 @@ def _add_station(level: LevelDraft, station: Source, draft: LayoutDraft) -> None
             draft.note_unused_key("stationPosition.theta", name)
         else:
             _turn_at(level, nodes, heading)
-        _check_theta(position, name, draft)
+        _check_angle(position, "theta", name, draft)
 
 
 def _turn_at(level: LevelDraft, nodes: Sequence[str], heading: Fraction) -> None:
