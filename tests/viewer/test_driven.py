@@ -27,7 +27,7 @@ from tests.builders.drives import driven, watched
 from tests.builders.floor_jobs import floor_plan
 from tests.builders.languages import english_on
 from tests.builders.plans import door
-from tests.builders.players import Player, nameless_on
+from tests.builders.players import Player, nameless_on, overlap
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Locator
@@ -478,6 +478,10 @@ def test_the_page_has_no_serious_fault_and_fits(
     assert serious(viewer) == []
     assert english_on(viewer) == []
     assert viewer.is_as_wide_as(width)
-    readout = viewer.box("#readout")
-    assert readout["x"] + readout["width"] <= width
+    readout, state = (
+        (box["x"], box["y"], box["x"] + box["width"], box["y"] + box["height"])
+        for box in map(viewer.box, ("#readout", "#live-state"))
+    )
+    assert max(readout[2], state[2]) <= width
+    assert not overlap(readout, state)
     assert viewer.complaints == []

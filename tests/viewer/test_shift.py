@@ -8,6 +8,7 @@ from rightofway.dispatch.record import DoneStep
 from rightofway.model import Tick
 from tests.builders.accessibility import serious
 from tests.builders.browsers import needs_browser
+from tests.builders.players import overlap
 from tests.builders.shifts import make_shift
 from tests.viewer.conftest import Opener
 
@@ -103,6 +104,24 @@ def test_the_place_of_the_longest_waits_is_marked(show: Opener) -> None:
     viewer.painted()
     assert viewer.colour(on_ring) != lit
     assert not viewer.page.is_visible("#bottleneck-legend")
+
+
+def test_no_mark_covers_the_name_of_a_robot(show: Opener) -> None:
+    """R1 charges at N0 at 20; at 3 it is at N3, where J4 waits: its diamond is beside the disc."""
+    viewer = show(make_shift(), color_scheme="light")
+    viewer.seek(20)
+    x, y = viewer.on_map((0.5, 0.5))
+    (name,) = (text.box for text in viewer.names() if text.text == "R1")
+    near = [disc for disc in viewer.discs() if abs(disc.x - x) + abs(disc.y - y) < 1]
+    radius = max(disc.radius for disc in near)
+    assert radius > 20
+    assert not overlap(name, (x - radius, y - radius * 0.5, x + radius, y + radius * 0.5))
+    viewer.seek(3)
+    x, y = viewer.on_map((3.5, 0.5))
+    away = (radius + 4) / 2**0.5
+    assert sum(viewer.colour((x + away, y + away))[:3]) < 150  # nearly black
+    (name,) = (text.box for text in viewer.names() if text.text == "R1")
+    assert name[0] < x < name[2]
 
 
 def test_the_diagram_has_throughput_service_times_and_rounds(show: Opener) -> None:

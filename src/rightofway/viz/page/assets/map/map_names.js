@@ -134,6 +134,7 @@ export class MapNames {
   #fitsInside(context, index, radius) {
     return (
       radius >= 13 &&
+      this.motion.activity[index] !== CHARGE && // a bolt is there
       this.#widths.of(context, this.plan.robots[index].name, this.#insideFont(radius)) <
         radius * 1.7
     );
@@ -147,7 +148,7 @@ export class MapNames {
   #inside(context, index, radius) {
     const { name } = this.plan.robots[index];
     const activity = this.motion.activity[index];
-    const hollow = activity !== DRIVE && ![WORK, TURN, CHARGE].includes(activity);
+    const hollow = ![DRIVE, WORK, TURN].includes(activity);
     const [x, y] = this.#at(index);
     context.globalAlpha = this.choice.standsOut(index) ? 1 : 0.4;
     context.font = this.#insideFont(radius);

@@ -20,6 +20,7 @@ import { Words } from "../language/words.js";
 /** @import { JobMarks } from "../jobs/job_marks.js" */
 /** @import { MapReleased } from "./map_released.js" */
 /** @import { Root } from "../common/root.js" */
+/** @import { ShiftMarks } from "../shift/shift_marks.js" */
 /** @import { Site } from "../plan/site.js" */
 /** @import { Theme } from "../drawing/theme.js" */
 /** @import { Moments } from "../player/clock.js" */
@@ -38,7 +39,7 @@ import { Words } from "../language/words.js";
  * @property {Bottleneck | null} [bottleneck]
  * @property {Root | null} [tools] where the buttons that act on it are
  * @property {((sizes: MapSizes) => MapReleased) | null} [released] what is released to a fleet that is driven
- * @property {JobMarks | null} [jobs] of a plan with jobs
+ * @property {JobMarks & { paintBelow?: ShiftMarks["paintBelow"] } | null} [jobs] of a plan with jobs, or a shift
  */
 
 /** The moment of a map on which nothing moves. */
@@ -139,6 +140,7 @@ export class MapView {
     this.bookings.paint(context, scale);
     this.route.paint(context, scale);
     this.released?.paint(context, scale, this.clock.tick);
+    this.jobs?.paintBelow?.(context, scale, (vertex) => this.#coverAt(vertex));
     this.bottleneck?.paintRobots(context, this.motion, scale);
     this.robots.paint(context, scale);
     this.bookings.paintOver(context, scale);
@@ -180,6 +182,18 @@ export class MapView {
   /** @param {readonly number[]} vertices */
   #names(vertices) {
     return vertices.map((vertex) => this.roadmap.name(vertex)).join(", ");
+  }
+
+  /**
+   * The radius of the robot that covers a vertex, in units of the map; 0 for none.
+   *
+   * @param {number} vertex
+   */
+  #coverAt(vertex) {
+    const { x, y } = this.roadmap;
+    const reach = this.sizes.robot / this.viewport.scale;
+    const robot = nearest(this.motion.x, this.motion.y, x[vertex], y[vertex], reach);
+    return robot < 0 ? 0 : reach;
   }
 
   #click() {

@@ -25,13 +25,15 @@ export class ShiftMarks extends JobMarks {
   }
 
   /**
+   * Marks below the robots, in units of the map.
+   *
    * @param {CanvasRenderingContext2D} context
    * @param {number} scale
+   * @param {(vertex: number) => number} cover the radius of the robot at a vertex, 0 for none
    */
-  paintMap(context, scale) {
+  paintBelow(context, scale, cover) {
     if (this.choice.bottleneck) this.#bottleneck(context, scale);
-    this.#open(context, scale);
-    super.paintMap(context, scale);
+    this.#open(context, scale, cover);
   }
 
   /**
@@ -56,12 +58,13 @@ export class ShiftMarks extends JobMarks {
   }
 
   /**
-   * The first stop of each job that is known and not begun.
+   * The first stop of each job that is known and not begun; beside a robot that covers it.
    *
    * @param {CanvasRenderingContext2D} context
    * @param {number} scale
+   * @param {(vertex: number) => number} cover
    */
-  #open(context, scale) {
+  #open(context, scale, cover) {
     const { x, y } = this.plan.roadmap;
     const { begins, jobs } = this.shift;
     const { tick } = this.clock;
@@ -72,7 +75,9 @@ export class ShiftMarks extends JobMarks {
     context.strokeStyle = this.theme.paper;
     context.lineWidth = 1.5 / scale;
     for (const vertex of places) {
-      diamond(context, x[vertex], y[vertex], 5 / scale);
+      const radius = cover(vertex);
+      const away = radius ? (radius + 4 / scale) * Math.SQRT1_2 : 0;
+      diamond(context, x[vertex] + away, y[vertex] + away, 5 / scale);
       context.fill();
       context.stroke();
     }
