@@ -51,7 +51,8 @@ containers engine="docker":
     {{ engine }} build -f deploy/Containerfile -t rightofway \
         --build-arg PYTHON="$(python -c 'import sys; print("%d.%d" % sys.version_info[:2])')" .
     rightofway plan examples/floor.yaml -o deploy/site/plan.json
-    {{ engine }} compose -f deploy/compose.yaml up
+    RIGHTOFWAY_USER={{ if engine == "podman" { "0:0" } else { "$(id -u):$(id -g)" } }} \
+        {{ engine }} compose -f deploy/compose.yaml up
 
 # Write the versions that CI installs: the newest that fit together now
 constraints:

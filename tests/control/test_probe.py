@@ -232,5 +232,5 @@ def test_a_robot_that_is_not_at_its_home_is_a_finding(tmp_path: Path, broker: Mo
     assert (found.step, found.fact) == ("plan", Fact("not at home", node="N0", home="N2"))
     assert list_kinds(result, "plan") == [
         "not at home", "fits into plan", "nodes to know", "length of base",
-        "base longer than braking", "actions of plan", "actions not listed",
+        "base longer than braking", "actions of plan", "actions of plan not listed",
     ]  # fmt: skip

@@ -134,7 +134,7 @@ class PlanFit:
         if wanted:
             yield "note", Fact("actions of plan", names=tuple(sorted(wanted)))
         if sheet and (unknown := wanted - listed):
-            yield "note", Fact("actions not listed", names=tuple(sorted(unknown)))
+            yield "note", Fact("actions of plan not listed", names=tuple(sorted(unknown)))
 
     def _list_pieces(self) -> set[str]:
         """Return the names of vertices between the pieces of a lane: no layout has them."""

@@ -240,11 +240,11 @@ class RoundDriver:
         if planned.stands:
             reason: Fact = planned.facts[0].values["reason"]
             return reason
-        kept = next((fact for fact in planned.facts if fact.kind == "old tours kept"), None)
-        if kept is None or not self._changes_nothing(seen, planned):
+        reasons = [fact for fact in planned.facts if fact.kind == "old tours kept"]
+        if not reasons or not self._changes_nothing(seen, planned):
             return None
         self._tell_reasons(dict(planned.unserved), planned.postponed)
-        return kept
+        return reasons[0]
 
     def _changes_nothing(self, seen: ViewOfRound, planned: Round) -> bool:
         """Return whether no robot drives by a plan, and each has the work that it had."""
