@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <compare>
 #include <cstddef>
+#include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -31,13 +32,39 @@ struct LatestEnd {
     }
 };
 
-// A drive in the order of the plan.
 struct Drive {
     Tick start;
     VisitId visit;  // that it leads to
     RobotId robot;
-    auto operator<=>(const Drive&) const = default;
 };
+
+// Sorts drives by their starts, those of one start as before: by counting, from the last digits to
+// the first.
+void sort_by_start(std::vector<Drive>& drives, Poll& poll) {
+    constexpr int bits = 11;
+    constexpr std::size_t n_digits = std::size_t{1} << bits;
+    Tick latest = 0;
+    for (const Drive& drive : drives) {
+        latest = std::max(latest, drive.start);
+    }
+    std::vector<Drive> sorted(drives.size());
+    for (int shift = 0; shift < std::numeric_limits<Tick>::digits && latest >> shift > 0;
+         shift += bits) {
+        const auto digit = [shift](const Drive& drive) {
+            return static_cast<std::size_t>(drive.start >> shift) % n_digits;
+        };
+        std::array<std::size_t, n_digits + 1> place{};
+        for (const Drive& drive : drives) {
+            ++place[digit(drive) + 1];
+        }
+        std::partial_sum(place.begin(), place.end(), place.begin());
+        for (const Drive& drive : drives) {
+            poll();
+            sorted[place[digit(drive)]++] = drive;
+        }
+        drives.swap(sorted);
+    }
+}
 
 class Retiming {
   public:
@@ -47,13 +74,11 @@ class Retiming {
           poll_(poll),
           ways_(tracks.vertex.size()),
           latest_(static_cast<std::size_t>(problem.n_rows())) {
+        drives_.reserve(tracks.vertex.size());
         for (RobotId robot = 0; robot < problem.n_robots(); ++robot) {
             measure(robot);
         }
-        std::sort(drives_.begin(), drives_.end(), [&](const Drive& left, const Drive& right) {
-            poll_();
-            return left < right;
-        });
+        sort_by_start(drives_, poll_);
     }
 
     // A visit begins when its robot is ready and all earlier bookings of other robots that exclude
@@ -155,7 +180,7 @@ class Retiming {
     Tracks& tracks_;
     Poll& poll_;
     std::vector<Way> ways_;          // of each visit
-    std::vector<Drive> drives_;      // in the order of their starts
+    std::vector<Drive> drives_;      // by their starts, then by their visits
     std::vector<LatestEnd> latest_;  // of each row
 };
 
