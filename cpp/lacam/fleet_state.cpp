@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "core/random.hpp"
 
@@ -62,10 +63,19 @@ std::uint64_t FleetState::key(RobotId robot) const {
 }
 
 void FleetState::set_busy(RobotId robot, Tick until) {
-    robots_[index(robot)].place = busy;
-    robots_[index(robot)].ready = until;
-    sum_busy_ += key(robot) * base_to_now_ * power(base, until - now_);
-    events_.push_back({until, robot});
+    Robot& r = robots_[index(robot)];
+    r.place = busy;
+    r.ready = until;
+    r.key = key(robot);
+    sum_busy_ += r.key * base_to_now_ * power(base, until - now_);
+    if (until == latest_event_.tick) {
+        Robot& first = robots_[index(latest_event_.first)];
+        r.finishes_with = std::exchange(first.finishes_with, robot);
+        return;
+    }
+    r.finishes_with = nobody;
+    latest_event_ = {until, robot};
+    events_.push_back(latest_event_);
     std::push_heap(events_.begin(), events_.end(), std::greater<>());
 }
 
@@ -78,7 +88,8 @@ void FleetState::set_free(RobotId robot) {
         r.place = static_cast<std::int32_t>(undecided_.size());
         undecided_.push_back(robot);
     }
-    sum_free_ += key(robot);
+    r.key = key(robot);
+    sum_free_ += r.key;
 }
 
 void FleetState::take_off_list(RobotId robot) {
@@ -130,15 +141,16 @@ void FleetState::resume(std::span<const Standing> robots) {
 
 void FleetState::decide(const Decision& decision) {
     const RobotId robot = decision.robot;
-    sum_free_ -= key(robot);
-    if (robots_[index(robot)].place == arrived) {
-        robots_[index(robot)].since = now_;
+    Robot& r = robots_[index(robot)];
+    sum_free_ -= r.key;
+    if (r.place == arrived) {
+        r.since = now_;
     }
     take_off_list(robot);
-    robots_[index(robot)].to = decision.vertex;
+    r.to = decision.vertex;
     resources_[index(decision.vertex)].comes = robot;
     if (problem_->edges_exclude()) {
-        edge_of(robots_[index(robot)]).here = robot;
+        edge_of(r).here = robot;
     }
     set_busy(robot, decision.arrival);
 }
@@ -154,12 +166,15 @@ bool FleetState::advance() {
     finished_.clear();
     while (!events_.empty() && events_.front().tick == now_) {
         std::pop_heap(events_.begin(), events_.end(), std::greater<>());
-        finished_.push_back(events_.back().robot);
+        for (RobotId robot = events_.back().first; robot != nobody;
+             robot = robots_[index(robot)].finishes_with) {
+            finished_.push_back(robot);
+        }
         events_.pop_back();
     }
     for (const RobotId robot : finished_) {  // all leave before the first enter
         const Robot& r = robots_[index(robot)];
-        sum_busy_ -= key(robot) * base_to_now_;
+        sum_busy_ -= r.key * base_to_now_;
         if (r.at != r.to) {
             resources_[index(r.at)].here = nobody;
             resources_[index(r.at)].left = now_;

@@ -97,15 +97,19 @@ class FleetState {
         Tick ready;
         Tick since;
         EdgeId edge = -1;
+        RobotId finishes_with = nobody;  // the next robot of the event
+        std::uint64_t key = 0;           // in a sum below
     };
     struct Resource {
         RobotId here;
         RobotId comes;
         Tick left;
     };
+    // Robots that finish at one instant: the first of a list. Robots that become busy one after the
+    // other until one instant share an event, so a fleet that moves in steps has one at a time.
     struct Event {
         Tick tick;
-        RobotId robot;
+        RobotId first;
         auto operator<=>(const Event&) const = default;
     };
 
@@ -123,6 +127,7 @@ class FleetState {
     std::vector<Resource> resources_;  // edges only where drives exclude more than their ends do
     std::vector<RobotId> undecided_;
     std::vector<Event> events_;  // a heap
+    Event latest_event_{-1, nobody};
     std::vector<RobotId> finished_;
     RobotId n_arrived_ = 0;
     std::uint64_t sum_free_ = 0;
