@@ -1,6 +1,8 @@
 #include "distances/space_utilization.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <span>
 
 #include "core/reverse_graph.hpp"
 
@@ -11,20 +13,24 @@ constexpr VertexId nowhere = -1;
 
 // The cost of an edge; the surcharge per opposing path and per path at its head, each up to a bound
 // (so detours are bounded, too).
-constexpr std::int64_t cost_of_edge = 16;
-constexpr std::int64_t cost_against = 8;
-constexpr std::int64_t most_against = 64;
-constexpr std::int64_t cost_shared = 1;
-constexpr std::int64_t most_shared = 16;
+constexpr std::int32_t cost_of_edge = 16;
+constexpr std::int32_t cost_against = 8;
+constexpr std::int32_t most_against = 64;
+constexpr std::int32_t cost_shared = 1;
+constexpr std::int32_t most_shared = 16;
 // The cost of passing a robot at the end of its trip: that robot has to make room and return.
-constexpr std::int64_t cost_ended = 320;
+constexpr std::int32_t cost_ended = 320;
 // Greater than cost_of_edge, so the estimate is greedy: fewer vertices opened, paths hardly worse.
-constexpr std::int64_t estimate_per_step = 24;
+constexpr std::int32_t estimate_per_step = 24;
 // The width of a list: its estimates differ by less.
-constexpr std::int64_t list_width = 4;
+constexpr std::int32_t list_width = 4;
 
-// The most vertices opened in all; below the least number per leg, no leg gets a path.
+// The most vertices opened in all; below the least number per leg, no leg gets a path. So no cost
+// of a path exceeds int32.
 constexpr std::int64_t most_opened = 3'000'000;
+static_assert(most_opened * (cost_of_edge + most_against + most_shared + cost_ended) +
+                  (std::int64_t{estimate_per_step} << 16) <
+              std::numeric_limits<std::int32_t>::max());
 constexpr std::int64_t least_for_a_leg = 500;
 constexpr std::int64_t legs_between_questions = 32;
 
@@ -33,12 +39,10 @@ constexpr std::int64_t legs_between_questions = 32;
 SpaceUtilization::SpaceUtilization(const Problem& problem, StepTables& tables)
     : problem_(problem),
       tables_(tables),
-      ended_from_(static_cast<std::size_t>(problem.graph().n_vertices()), never),
-      edge_cost_(problem.graph().indices.size(), cost_of_edge),
-      into_cost_(ended_from_.size(), 0),
       first_hop_(problem.n_stages(), 0),
       end_hop_(problem.n_stages(), 0),
-      best_(ended_from_.size(), {0, 0, none, 0}) {}
+      best_(static_cast<std::size_t>(problem.graph().n_vertices()), {0, 0, none, 0}),
+      clock_(best_.size(), {0, never}) {}
 
 // The vertex of each last stage and the enter of its robot without waits.
 void SpaceUtilization::find_ends() {
@@ -49,7 +53,7 @@ void SpaceUtilization::find_ends() {
             const VertexId target = problem_.stage_vertex(s);
             when += problem_.quickest_edge(r) * tables_.steps(tables_.table_of(target), place);
             if (problem_.is_last(r, s)) {
-                ended_from_[index(target)] = when;
+                clock_[index(target)].ended_from = when;
             }
             when += problem_.stage_dwell(s);
             place = target;
@@ -64,6 +68,10 @@ bool SpaceUtilization::choose(const StopCondition& is_over) {
     }
     tail_ = list_tails(problem_.graph());
     opposite_ = find_opposite_edges(problem_.graph());
+    arcs_.clear();
+    for (const VertexId head : problem_.graph().indices) {
+        arcs_.push_back({head, cost_of_edge});
+    }
     find_ends();
     Poll poll(is_over);
     std::int64_t n_chosen = 0;
@@ -101,14 +109,14 @@ Tick SpaceUtilization::choose_leg(const Leg& leg, Tick when, Poll& poll) {
     }
     if (search(leg, when, poll)) {
         keep(leg);
-        return best_[index(target)].when;
+        return clock_[index(target)].when;
     }
     return when +
            problem_.quickest_edge(leg.robot) * tables_.steps(tables_.table_of(target), leg.start);
 }
 
 bool SpaceUtilization::search(const Leg& leg, Tick when, Poll& poll) {
-    const Graph& graph = problem_.graph();
+    const std::span<const EdgeId> indptr = problem_.graph().indptr;
     const VertexId target = problem_.stage_vertex(leg.stage);
     const StepTables::TableId table = tables_.table_of(target);
     ++round_;
@@ -116,7 +124,8 @@ bool SpaceUtilization::search(const Leg& leg, Tick when, Poll& poll) {
     std::fill(first_open_.begin(), first_open_.end(), none);
     least_ = cost_of_edge * tables_.steps(table, leg.start);
     list_ = first_open_.size();
-    open(leg.start, {0, when, none, round_}, table);
+    open(leg.start, 0, none, table);
+    clock_[index(leg.start)].when = when;
     for (Open top{}; credit_ > 0 && take_next(top); --credit_) {
         if (poll()) {
             is_stopped_ = true;
@@ -125,43 +134,50 @@ bool SpaceUtilization::search(const Leg& leg, Tick when, Poll& poll) {
         if (top.vertex == target) {
             return true;
         }
-        const Best best = best_[index(top.vertex)];
-        if (top.cost > best.cost) {
+        const std::int32_t cost_here = best_[index(top.vertex)].cost;
+        if (top.cost > cost_here) {
             continue;  // outdated: the vertex has a cheaper path
         }
-        for (EdgeId e = graph.indptr[index(top.vertex)]; e < graph.indptr[index(top.vertex + 1)];
-             ++e) {
-            const VertexId head = graph.indices[index(e)];
-            const std::int64_t cost = best.cost + edge_cost_[index(e)] + into_cost_[index(head)];
-            if (best_[index(head)].round == round_ && best_[index(head)].cost <= cost) {
+        const Tick now = clock_[index(top.vertex)].when;
+        for (EdgeId e = indptr[index(top.vertex)]; e < indptr[index(top.vertex + 1)]; ++e) {
+            const Arc arc = arcs_[index(e)];
+            const Best& known = best_[index(arc.head)];
+            const std::int32_t cost = cost_here + arc.cost + known.shared;
+            if (known.round == round_ && known.cost <= cost) {
                 continue;  // most heads: the way back, or a way round
             }
-            const Tick then = best.when + problem_.drive(leg.robot, e);
-            const bool has_ended = head != target && ended_from_[index(head)] <= then;
-            open(head, {cost + (has_ended ? cost_ended : 0), then, e, round_}, table);
+            const Tick then = now + problem_.drive(leg.robot, e);
+            const bool has_ended = arc.head != target && clock_[index(arc.head)].ended_from <= then;
+            if (open(arc.head, cost + (has_ended ? cost_ended : 0), e, table)) {
+                clock_[index(arc.head)].when = then;
+            }
         }
     }
     return false;
 }
 
-void SpaceUtilization::open(VertexId vertex, const Best& reached, StepTables::TableId table) {
+// Opens a vertex reached at a cost over an edge; false if that is no better than before.
+bool SpaceUtilization::open(VertexId vertex, std::int32_t cost, EdgeId by,
+                            StepTables::TableId table) {
     Best& best = best_[index(vertex)];
-    if (best.round == round_ && best.cost <= reached.cost) {
-        return;
+    if (best.round == round_ && best.cost <= cost) {
+        return false;
     }
     const std::int32_t steps = tables_.steps(table, vertex);
     if (steps == StepTables::unreachable) {
-        return;
+        return false;
     }
-    best = reached;
-    const std::int64_t estimate = reached.cost + estimate_per_step * steps;
-    const auto list = index((estimate - least_) / list_width);
+    best.cost = cost;
+    best.round = round_;
+    best.by = by;
+    const auto list = index((cost + estimate_per_step * steps - least_) / list_width);
     if (list >= first_open_.size()) {
         first_open_.resize(list + 1, none);
     }
-    open_.push_back({reached.cost, vertex, first_open_[list]});
+    open_.push_back({cost, vertex, first_open_[list]});
     first_open_[list] = static_cast<std::int32_t>(open_.size()) - 1;
     list_ = std::min(list_, list);  // a greedy estimate may decrease
+    return true;
 }
 
 // The vertex opened last in the first list that is not empty.
@@ -182,10 +198,10 @@ void SpaceUtilization::keep(const Leg& leg) {
     const auto first = static_cast<std::ptrdiff_t>(hops_.size());
     for (VertexId at = problem_.stage_vertex(leg.stage); at != leg.start;) {
         const EdgeId edge = best_[index(at)].by;
-        into_cost_[index(at)] = std::min(into_cost_[index(at)] + cost_shared, most_shared);
+        best_[index(at)].shared = std::min(best_[index(at)].shared + cost_shared, most_shared);
         if (const EdgeId opposite = opposite_[index(edge)]; opposite != none) {
-            edge_cost_[index(opposite)] =
-                std::min(edge_cost_[index(opposite)] + cost_against, cost_of_edge + most_against);
+            std::int32_t& cost = arcs_[index(opposite)].cost;
+            cost = std::min(cost + cost_against, cost_of_edge + most_against);
         }
         hops_.push_back({tail_[index(edge)], at});
         at = tail_[index(edge)];

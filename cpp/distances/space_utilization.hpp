@@ -44,44 +44,51 @@ class SpaceUtilization {
         VertexId from;
         VertexId to;
     };
+    struct Arc {
+        VertexId head;
+        std::int32_t cost;  // of an edge, and against earlier paths
+    };
     struct Open {
-        std::int64_t cost;  // of the path from the start
+        std::int32_t cost;  // of the path from the start
         VertexId vertex;
         std::int32_t next;  // next entry of the list
     };
-    // The cheapest path to a vertex in the search number `round`.
+    // A vertex: the cheapest path to it in the search number `round`.
     struct Best {
-        std::int64_t cost;
-        Tick when;  // enter of the robot without waits
-        EdgeId by;
+        std::int32_t cost;
         std::int32_t round;
+        EdgeId by;
+        std::int32_t shared;  // what earlier paths add to the cost of each edge to the vertex
+    };
+    struct Clock {
+        Tick when;        // enter of the robot on the cheapest path, without waits
+        Tick ended_from;  // earliest end of a trip at the vertex
     };
 
     void find_ends();
     Tick choose_leg(const Leg& leg, Tick when, Poll& poll);
     bool search(const Leg& leg, Tick when, Poll& poll);
-    void open(VertexId vertex, const Best& reached, StepTables::TableId table);
+    bool open(VertexId vertex, std::int32_t cost, EdgeId by, StepTables::TableId table);
     bool take_next(Open& next);
     void keep(const Leg& leg);
 
     const Problem& problem_;
     StepTables& tables_;
-    std::vector<VertexId> tail_;           // of each edge
-    std::vector<EdgeId> opposite_;         // of each edge, -1 if the edge is one-way
-    std::vector<Tick> ended_from_;         // of each vertex: earliest end of a trip there
-    std::vector<std::int64_t> edge_cost_;  // of each edge: cost against earlier paths
-    std::vector<std::int64_t> into_cost_;  // of each vertex: cost of earlier paths
-    std::vector<Hop> hops_;                // of all paths; within a path by `from`
-    std::vector<std::size_t> first_hop_;   // of each stage
+    std::vector<VertexId> tail_;          // of each edge
+    std::vector<EdgeId> opposite_;        // of each edge, -1 if the edge is one-way
+    std::vector<Arc> arcs_;               // of each edge
+    std::vector<Hop> hops_;               // of all paths; within a path by `from`
+    std::vector<std::size_t> first_hop_;  // of each stage
     std::vector<std::size_t> end_hop_;
     bool is_stopped_ = false;
     std::int64_t credit_ = 0;  // number of vertices that may still be opened
     std::int32_t round_ = 0;
-    std::vector<Best> best_;  // of each vertex
+    std::vector<Best> best_;    // of each vertex
+    std::vector<Clock> clock_;  // of each vertex
     // Open vertices in lists by estimate (buckets); the first list has the least estimate.
     std::vector<Open> open_;
     std::vector<std::int32_t> first_open_;  // of each list
-    std::int64_t least_ = 0;                // least estimate of the first list
+    std::int32_t least_ = 0;                // least estimate of the first list
     std::size_t list_ = 0;                  // the lists before it are empty
 };
 

@@ -201,22 +201,29 @@ void StepTables::search_up_to(TableId table, VertexId from, std::vector<Place>& 
                        : cells[place] != 0;
     };
     reached.resize(place_.size());
-    std::size_t end = search.frontier.size();
     std::copy(search.frontier.begin(), search.frontier.end(), reached.begin());
+    // Of its own: a byte that is written may be part of anything that the compiler does not know.
+    const EdgeId* const arriving = arriving_.data();
+    const Place* const sources = source_.data();
+    Place* const queue = reached.data();
+    const Place wanted = place_[index(from)];
+    std::int32_t depth = search.depth;
+    std::size_t end = search.frontier.size();
     std::size_t next = 0;
-    while (!is_known(place_[index(from)]) && next < end && search.depth < most_steps) {
-        ++search.depth;
+    while (!is_known(wanted) && next < end && depth < most_steps) {
+        ++depth;
         for (const std::size_t end_of_level = end; next < end_of_level; ++next) {
-            const Place place = reached[next];
-            for (EdgeId k = arriving_[index(place)]; k < arriving_[index(place + 1)]; ++k) {
-                const Place source = source_[index(k)];
+            const EdgeId* const edges = arriving + queue[next];
+            for (EdgeId k = edges[0]; k < edges[1]; ++k) {
+                const Place source = sources[k];
                 if (!is_known(source)) {
-                    write<is_wide>(cells, source, search.depth);
-                    reached[end++] = source;
+                    write<is_wide>(cells, source, depth);
+                    queue[end++] = source;
                 }
             }
         }
     }
+    search.depth = depth;
     search.frontier.assign(reached.begin() + static_cast<std::ptrdiff_t>(next),
                            reached.begin() + static_cast<std::ptrdiff_t>(end));
 }
