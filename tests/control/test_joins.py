@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from contextlib import closing
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -12,13 +14,14 @@ from rightofway.control import FleetControl, SimulatedRobot
 from rightofway.control.dispatcher import Dispatcher
 from rightofway.control.identities import make_simulated_identities
 from rightofway.control.joins import Joins, grow_identities, grow_plan
-from rightofway.control.journal import Entry, JournalRow
+from rightofway.control.journal import Entry, JournalRow, SqliteJournal
 from rightofway.control.notices import Notices
 from rightofway.control.recording import Recording
 from rightofway.control.round_worker import RoundsAtOnce
 from rightofway.errors import GaveUp, InputError
 from rightofway.io import parse_scenario
 from rightofway.model import Plan
+from rightofway.studio.watching import Watched
 from tests.builders.chaos import MemoryJournal
 from tests.builders.floor_jobs import floor_document
 from tests.builders.floors import Floor
@@ -149,7 +152,8 @@ def test_robots_that_differ_need_one_that_is_named() -> None:
         fleet.join()
     fleet.join(like="R1", set={"capacity": 3, "version": "3.0.0"})
     robot, identity = fleet.dispatcher.plan.scenario.robots[2], fleet.identities[2]
-    assert (robot.speed, robot.capacity) == (2, 3)
+    assert robot.speed == 2
+    assert robot.capacity == 3
     assert identity.get_topic("state") == "vda5050/v3/rightofway/new/state"
 
 
@@ -243,3 +247,18 @@ def test_a_recording_has_the_robots_that_have_joined() -> None:
     assert [robot.name for robot in recording.plan.scenario.robots] == ["R1", "R2", "R3"]
     assert {row[1] for row in recording.take_frame()["rows"]} >= {0, 1, 2}
     assert recording.result.jobs[2] == 1
+
+
+def test_a_page_has_the_robots_that_have_joined_and_no_faults_of_their_places(
+    tmp_path: Path,
+) -> None:
+    """N2 is on the route of R1: the plan of both robots does not know that R3 is there."""
+    fleet = Fleet()
+    fleet.join()
+    fleet.drive(10)
+    with closing(SqliteJournal(tmp_path / "plan.journal")) as journal:
+        journal.commit(fleet.journal.written)
+    page = Watched(fleet.given, tmp_path / "plan.journal", title="plan", takes_orders=False)
+    text = page.make_page(is_whole=True)
+    assert "<title>plan: 3 robots" in text
+    assert '"faults":{"count":0' in text

@@ -70,6 +70,7 @@ def grow_plan(plan: Plan, joined: Iterable[Entry]) -> Plan:
             scenario=grown,
             tracks=(*plan.tracks, Track.of([int(vertex)], [0])),
             tours=(*(plan.tours or ()), ()),
+            run=replace(plan.run, alone=None, outcome=None),  # they are of the smaller fleet
         )
     return plan
 

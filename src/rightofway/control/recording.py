@@ -281,6 +281,11 @@ class Recording:
         """The plan with the robots that have joined."""
         return self._plan
 
+    @property
+    def has_grown(self) -> bool:
+        """Whether robots have joined that are not in the plan with which the journal begins."""
+        return self._plan is not self._given
+
     def _take_fleet(self) -> None:
         """Take in the robots of the plan, and those that have joined."""
         ledger = self._ledger

@@ -116,6 +116,8 @@ class Watched:
     def _make_payload(self, plan: Plan) -> Payload:
         """Return the plan as all pages get it, without its jobs."""
         payload = make_payload(plan, title=self._title)
+        if self._recording.has_grown:  # robots that have joined are in no plan: none is judged
+            payload["faults"] = {"count": 0, "kinds": [], "listed": []}
         payload.pop("work", None)
         return payload
 
