@@ -5,9 +5,13 @@ Each name is one that some program writes; the first that is there counts.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from itertools import chain
 from typing import NamedTuple
 
-from rightofway.io.layouts.draft import LayoutDraft, LevelDraft
+from rightofway.errors import InputError
+from rightofway.io.layouts.draft import MAX_EDGES, LayoutDraft, LevelDraft
 from rightofway.io.source import Source
 from rightofway.site.geometry import Point
 from rightofway.site.layout import LayoutVertex, name_lanes
@@ -67,3 +71,49 @@ def add_lanes(reading: Reading, own: Source, tail: str, head: str, both_ways: bo
             attribute="" if length is None else str(length.path[-1]),
             max_speed=None if max_speed is None else max_speed.number(),
         )
+
+
+def add_plain_lanes(
+    reading: Reading,
+    own: Mapping[str, Sequence[str]],
+    tails: Sequence[str],
+    heads: Sequence[str],
+    *,
+    both_ways: bool,
+) -> bool:
+    """Add lanes by columns of their attributes; add none and return False if one needs more care.
+
+    That is a lane with a fault, or with an attribute other than its id, a length and a speed limit.
+    """
+    lengths, speeds = ([key for key in keys if key in own] for keys in (LENGTHS, SPEEDS))
+    vertices, lanes = reading.level.vertices, reading.level.lanes
+    if len(lengths) > 1 or len(speeds) > 1 or own.keys() - {"id", *lengths, *speeds}:
+        return False
+    if not vertices.keys() >= {*tails, *heads}:
+        return False
+    count = len(tails) * (2 if both_ways else 1)
+    if len(lanes.tails) + count > MAX_EDGES:
+        return False
+    try:
+        of_lengths, of_speeds = (
+            _read_numbers(own[keys[0]]) if keys else [None] * len(tails)
+            for keys in (lengths, speeds)
+        )
+    except InputError:
+        return False
+    if any(speed is not None and speed <= 0 for speed in of_speeds):
+        return False
+    lanes.extend(
+        chain.from_iterable(
+            ((tail, head, length, speed), (head, tail, length, speed))[: 2 if both_ways else 1]
+            for tail, head, length, speed in zip(tails, heads, of_lengths, of_speeds, strict=True)
+        ),
+        attribute=lengths[0] if lengths else "",
+    )
+    return True
+
+
+def _read_numbers(column: Sequence[str]) -> list[Fraction | None]:
+    """Return the numbers of texts; equal texts have one number."""
+    number_of: dict[str, Fraction | None] = {text: Source(text).number() for text in {*column}}
+    return [number_of[text] for text in column]

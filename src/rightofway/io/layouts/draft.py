@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import groupby, pairwise
@@ -108,6 +108,18 @@ class DraftLanes:
     curves: dict[int, Curve] = field(default_factory=dict)
     # Fractions are slow to hash: lanes often share theirs, and are told apart by identity.
     _kind_of: dict[tuple[int, int], int] = field(default_factory=dict)
+
+    def extend(
+        self, columns: Iterable[tuple[str, str, Fraction | None, Fraction | None]], attribute: str
+    ) -> None:
+        """Add lanes without faults by tail, head, length and speed limit."""
+        tails, heads, lengths, speeds = zip(*columns, strict=True)
+        self.sources += [Source(None)] * len(tails)
+        self.tails += tails
+        self.heads += heads
+        self.lengths += lengths
+        self.attributes += [attribute] * len(tails)
+        self.kinds += [self.add_kind(speed, None) for speed in speeds]
 
     def add_kind(self, max_speed: Fraction | None, types: frozenset[str] | None) -> int:
         """Return the number of a kind."""

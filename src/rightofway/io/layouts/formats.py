@@ -221,7 +221,7 @@ def _open(text: str) -> tuple[LayoutFormat, Any] | None:
         if layout_format.content == "text" and layout_format.recognizes(text)
     )
     if start == "<":
-        kind, content = "xml", parse_xml(text)
+        kind, content = "xml", parse_xml(text, graphml.LANE)
     elif first := next(texts, None):
         return first, text
     else:

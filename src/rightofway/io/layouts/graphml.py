@@ -7,12 +7,22 @@ import re
 from rightofway.errors import quote
 from rightofway.facts import Fact
 from rightofway.io.faults import read_both
-from rightofway.io.layouts.attributes import PAIRS, Reading, add_lanes, add_vertex
+from rightofway.io.layouts.attributes import (
+    PAIRS,
+    Reading,
+    add_lanes,
+    add_plain_lanes,
+    add_vertex,
+)
 from rightofway.io.layouts.draft import LayoutDraft, find_name
+from rightofway.io.layouts.xml_run import ElementRun
 from rightofway.io.layouts.xml_tree import Element
 from rightofway.io.source import Source
 from rightofway.site.geometry import Point
 from rightofway.site.layout import Layout
+
+LANE = "edge"
+"""The elements that may be many and alike."""
 
 
 def recognizes(root: Element) -> bool:
@@ -36,8 +46,10 @@ def read(root: Element) -> Layout:
         is_directed = graph.value.get("edgedefault") != "undirected"
         for node in graph.list_descendants("node"):
             draft.attempt_vertex(find_name(node, "id"), _add_node, reading, node, keys)
-        for edge in graph.list_descendants("edge"):
+        for edge in graph.list_descendants(LANE):
             draft.faults.attempt("", _add_edge, reading, edge, keys, is_directed)
+            if edge.run is not None and _add_run(reading, edge, edge.run, keys, is_directed):
+                edge.run = None  # else its elements come next
     return draft.make_layout()
 
 
@@ -82,3 +94,27 @@ def _add_edge(reading: Reading, edge: Element, keys: dict[str, str], is_directed
     directed = own.get("directed")
     is_one_way = is_directed if directed is None else directed.read_flag()
     add_lanes(reading, own, tail, head, not is_one_way)
+
+
+def _add_run(
+    reading: Reading, first: Element, run: ElementRun, keys: dict[str, str], is_directed: bool
+) -> bool:
+    """Add the lanes that follow one in the same form; return False if it adds none of them.
+
+    It adds them unless one may have a fault, or an attribute that is read in another way.
+    """
+    columns = iter(run.columns)
+    own = {key: next(columns) for key in first.value}
+    if not {"source", "target"} <= own.keys():
+        return False
+    tails, heads = own["source"], own["target"]
+    own = {key.lower(): column for key, column in own.items()}
+    for data in first.children:
+        key = data.value.get("key")
+        if data.name != "data" or len(data.value) != 1 or not (key and data.content.strip()):
+            return False
+        if set(next(columns)) != {key}:
+            return False
+        own[keys.get(key) or key.lower()] = tuple(text.strip() for text in next(columns))
+    del own["source"], own["target"]
+    return add_plain_lanes(reading, own, tails, heads, both_ways=not is_directed)

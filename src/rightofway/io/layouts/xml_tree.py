@@ -14,6 +14,7 @@ from xml.parsers import expat
 from rightofway.deadline import READING, STEPS_BETWEEN_LOOKS, check_work
 from rightofway.errors import InputError, Location, quote
 from rightofway.io.content import LIMIT, choose_limit
+from rightofway.io.layouts.xml_run import ElementRun, cut_run
 from rightofway.io.plain_data import describe_column
 from rightofway.io.source import Source
 
@@ -31,20 +32,34 @@ class Element(Source):
     name: str = ""
     children: list[Element] = field(default_factory=list)
     content: str = ""
+    run: ElementRun | None = None  # the elements that follow it in the same form
+
+    def list_children(self, name: str) -> Iterator[Element]:
+        """Yield the children; of a run only where a name occurs in it, after the first one.
+
+        A reader that sets the run of the first one to None gets no other elements of it.
+        """
+        for child in self.children:
+            yield child
+            if child.run is not None and name in {
+                child.name,
+                *(own.name for own in child.children),
+            }:
+                yield from _expand_run(child.run)
 
     def list_all(self, name: str) -> Iterator[Element]:
         """Yield the children of a name."""
-        return (child for child in self.children if child.name == name)
+        return (child for child in self.list_children(name) if child.name == name)
 
     def list_descendants(self, name: str) -> Iterator[Element]:
         """Yield all elements of a name inside, each before those inside it."""
-        opened = [iter(self.children)]
+        opened = [self.list_children(name)]
         while opened:
             for child in opened[-1]:
                 if child.name == name:
                     yield child
                 if child.children:
-                    opened.append(iter(child.children))
+                    opened.append(child.list_children(name))
                     break
             else:
                 opened.pop()
@@ -75,14 +90,40 @@ def _make_size_fault(line: int, most: int | None) -> InputError:
     return InputError.at(Location(line=line), message)
 
 
-def parse_xml(text: str) -> Element:
+def _expand_run(run: ElementRun) -> list[Element]:
+    """Return the elements of a run."""
+    elements = parse_xml(f"<run>{run.text}</run>").children
+    for element in elements:
+        for part in (element, *element.children):
+            part.line = (part.line or 1) + run.line - 1
+    return elements
+
+
+def parse_xml(text: str, run_of: str = "") -> Element:
     """Return the root of an XML text.
+
+    Elements of the name ``run_of`` may be many and alike: those that follow the first one in the
+    same form are its `ElementRun`.
 
     Raises
     ------
     InputError
         If it is no XML, declares entities, or is too large or too deep.
     """
+    most = choose_limit() // CHARACTERS_PER_ELEMENT
+    shorter, run = cut_run(text, run_of, most)
+    if run is None:
+        return _parse_whole(text, most).children[0]
+    try:
+        document = _parse_whole(shorter, most)
+    except InputError:  # whose place may be in a line with elements of the run
+        return parse_xml(text)
+    next(document.list_descendants(run_of)).run = run
+    return document.children[0]
+
+
+def _parse_whole(text: str, most: int) -> Element:
+    """Return the parent of the root of an XML text."""
     parser = expat.ParserCreate("utf-8", " ")  # whatever encoding the text declares
     parser.buffer_text = True
     parser.SetParamEntityParsing(expat.XML_PARAM_ENTITY_PARSING_NEVER)
@@ -90,7 +131,6 @@ def parse_xml(text: str) -> Element:
     opened, count = [document], 0
     texts = defaultdict[int, list[str]](list)  # by depth; most elements of a million have none
     local_names = _LocalNames()
-    most = choose_limit() // CHARACTERS_PER_ELEMENT
 
     def start(name: str, attributes: dict[str, str]) -> None:
         nonlocal count
@@ -125,4 +165,4 @@ def parse_xml(text: str) -> Element:
         column = describe_column(text, error.lineno, error.offset + 1)
         message = f"this is no XML: {reason}{column} (check it there)"
         raise InputError.at(Location(line=error.lineno), message) from None
-    return document.children[0]
+    return document
