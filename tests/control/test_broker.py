@@ -465,7 +465,7 @@ def test_the_commands_of_the_page_change_the_work_of_robots_that_drive(
                 assert code == 0 or "refused: " in asking.log
             wait_for(lambda: driving.log.count("is at the end of its way") >= 2, 120, "the ends")
             assert f"{name} at N7 is added" in driving.log
-            assert "R1: hold" in driving.log
+            assert "R1: on hold" in driving.log
 
 
 def test_the_commands_of_the_page_take_in_a_robot_that_comes_later(

@@ -95,7 +95,7 @@ def test_a_command_that_raises_is_answered_as_failed_and_no_start_repeats_it(
         _, second = Operator(replanned).obey(commands)
     assert [tell_answer(answer)[1] for _, answer in second] == [
         "carried out before a start",
-        "R1: hold",
+        "R1: on hold",
     ]
     again.close()
     commands.close()

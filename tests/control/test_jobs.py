@@ -225,8 +225,9 @@ def test_a_command_is_carried_out_once_though_its_answer_was_lost(tmp_path: Path
 @pytest.mark.parametrize(
     ("command", "answer"),
     [
-        ({"kind": "hold"}, (True, "all robots: hold")),
-        ({"kind": "go", "name": "R1"}, (True, "R1: go")),
+        ({"kind": "hold"}, (True, "all robots: on hold")),
+        ({"kind": "stop", "person": " Anna "}, (True, "all robots: stopped, by Anna")),
+        ({"kind": "go", "name": "R1"}, (True, "R1: released")),
         ({"kind": "close", "name": "N4"}, (True, "N4 is closed")),
         (
             {"kind": "close", "name": "N4", "to": "N7"},

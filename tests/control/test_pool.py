@@ -171,6 +171,8 @@ def test_a_job_that_is_withdrawn_is_not_done_and_one_that_is_begun_cannot_be() -
     shift.drive(2)
     shift.ask("withdraw", name="A1")
     assert shift.ask("withdraw", name="A1")["done"]
+    with pytest.raises(InputError, match="'A1' is withdrawn already"):
+        shift.ask("change", name="A1", at="N2")
     shift.drive(15)  # J1 begins at 12
     assert shift.list_jobs()["J1"] == "begun"
     with pytest.raises(InputError, match="'J1' is begun already"):

@@ -192,7 +192,7 @@ def test_the_checklist_is_followed_word_for_word(tmp_path: Path, broker: Mosquit
                 assert "the braking distance of" in answer.stdout
         drive, go_one, hold, go = read_lines("drive", broker.url)
         with Command(tmp_path, *drive.split()[1:]).running() as driving:
-            wait_for(lambda: "all robots: hold" in driving.log, 60, "the hold")
+            wait_for(lambda: "all robots: on hold" in driving.log, 60, "the hold")
             for line in (go_one, hold, go):
                 assert follow(tmp_path, line).returncode == 0
             wait_for(lambda: "A2 sets out from Park" in driving.log, 60, "the first drive")

@@ -234,6 +234,20 @@ def test_a_person_has_seen_the_alarms_that_last(
     journal.close()
 
 
+def test_a_pause_that_a_person_has_asked_for_is_no_alarm(tmp_path: Path) -> None:
+    """R1 is stopped by a person, R2 pauses by itself: both are in the log."""
+    drive_demo(door(), journal=tmp_path / "demo.journal")
+    journal = SqliteJournal(tmp_path / "demo.journal", lambda: 20.0)
+    journal.commit([{"kind": "pause wanted", "robot": 0, "on": True, "action": "a"}])
+    fact = Fact("about robot", robot="R1", predicate=Fact("paused"))
+    journal.commit([make_notice(fact, robot, "pause") for robot in (0, 1)])
+    recording = Recording(door(), JournalReader(tmp_path / "demo.journal"))
+    recording.read_on()
+    rows = [row[1:4] for row in recording.take_frame()["rows"] if row[0] == 20.0]
+    assert rows == [(0, "says", "news"), (1, "says", "alarm"), (1, "alarm", "pause")]
+    journal.close()
+
+
 def test_a_start_ends_the_alarms_that_notices_have_begun_and_no_others(tmp_path: Path) -> None:
     """A control that was killed cannot report their ends; a fault is known by the journal."""
     path = tmp_path / "run.journal"

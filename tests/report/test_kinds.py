@@ -8,6 +8,7 @@ from typing import get_args
 
 import pytest
 
+from rightofway.control.operator import OPERATIONS
 from rightofway.cyclic import RULES, TIMETABLE
 from rightofway.facts import Fact
 from rightofway.io import FOREIGN_FORMATS
@@ -69,6 +70,7 @@ FILLED = {
         "drive through",
     ),
     "rule {}": (*RULES, TIMETABLE),
+    "operation {}": tuple(OPERATIONS),
     "format {}": tuple(FOREIGN_FORMATS),
 }
 """Kinds that are made of a word, with all words."""

@@ -29,6 +29,9 @@ __all__ = ["JobCommands", "list_pooled_jobs"]
 MOMENTS = ("earliest", "latest", "due")
 DURATIONS = ("work", "pickup_work", "dropoff_work")
 
+STATES_OF_LEFT = {"done": "is done already", "withdrawn": "is withdrawn already"}
+"""Why a job that has left the pool cannot be changed; others have a reason not to be done."""
+
 
 class JobCommands:
     """The commands on the jobs of a pool; each returns its entries and a fact that answers it.
@@ -130,8 +133,10 @@ class JobCommands:
     def _find_open(self, name: str) -> PooledJob:
         pool = self._ledger.pool
         if name not in pool.jobs:
-            state = "is done already" if pool.left.get(name) == "done" else "is no job"
-            near = find_nearest(name, pool.jobs) if name not in pool.left else None
+            state = STATES_OF_LEFT.get(pool.left.get(name, ""), "is given up already")
+            near = None
+            if name not in pool.left:
+                state, near = "is no job", find_nearest(name, pool.jobs)
             remedy = f"did you mean {near}?" if near else "see rightofway jobs list"
             raise InputError.at("job", f"{quote(name)} {state} ({remedy})")
         if pool.jobs[name].is_begun:

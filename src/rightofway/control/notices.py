@@ -58,6 +58,10 @@ class _Told:
     listed: frozenset[str] = frozenset()
 
 
+PAUSE = "pause"
+"""The kind of trouble of a robot that is paused."""
+
+
 class Notices:
     """Notices of robots and of the control.
 
@@ -241,7 +245,7 @@ def _list_troubles(condition: Condition) -> Iterator[tuple[str, tuple[Fact, Fact
         begin = Fact("other mode", mode=escape_text(condition.mode[:40]))
         yield "mode", (begin, Fact("automatic mode"))
     if condition.is_paused:
-        yield "pause", (Fact("paused"), Fact("not paused"))
+        yield PAUSE, (Fact("paused"), Fact("not paused"))
     if condition.emergency_stop not in {"NONE", ""}:
         begin = Fact("emergency stop", stop=escape_text(condition.emergency_stop[:40]))
         yield "emergency stop", (begin, Fact("no emergency stop"))

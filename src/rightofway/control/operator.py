@@ -80,6 +80,7 @@ class Operator:
         self._ledger = dispatcher.ledger
         self._detours = Detours(self._scenario, self._ledger)
         self._number: int | None = None  # of the command under way, until it is committed
+        self._person = ""  # who has given it, if known
         self._jobs = None
         if dispatcher.rounds is not None:
             self._jobs = JobCommands(self._scenario, self._ledger)
@@ -119,7 +120,7 @@ class Operator:
                 raise
             except Exception as error:  # noqa: BLE001 (the guard: no command ends the control)
                 more, reply = self._fail(number, text, error)
-            self._number = None
+            self._number, self._person = None, ""
             answers.append((number, reply))
             messages += more
         return messages, answers
@@ -149,10 +150,11 @@ class Operator:
         if kind == "list":
             return [], {"done": True, "fact": None, "jobs": list_jobs(ledger)}
         if kind == "seen":
-            person = escape_text(name.strip()[:LONGEST_NAME])
+            person = _read_person(name)
             return self._note(fact=Fact("alarms seen", person=person)), {
                 "done": True, "fact": ledger.answer,
             }  # fmt: skip
+        self._person = _read_person(texts.get("person", ""))
         changes: dict[str, Callable[[], list[Message]]] = {
             "add": lambda: self.add_job(at or "", int(ticks or 0), robot, before)[1],
             "change": lambda: self.change_job(name, at, ticks),
@@ -223,9 +225,10 @@ class Operator:
             raise InputError.at("command", f"{quote(kind)} is no command (see rightofway jobs)")
         refuse_nameless({"kind": kind, "name": name})
         robots = range(len(ledger.names)) if name is None else [find_robot(ledger.names, name)]
-        fact = Fact("all operated", operation=kind)
+        operation = Fact(f"operation {kind}")
+        fact = Fact("all operated", operation=operation)
         if name is not None:
-            fact = Fact("operated", robot=name, operation=kind)
+            fact = Fact("operated", robot=name, operation=operation)
         entries: list[Entry] = [{**entry, "robot": robot} for robot in robots]
         entries += (pause for robot in robots for pause in self._list_pauses(kind, robot))
         messages = self._note(*entries, fact=fact)
@@ -529,5 +532,12 @@ class Operator:
         if self._number is None:
             return []
         number, self._number = self._number, None
+        if self._person:
+            fact = Fact("by person", change=fact, person=self._person)
         entry = {"kind": "command", "number": number, "answer": fact.as_dict(), "failed": failed}
         return [entry]
+
+
+def _read_person(name: str) -> str:
+    """Return the name of a person, as the log shows it."""
+    return escape_text(name.strip()[:LONGEST_NAME])

@@ -15,7 +15,7 @@ from rightofway.control.driven_ends import list_driven_jobs, list_driven_ways, m
 from rightofway.control.joins import grow_plan
 from rightofway.control.journal import Entry, JournalRow
 from rightofway.control.ledger import Ledger, refuse_entry
-from rightofway.control.notices import EVERY_KIND
+from rightofway.control.notices import EVERY_KIND, PAUSE
 from rightofway.control.robot_ledger import RobotLedger
 from rightofway.control.routes import RouteToDrive
 from rightofway.control.story import Story
@@ -318,8 +318,8 @@ class Recording:
         """Show a notice."""
         robot, about, fact = entry["robot"], entry["about"], entry["fact"]
         text = None if fact is None else self._write(fact)
+        is_alarm = about and not entry["over"] and not self._is_wanted(robot, about)
         if text is not None:
-            is_alarm = about and not entry["over"]
             self._rows.append((tick, robot, "says", "alarm" if is_alarm else "news", text, []))
             self._told[robot] = text
         if fact is not None and fact["kind"] == "alarms seen":
@@ -329,7 +329,14 @@ class Recording:
                 for kind in known.alarms.keys() - OF_LEDGER:
                     self._update_alarm(number, kind, None, tick)
         elif about:
-            self._update_alarm(robot, about, None if entry["over"] else text, tick)
+            self._update_alarm(robot, about, text if is_alarm else None, tick)
+
+    def _is_wanted(self, robot: int, about: str) -> bool:
+        """Return whether trouble of a robot is the pause that a person has asked for."""
+        if about != PAUSE or not 0 <= robot < len(self._ledger.robots):
+            return False
+        pause = self._ledger.robots[robot].pause
+        return pause is not None and pause.is_on
 
     def _list_shown(self) -> Iterable[tuple[int, _Shown]]:
         """Return the values that pages show: those about no robot, and those of each robot."""

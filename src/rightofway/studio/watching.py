@@ -163,7 +163,8 @@ class Watched:
         Parameters
         ----------
         order
-            Its ``kind``, the ``name`` of a robot or place, ``at`` or ``to`` another place.
+            Its ``kind``, the ``name`` of a robot or place, ``at`` or ``to`` another place, and the
+            ``person`` who gives it.
 
         Raises
         ------
@@ -181,7 +182,7 @@ class Watched:
             )
             raise InputError.at("kind", message)
         command: dict[str, Any] = {"kind": kind}
-        for key in ("name", "at", "to"):
+        for key in ("name", "at", "to", "person"):
             given = order.get(key)
             if given is not None and not isinstance(given, str):
                 raise InputError.at(key, f"{json.dumps(given)[:40]} is no name (give text)")

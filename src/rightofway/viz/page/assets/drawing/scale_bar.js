@@ -48,7 +48,7 @@ export function paintScaleBar(context, width, height, plan, { scale }, theme) {
   context.strokeStyle = theme.muted;
   context.lineWidth = 1.5;
   trace();
-  context.font = theme.font(12);
+  context.font = theme.font(12 * theme.zoom);
   context.textAlign = "right";
   context.textBaseline = "bottom";
   haloed(

@@ -22,6 +22,7 @@ export class Theme extends Observable {
   litEdge = "";
   zone = "";
   sans = "";
+  zoom = 1; // of names on a map
 
   /** @param {Root} [root] whose colours, those of the page by default */
   constructor(root = new Root(document.body)) {
@@ -42,6 +43,7 @@ export class Theme extends Observable {
     for (const [name, property] of THEME_COLOURS)
       this[name] = style.getPropertyValue(property).trim();
     this.sans = style.getPropertyValue("--sans");
+    this.zoom = Number(style.getPropertyValue("--map-zoom")) || 1;
   }
 
   /**

@@ -295,7 +295,8 @@ export interface PageTexts {
       holdUps: string;
       orders: string;
       holdAll: string;
-      seenName: string;
+      person: string;
+      personAtLength: string;
       seenAll: string;
       stopAll: string;
       goAll: string;
@@ -348,6 +349,8 @@ export interface PageTexts {
     goOne: Text<"name">;
     clearOne: Text<"name">;
     removeOne: Text<"name">;
+    lastOrder: Text<"order">;
+    seenBefore: Text<"person">;
     seenBy: Text<"person">;
     goAllAsked: string;
     clearAsked: Text<"name">;

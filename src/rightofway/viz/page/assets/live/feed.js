@@ -40,7 +40,7 @@ export function listenToFeed({ stream }, { take, connect }) {
  * Ask the control for something.
  *
  * @param {string} address
- * @param {{ kind: string, name?: string, at?: string }} order
+ * @param {{ kind: string, name?: string, at?: string, person?: string }} order
  * @returns {Promise<OrderAnswer>}
  */
 export async function sendOrder(address, order) {

@@ -11,6 +11,7 @@ import { TwoLineList, chooseAt } from "../lists/two_line_list.js";
 /** @import { DrivenFrame } from "../payload.d.ts" */
 /** @import { Plan } from "../plan/plan.js" */
 /** @import { Root } from "../common/root.js" */
+/** @import { Theme } from "../drawing/theme.js" */
 /** @import { TwoLines } from "../lists/two_line_list.js" */
 /** @import { Words } from "../language/words.js" */
 
@@ -18,6 +19,9 @@ const MOST_TOLD = 2000; // sentences in the log, the latest ones
 const NOT_MOVING = "still"; // the kind of alarm of a robot that may drive and does not move
 const MOST_HOLD_UPS = 5; // robots that hold up others, the worst ones
 const MOST_HELD_UP = 4; // robots that one holds up, by name
+const WALL_WIDTH = 1200; // pixels, of a screen on a wall whose type is not enlarged
+const LEAST_ZOOM = 1.2; // of large type
+const MAP_SHARE = 0.8; // of the enlargement, for names on the map
 const MARGIN = 1.25; // by how much the axis of time is longer than what has happened
 
 /** What a page has of a fleet that is driven beside its map and diagram: whether it is live, trouble, the log, orders. */
@@ -34,8 +38,9 @@ export class Live {
    * @param {Clock} clock
    * @param {Choice} choice
    * @param {Words} words
+   * @param {Theme} theme
    */
-  constructor(root, plan, driven, clock, choice, words) {
+  constructor(root, plan, driven, clock, choice, words, theme) {
     this.root = root;
     this.plan = plan;
     this.driven = driven;
@@ -60,8 +65,9 @@ export class Live {
     this.button.addEventListener("click", () => clock.follow());
     const wall = root.part("wall");
     wall.hidden = !this.feed.stream;
-    wall.addEventListener("click", () => setWall(wall, !isOnWall()));
-    setWall(wall, isOnWall() || new URLSearchParams(location.search).has("wall"));
+    wall.addEventListener("click", () => setWall(wall, !isOnWall(), theme));
+    root.listen(window, "resize", () => setWall(wall, isOnWall(), theme));
+    setWall(wall, isOnWall() || new URLSearchParams(location.search).has("wall"), theme);
     clock.on("playing", () => this.refresh());
     choice.on("choice", () => this.refresh());
     this.#lengthen();
@@ -318,10 +324,18 @@ function isOnWall() {
 }
 
 /**
+ * Large type grows with the screen, which people look at from farther away.
+ *
  * @param {HTMLElement} button
  * @param {boolean} isOn
+ * @param {Theme} theme
  */
-function setWall(button, isOn) {
-  document.documentElement.classList.toggle("wall", isOn);
+function setWall(button, isOn, theme) {
+  const { classList, style } = document.documentElement;
+  classList.toggle("wall", isOn);
+  const zoom = Math.max(innerWidth / WALL_WIDTH, LEAST_ZOOM);
+  style.setProperty("--zoom", String(zoom));
+  style.setProperty("--map-zoom", String(isOn ? zoom * MAP_SHARE : 1));
   button.setAttribute("aria-pressed", String(isOn));
+  theme.refresh();
 }

@@ -11,11 +11,8 @@ export const LIVE_MARKUP = {
   aside: `  <p id="lost" class="lost" role="alert" data-text="lost" hidden></p>
   <section id="alarms" class="alarms" aria-live="polite" aria-labelledby="alarm-title" hidden>
     <h2 id="alarm-title" data-text="alarms"></h2>
+    <form id="seen-form" class="seen" hidden><button type="submit" class="quiet" data-text="seenAll"></button></form>
     <ul id="alarm-list"></ul>
-    <form id="seen-form" class="seen" hidden>
-      <label><span data-text="seenName"></span> <input id="seen-name" maxlength="40" autocomplete="name"></label>
-      <button type="submit" class="quiet" data-text="seenAll"></button>
-    </form>
   </section>
   <section id="hold-ups" class="alarms calm" aria-labelledby="hold-up-title" hidden>
     <h2 id="hold-up-title" data-text="holdUps"></h2>
@@ -29,7 +26,9 @@ export const LIVE_MARKUP = {
     <button type="button" id="clear-one" class="quiet" data-text="clearOne" hidden></button>
     <button type="button" id="remove-one" class="quiet" data-text="removeOne" hidden></button>
     <button type="button" id="place-one" class="quiet" data-text="placeOne" hidden></button>
+    <label class="person" data-title="personAtLength"><span data-text="person"></span> <input type="text" id="person" form="seen-form" maxlength="40" autocomplete="name" required></label>
     <output id="order-answer"></output>
+    <p id="last-order" class="last-order" role="status" hidden></p>
   </div>
 `,
   tab: `

@@ -5,6 +5,9 @@ import { said, texts } from "../language/language.js";
 /** @import { Driven } from "./driven.js" */
 /** @import { Root } from "../common/root.js" */
 
+const ORDERS = new Set(["by person", "operated", "all operated"]); // kinds of sentences on orders
+const PERSON = "rightofway person"; // where a browser keeps the name
+
 /** What a person asks the control for: hold one robot or all, let them go, say where one is that was in trouble. */
 export class Orders {
   /**
@@ -29,10 +32,13 @@ export class Orders {
     const { driven: own } = texts;
     root.part("hold-all").addEventListener("click", () => this.#send("hold")); // safe: not asked first
     this.seen = root.part("seen-form", HTMLFormElement);
-    const person = root.part("seen-name", HTMLInputElement);
+    this.person = root.part("person", HTMLInputElement);
+    this.person.value = recall();
+    this.person.addEventListener("change", () => remember(this.#who));
+    this.last = root.part("last-order");
     this.seen.addEventListener("submit", (event) => {
       event.preventDefault();
-      if (person.value.trim()) this.#send("seen", person.value.trim());
+      this.#send("seen", this.#who);
     });
     root.part("stop-all").addEventListener("click", () => this.#send("stop"));
     root.part("go-all").addEventListener("click", () => this.#confirm(own.goAllAsked, "go"));
@@ -50,6 +56,12 @@ export class Orders {
   }
 
   #asked = () => {};
+  #isSeen = false; // whether the last order was to mark alarms as seen
+
+  /** Who gives orders here; empty where that is not known. */
+  get #who() {
+    return this.person.value.trim();
+  }
 
   get #name() {
     return this.choice.robot?.name ?? "";
@@ -69,14 +81,15 @@ export class Orders {
   refresh(tick, isConnected) {
     const { robot } = this.choice;
     this.box.hidden = !(this.address && this.driven.runs);
-    this.seen.hidden = this.box.hidden || !isConnected;
+    const alarms = this.driven.alarmsAt(Infinity);
+    this.seen.hidden = this.box.hidden || !isConnected || alarms.every((alarm) => alarm.person);
+    this.#showLast();
+    this.#showWhoHasSeen(alarms);
     for (const button of this.box.querySelectorAll("button")) button.disabled = !isConnected;
     this.one.hidden = !robot;
     const isFaulty =
       robot !== null &&
-      this.driven
-        .alarmsAt(Infinity)
-        .some((alarm) => alarm.robot === robot.index && alarm.kind === "fault");
+      alarms.some((alarm) => alarm.robot === robot.index && alarm.kind === "fault");
     this.clear.hidden = this.remove.hidden = !isFaulty;
     this.place.hidden = robot === null || !this.driven.isOff(robot.index, Infinity);
     if (!robot) return;
@@ -88,6 +101,27 @@ export class Orders {
     this.#write(this.clear, own.clearOne({ name: robot.name }));
     this.#write(this.remove, own.removeOne({ name: robot.name }));
     this.#write(this.place, own.placeOne({ name: robot.name }));
+  }
+
+  /** The last order of a person, on whichever screen. */
+  #showLast() {
+    const { story } = this.driven;
+    const told = story.findLast(({ kind, text }) => kind === "news" && ORDERS.has(text[0]));
+    this.last.hidden = !told;
+    if (told) this.#write(this.last, texts.driven.lastOrder({ order: said(told.text) }));
+  }
+
+  /**
+   * Name who was first where two people have marked the same alarms as seen.
+   *
+   * @param {import("./driven.js").Alarm[]} alarms
+   */
+  #showWhoHasSeen(alarms) {
+    const others = alarms.filter(({ person }) => person);
+    if (!this.#isSeen || !others.length || others.some(({ person }) => person === this.#who))
+      return;
+    const { person = "" } = others[0];
+    this.#write(this.answer, texts.driven.seenBefore({ person }));
   }
 
   /**
@@ -119,10 +153,34 @@ export class Orders {
    * @param {string} [at]
    */
   async #send(kind, name, at) {
+    this.#isSeen = kind === "seen";
     this.answer.textContent = texts.driven.asked;
-    const { done, text } = await sendOrder(this.address, { kind, name, at });
+    const { done, text } = await sendOrder(this.address, {
+      kind,
+      name,
+      at,
+      person: this.#who || undefined,
+    });
     const { driven: own } = texts;
     const reason = text ? said(text) : own.disconnected;
     this.answer.textContent = done ? own.carriedOut : own.refused({ reason });
+  }
+}
+
+/** The name that was entered in this browser. */
+function recall() {
+  try {
+    return localStorage.getItem(PERSON) ?? "";
+  } catch {
+    return ""; // the browser keeps nothing
+  }
+}
+
+/** @param {string} person */
+function remember(person) {
+  try {
+    localStorage.setItem(PERSON, person);
+  } catch {
+    // it is entered anew after the next start
   }
 }

@@ -26,7 +26,8 @@ export class Punctuality {
     this.driven = driven;
     this.words = words;
     this.sums = root.part("ends-sums");
-    this.count = root.all("#" + root.part("tab-ends").id + " b", HTMLElement)[0];
+    this.tab = root.part("tab-ends");
+    this.count = root.all(`#${this.tab.id} b`, HTMLElement)[0];
     this.robots = root.part("ends-by-robot");
     this.find = root.part("find-end", HTMLInputElement);
     this.list = new VirtualList(root.part("end-list"), {
@@ -54,6 +55,7 @@ export class Punctuality {
   /** Write again what was measured. */
   show() {
     const { ends } = this.driven;
+    this.tab.hidden = !ends; // a page may be older than the drive
     if (!ends) return;
     this.count.textContent = String(this.lateCount);
     this.robots.hidden = !ends.hasJobs;

@@ -123,7 +123,7 @@ export class MapNames {
 
   /** @param {number} radius */
   #insideFont(radius) {
-    return this.theme.font(Math.min(Math.round(radius * 0.78), 20), 600);
+    return this.theme.font(Math.min(Math.round(radius * 0.78), 20 * this.theme.zoom), 600);
   }
 
   /**
@@ -176,7 +176,8 @@ export class MapNames {
    */
   #beside(context, index, radius, isCrowd) {
     const name = cut(this.plan.robots[index].name);
-    const font = this.theme.font(ROBOT_TYPE, 600);
+    const type = ROBOT_TYPE * this.theme.zoom;
+    const font = this.theme.font(type, 600);
     const width = this.#widths.of(context, name, font);
     const [x, y] = this.#at(index);
     const away = Math.max(
@@ -189,7 +190,7 @@ export class MapNames {
     let box = null;
     for (let step = 0; step < SIDES.length; step++) {
       const side = (this.#sides[index] + step) % SIDES.length;
-      const there = boxBeside(x, y, away, width, ROBOT_TYPE + 2, SIDES[side]);
+      const there = boxBeside(x, y, away, width, type + 2, SIDES[side]);
       if (!this.#robots.isFree(...there)) continue;
       const covered =
         (this.places.names.isFree(...there) ? 0 : 3) +
@@ -202,10 +203,7 @@ export class MapNames {
     }
     if (!box && !this.#isChosen(index)) return;
     if (box) this.#sides[index] = best;
-    else
-      box = this.#overOthers(
-        SIDES.map((side) => boxBeside(x, y, away, width, ROBOT_TYPE + 2, side)),
-      );
+    else box = this.#overOthers(SIDES.map((side) => boxBeside(x, y, away, width, type + 2, side)));
     this.#robots.take(...box);
     context.font = font;
     context.globalAlpha = this.choice.standsOut(index) ? 1 : 0.6;

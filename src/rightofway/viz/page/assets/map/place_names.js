@@ -61,6 +61,11 @@ export class PlaceNames {
     this.#marksOf = new FleetMemo(plan, () => usedPlaces(this.plan));
   }
 
+  /** The size of names [pixels]. */
+  get #type() {
+    return PLACE_TYPE * this.theme.zoom;
+  }
+
   refresh() {
     this.#spots = null;
   }
@@ -127,7 +132,7 @@ export class PlaceNames {
       ? inSight.filter((it) => marks.has(it) || this.choice.lit.includes(it))
       : inSight) {
       const mark = marks.get(vertex);
-      const font = this.theme.font(PLACE_TYPE, mark ? 600 : 400);
+      const font = this.theme.font(this.#type, mark ? 600 : 400);
       const isNamed = mark || this.choice.lit.includes(vertex);
       const laneName = isNamed ? undefined : roadmap.laneNames.get(vertex);
       if (laneName === "") continue; // a split lane has one name
@@ -151,7 +156,7 @@ export class PlaceNames {
    * @param {Spot[]} spots
    */
   #nameZones(context, spots) {
-    const font = this.theme.font(PLACE_TYPE, 600);
+    const font = this.theme.font(this.#type, 600);
     for (const { name: whole, vertices, edges } of this.plan.roadmap.zones) {
       const name = cut(whole);
       const wide = this.#widths.of(context, name, font);
@@ -159,7 +164,7 @@ export class PlaceNames {
       const boxes = [...anchors].slice(0, MOST_ANCHORS).flatMap((vertex) => {
         const [x, y] = this.#pointOf(vertex);
         return SIDES.map((side) =>
-          boxBeside(x, y, this.sizes.zone / 2, wide, PLACE_TYPE + 2, side),
+          boxBeside(x, y, this.sizes.zone / 2, wide, this.#type + 2, side),
         );
       });
       const free = boxes.filter((box) => this.names.isFree(...box) && this.marks.isFree(...box));
@@ -211,12 +216,12 @@ export class PlaceNames {
    */
   #nameObstacles(context, spots) {
     const { left, top, scale } = this.viewport;
-    const font = this.theme.font(PLACE_TYPE);
+    const font = this.theme.font(this.#type);
     for (const it of this.plan.roadmap.obstacles) {
       const name = cut(it.name);
       const wide = this.#widths.of(context, name, font) / 2;
       const isUpright = 2 * wide > it.width * scale && it.height > it.width;
-      const [across, down] = isUpright ? [PLACE_TYPE / 2 + 1, wide] : [wide, PLACE_TYPE / 2 + 1];
+      const [across, down] = isUpright ? [this.#type / 2 + 1, wide] : [wide, this.#type / 2 + 1];
       if (2 * across > it.width * scale || 2 * down > it.height * scale) continue;
       const x = left + (it.left + it.width / 2) * scale;
       /** @type {Box[]} */
@@ -345,7 +350,7 @@ export class PlaceNames {
    */
   #spot(vertex, wide, mark) {
     const [x, y] = this.#pointOf(vertex);
-    const high = PLACE_TYPE + 2;
+    const high = this.#type + 2;
     const { scale } = this.viewport;
     const { hasCells } = this.plan.roadmap;
     const mayCover = hasCells || (mark && (mark.robots.length > 0 || scale >= NAMED_CELL));

@@ -94,7 +94,8 @@ export function createPlayer(element, payload, watching = null, working = null) 
   const states = new States(root, motion, choice, Boolean(plan.shift));
   const comparison =
     plan.comparison && new Comparison(root, plan, clock, choice, theme, mapView, diagram);
-  const live = watching && driven && new watching.Live(root, plan, driven, clock, choice, words);
+  const live =
+    watching && driven && new watching.Live(root, plan, driven, clock, choice, words, theme);
   const jobCards = jobs && new jobs.JobCards(plan, clock, choice, words);
   const { space } = mapView;
   const card = new Card(root, plan, clock, choice, words, comparison, space, live, jobCards); // before the lists, whose height depends on it
