@@ -21,7 +21,9 @@ constexpr std::int32_t most_shared = 16;
 // The cost of passing a robot at the end of its trip: that robot has to make room and return.
 constexpr std::int32_t cost_ended = 320;
 // Greater than cost_of_edge, so the estimate is greedy: fewer vertices opened, paths hardly worse.
-constexpr std::int32_t estimate_per_step = 24;
+constexpr std::int32_t estimate_per_step = 20;
+// The cost of a vertex whose edges have been followed: none is less, so it is not opened again.
+constexpr std::int32_t closed = -1;
 // The width of a list: its estimates differ by less.
 constexpr std::int32_t list_width = 4;
 
@@ -33,6 +35,11 @@ static_assert(most_opened * (cost_of_edge + most_against + most_shared + cost_en
               std::numeric_limits<std::int32_t>::max());
 constexpr std::int64_t least_for_a_leg = 500;
 constexpr std::int64_t legs_between_questions = 32;
+static_assert(most_opened / least_for_a_leg < std::numeric_limits<std::uint16_t>::max());
+
+void raise(std::uint8_t& cost, std::int32_t by, std::int32_t most) {
+    cost = static_cast<std::uint8_t>(std::min(cost + by, most));
+}
 
 }  // namespace
 
@@ -41,8 +48,8 @@ SpaceUtilization::SpaceUtilization(const Problem& problem, StepTables& tables)
       tables_(tables),
       first_hop_(problem.n_stages(), 0),
       end_hop_(problem.n_stages(), 0),
-      best_(static_cast<std::size_t>(problem.graph().n_vertices()), {0, 0, none, 0}),
-      clock_(best_.size(), {0, never}) {}
+      best_(static_cast<std::size_t>(problem.graph().n_vertices()), {0, 0, 0}),
+      way_(best_.size(), {0, never, none}) {}
 
 // The vertex of each last stage and the enter of its robot without waits.
 void SpaceUtilization::find_ends() {
@@ -53,7 +60,7 @@ void SpaceUtilization::find_ends() {
             const VertexId target = problem_.stage_vertex(s);
             when += problem_.quickest_edge(r) * tables_.steps(tables_.table_of(target), place);
             if (problem_.is_last(r, s)) {
-                clock_[index(target)].ended_from = when;
+                way_[index(target)].ended_from = when;
             }
             when += problem_.stage_dwell(s);
             place = target;
@@ -68,10 +75,7 @@ bool SpaceUtilization::choose(const StopCondition& is_over) {
     }
     tail_ = list_tails(problem_.graph());
     opposite_ = find_opposite_edges(problem_.graph());
-    arcs_.clear();
-    for (const VertexId head : problem_.graph().indices) {
-        arcs_.push_back({head, cost_of_edge});
-    }
+    cost_of_.assign(problem_.graph().indices.size(), cost_of_edge);
     find_ends();
     Poll poll(is_over);
     std::int64_t n_chosen = 0;
@@ -109,14 +113,14 @@ Tick SpaceUtilization::choose_leg(const Leg& leg, Tick when, Poll& poll) {
     }
     if (search(leg, when, poll)) {
         keep(leg);
-        return clock_[index(target)].when;
+        return way_[index(target)].when;
     }
     return when +
            problem_.quickest_edge(leg.robot) * tables_.steps(tables_.table_of(target), leg.start);
 }
 
 bool SpaceUtilization::search(const Leg& leg, Tick when, Poll& poll) {
-    const std::span<const EdgeId> indptr = problem_.graph().indptr;
+    const auto [indptr, heads] = problem_.graph();
     const VertexId target = problem_.stage_vertex(leg.stage);
     const StepTables::TableId table = tables_.table_of(target);
     ++round_;
@@ -125,7 +129,7 @@ bool SpaceUtilization::search(const Leg& leg, Tick when, Poll& poll) {
     least_ = cost_of_edge * tables_.steps(table, leg.start);
     list_ = first_open_.size();
     open(leg.start, 0, none, table);
-    clock_[index(leg.start)].when = when;
+    way_[index(leg.start)].when = when;
     for (Open top{}; credit_ > 0 && take_next(top); --credit_) {
         if (poll()) {
             is_stopped_ = true;
@@ -134,22 +138,22 @@ bool SpaceUtilization::search(const Leg& leg, Tick when, Poll& poll) {
         if (top.vertex == target) {
             return true;
         }
-        const std::int32_t cost_here = best_[index(top.vertex)].cost;
-        if (top.cost > cost_here) {
-            continue;  // outdated: the vertex has a cheaper path
+        if (best_[index(top.vertex)].cost < top.cost) {
+            continue;  // outdated: the vertex has a cheaper path, or is closed
         }
-        const Tick now = clock_[index(top.vertex)].when;
+        best_[index(top.vertex)].cost = closed;
+        const Tick now = way_[index(top.vertex)].when;
         for (EdgeId e = indptr[index(top.vertex)]; e < indptr[index(top.vertex + 1)]; ++e) {
-            const Arc arc = arcs_[index(e)];
-            const Best& known = best_[index(arc.head)];
-            const std::int32_t cost = cost_here + arc.cost + known.shared;
+            const VertexId head = heads[index(e)];
+            const Best& known = best_[index(head)];
+            const std::int32_t cost = top.cost + cost_of_[index(e)] + known.shared;
             if (known.round == round_ && known.cost <= cost) {
                 continue;  // most heads: the way back, or a way round
             }
             const Tick then = now + problem_.drive(leg.robot, e);
-            const bool has_ended = arc.head != target && clock_[index(arc.head)].ended_from <= then;
-            if (open(arc.head, cost + (has_ended ? cost_ended : 0), e, table)) {
-                clock_[index(arc.head)].when = then;
+            const bool has_ended = head != target && way_[index(head)].ended_from <= then;
+            if (open(head, cost + (has_ended ? cost_ended : 0), e, table)) {
+                way_[index(head)].when = then;
             }
         }
     }
@@ -169,7 +173,7 @@ bool SpaceUtilization::open(VertexId vertex, std::int32_t cost, EdgeId by,
     }
     best.cost = cost;
     best.round = round_;
-    best.by = by;
+    way_[index(vertex)].by = by;
     const auto list = index((cost + estimate_per_step * steps - least_) / list_width);
     if (list >= first_open_.size()) {
         first_open_.resize(list + 1, none);
@@ -197,11 +201,10 @@ bool SpaceUtilization::take_next(Open& next) {
 void SpaceUtilization::keep(const Leg& leg) {
     const auto first = static_cast<std::ptrdiff_t>(hops_.size());
     for (VertexId at = problem_.stage_vertex(leg.stage); at != leg.start;) {
-        const EdgeId edge = best_[index(at)].by;
-        best_[index(at)].shared = std::min(best_[index(at)].shared + cost_shared, most_shared);
+        const EdgeId edge = way_[index(at)].by;
+        raise(best_[index(at)].shared, cost_shared, most_shared);
         if (const EdgeId opposite = opposite_[index(edge)]; opposite != none) {
-            std::int32_t& cost = arcs_[index(opposite)].cost;
-            cost = std::min(cost + cost_against, cost_of_edge + most_against);
+            raise(cost_of_[index(opposite)], cost_against, cost_of_edge + most_against);
         }
         hops_.push_back({tail_[index(edge)], at});
         at = tail_[index(edge)];

@@ -44,10 +44,6 @@ class SpaceUtilization {
         VertexId from;
         VertexId to;
     };
-    struct Arc {
-        VertexId head;
-        std::int32_t cost;  // of an edge, and against earlier paths
-    };
     struct Open {
         std::int32_t cost;  // of the path from the start
         VertexId vertex;
@@ -56,13 +52,13 @@ class SpaceUtilization {
     // A vertex: the cheapest path to it in the search number `round`.
     struct Best {
         std::int32_t cost;
-        std::int32_t round;
-        EdgeId by;
-        std::int32_t shared;  // what earlier paths add to the cost of each edge to the vertex
+        std::uint16_t round;  // no more legs than that get paths
+        std::uint8_t shared;  // what earlier paths add to the cost of each edge to the vertex
     };
-    struct Clock {
+    struct Way {
         Tick when;        // enter of the robot on the cheapest path, without waits
         Tick ended_from;  // earliest end of a trip at the vertex
+        EdgeId by;        // last edge of the path
     };
 
     void find_ends();
@@ -76,15 +72,15 @@ class SpaceUtilization {
     StepTables& tables_;
     std::vector<VertexId> tail_;          // of each edge
     std::vector<EdgeId> opposite_;        // of each edge, -1 if the edge is one-way
-    std::vector<Arc> arcs_;               // of each edge
+    std::vector<std::uint8_t> cost_of_;   // of each edge, with the cost against earlier paths
     std::vector<Hop> hops_;               // of all paths; within a path by `from`
     std::vector<std::size_t> first_hop_;  // of each stage
     std::vector<std::size_t> end_hop_;
     bool is_stopped_ = false;
     std::int64_t credit_ = 0;  // number of vertices that may still be opened
-    std::int32_t round_ = 0;
-    std::vector<Best> best_;    // of each vertex
-    std::vector<Clock> clock_;  // of each vertex
+    std::uint16_t round_ = 0;
+    std::vector<Best> best_;  // of each vertex; small, because each step of the search reads some
+    std::vector<Way> way_;    // of each vertex
     // Open vertices in lists by estimate (buckets); the first list has the least estimate.
     std::vector<Open> open_;
     std::vector<std::int32_t> first_open_;  // of each list
