@@ -6,7 +6,7 @@ namespace rightofway {
 namespace {
 
 constexpr double memory = 0.97;    // of a record, from use to use
-constexpr double curiosity = 0.3;  // the share of draws that is even
+constexpr double curiosity = 0.3;  // the share of effort that is even
 
 constexpr double memory_of_groups = 0.99;
 constexpr double least_of_group = 0.1;  // of the effort of a group
@@ -31,25 +31,36 @@ void AdaptiveChoice::learn(std::size_t option, double gain, double effort) {
     Record& record = records_[option];
     record.gain = memory * record.gain + gain;
     record.effort = memory * record.effort + effort;
+    record.n_uses = memory * record.n_uses + 1;
 }
 
 void AdaptiveChoice::settle() {
     const auto n = static_cast<double>(records_.size());
     double total_gain = 0;
     double total_effort = 1;
+    double total_uses = 1;
     for (const Record& record : records_) {
         total_gain += record.gain;
         total_effort += record.effort;
+        total_uses += record.n_uses;
     }
+    // All options begin with a tenth of an average record: each is like the average at first.
     const double prior = total_effort / n * 0.1 + 1;
+    const double prior_gain = prior * (total_gain + 1e-9) / total_effort;
+    const double prior_uses = prior * total_uses / total_effort;
     double sum = 0;
     for (std::size_t k = 0; k < records_.size(); ++k) {
-        weights_[k] = (records_[k].gain + prior * (total_gain + 1e-9) / total_effort) /
-                      (records_[k].effort + prior);
+        weights_[k] = (records_[k].gain + prior_gain) / (records_[k].effort + prior);
         sum += weights_[k];
     }
+    double draws = 0;
+    for (std::size_t k = 0; k < records_.size(); ++k) {
+        const double share = (1 - curiosity) * weights_[k] / sum + curiosity / n;
+        weights_[k] = share * (records_[k].n_uses + prior_uses) / (records_[k].effort + prior);
+        draws += weights_[k];
+    }
     for (double& weight : weights_) {
-        weight = (1 - curiosity) * weight / sum + curiosity / n;
+        weight /= draws;
     }
 }
 

@@ -1,5 +1,6 @@
-// Adaptive weights of ALNS: a neighbourhood is drawn with a probability that grows with its recent
-// gain for the effort.
+// Adaptive weights of ALNS: a neighbourhood gets a share of the effort that grows with its recent
+// gain for the effort. Large neighbourhoods need several times the effort of small ones: shares of
+// the draws would spend most of it on them.
 //
 // Ropke & Pisinger, "An adaptive large neighborhood search heuristic for the pickup and delivery
 // problem with time windows", Transportation Science 2006 (weights).
@@ -27,6 +28,7 @@ class AdaptiveChoice {
     struct Record {
         double gain = 0;
         double effort = 0;
+        double n_uses = 0;
     };
 
     std::vector<Record> records_;

@@ -54,7 +54,7 @@ class Lns {
     std::int64_t n_expanded() const;
 
   private:
-    static constexpr std::array<std::size_t, 3> sizes{4, 8, 16};
+    static constexpr std::array<std::size_t, 4> sizes{2, 4, 8, 16};
 
     struct Task {
         std::vector<RobotId> robots;

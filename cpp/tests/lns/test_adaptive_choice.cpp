@@ -30,15 +30,29 @@ TEST_CASE("before anything is known, all options are drawn alike") {
 TEST_CASE("an option is drawn by what it brings for its effort, and none is forgotten") {
     AdaptiveChoice choice(3);
     for (int k = 0; k < 50; ++k) {
-        choice.learn(0, 10, 1000);
+        choice.learn(0, 3, 100);
         choice.learn(1, 10, 100);
         choice.learn(2, 0, 100);
     }
     choice.settle();
     const auto counts = drawn(choice);
     CHECK(counts[1] > 2 * counts[0]);
-    CHECK(counts[0] > counts[2]);
-    CHECK(counts[2] > 200);
+    CHECK(counts[0] > 2 * counts[2]);
+    CHECK(counts[2] > 50);
+}
+
+TEST_CASE("options that bring alike for their effort share the effort, not the draws") {
+    AdaptiveChoice choice(3);
+    for (int k = 0; k < 50; ++k) {
+        choice.learn(0, 10, 100);
+        choice.learn(1, 100, 1000);
+        choice.learn(2, 100, 1000);
+    }
+    choice.settle();
+    const auto counts = drawn(choice);
+    CHECK(counts[0] > 3 * counts[1]);
+    CHECK(counts[0] > 3 * counts[2]);
+    CHECK(counts[1] > 100);
 }
 
 TEST_CASE("what an option brought long ago counts for little") {
