@@ -250,9 +250,8 @@ def compute_drives_along(
     if len(edges) and edges.min() < 0:
         gap = int(np.argmin(edges))
         raise KeyError((vertices[gap], vertices[gap + 1]))
-    by_class = np.array(itinerary.edge_ticks, np.int64)
-    ticks: list[int] = by_class[roadmap.class_of_edge[edges]].tolist()
-    return ticks
+    # A map may have a million classes, and a path has few edges.
+    return [itinerary.edge_ticks[kind] for kind in roadmap.class_of_edge[edges].tolist()]
 
 
 def compute_turns_along(
