@@ -116,9 +116,9 @@ def test_garbage_is_collected_after_a_file_as_before_also_a_wrong_one(
     """No collection begins while a layout is read; a fault leaves no pause behind."""
     seen = list[bool]()
 
-    def parse(text: str) -> Element:
+    def parse(text: str, run_of: str) -> Element:
         seen.append(gc.isenabled())
-        return parse_xml(text)
+        return parse_xml(text, run_of)
 
     monkeypatch.setattr("rightofway.io.layouts.formats.parse_xml", parse)
     (tmp_path / "wrong.graphml").write_text("<graphml><graph><node/></graph></graphml>")
