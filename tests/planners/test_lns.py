@@ -13,7 +13,7 @@ from rightofway.errors import GaveUp
 from rightofway.facts import Fact
 from rightofway.metrics import measure
 from rightofway.model import Plan, PlannerRun, Rules, Scenario, Status, Track, compute_cost
-from rightofway.planners import Deadline, PlanRequest, PrioritizedOptions
+from rightofway.planners import Deadline, PlanRequest, PrioritizedOptions, rivals
 from rightofway.planners.lacam import plan_fleet
 from rightofway.planners.lns import lns
 from rightofway.planners.prioritized import prioritized
@@ -31,6 +31,18 @@ def test_a_given_plan_is_where_it_starts_and_what_comes_out_is_no_worse() -> Non
     assert rightofway.check(better).ok
     assert measure(better).flowtime < measure(given).flowtime
     assert draft.status == Status("improved", neighbourhoods=40, status=Status("given"))
+
+
+def test_time_that_ends_while_a_rival_is_prepared_leaves_the_first_plan(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def run_out_of_time(_: Scenario) -> Scenario:
+        raise GaveUp(Fact("time over", doing=Fact("planning in turn")))
+
+    monkeypatch.setattr(rivals, "make_paced", run_out_of_time)
+    monkeypatch.setattr(FleetSearch, "compete", lambda *_, **__: False)
+    plan = rightofway.solve(CROWDED, "lns", time_limit=60)
+    assert rightofway.check(plan).faults == ()
 
 
 def test_more_iterations_are_never_worse() -> None:

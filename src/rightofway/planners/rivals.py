@@ -14,8 +14,9 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
+from rightofway.errors import GaveUp
 from rightofway.model import Scenario, Status
 from rightofway.planners.prioritized import (
     MOST_ROBOTS,
@@ -98,13 +99,14 @@ class Rival:
     def _plan_at_one_pace(self) -> bool:
         """Plan one robot after another at one pace, once; return whether there is such a plan."""
         if self._paced is None and len(self._order) <= MOST_ROBOTS:
-            problem = make_paced(self._request.scenario).problem
-            paced = FleetSearch(problem, seed=self._request.seed)
-            left = self._request.deadline.shorten(SHARE_AT_ONE_PACE).measure_seconds_left()
-            searches = SEARCHES_AT_ONE_PACE * len(self._order)
-            if paced.prioritize(self._order, searches=searches, time_limit=left):
-                self._paced = paced
-                self._take_order(paced)
+            with suppress(GaveUp):  # the time ended meanwhile: the plan of the search stays
+                problem = make_paced(self._request.scenario).problem
+                paced = FleetSearch(problem, seed=self._request.seed)
+                left = self._request.deadline.shorten(SHARE_AT_ONE_PACE).measure_seconds_left()
+                searches = SEARCHES_AT_ONE_PACE * len(self._order)
+                if paced.prioritize(self._order, searches=searches, time_limit=left):
+                    self._paced = paced
+                    self._take_order(paced)
         return self._paced is not None
 
     def _improve_at_one_pace(self) -> None:
