@@ -202,6 +202,7 @@ OF_THE_PACKAGE = {
     "Fact.detach",
     "InputError.at",
     "Objective.compute_values",
+    "Roadmap.get_original",
     "Roadmap.list_copies",
     "Roadmap.list_place",
     "Roadmap.list_whole_edges",

@@ -261,7 +261,7 @@ def test_others_go_round_a_robot_on_hold_as_at_a_broker(moment: str, tmp_path: P
     plan = rightofway.solve(parse_scenario(STILL), "prioritized")
     result = drive_demo(plan, journal=path, report=note, wait_until=wait_until)
     assert result.jobs == (1, 1)
-    assert lines.index("E is at the end of its way, HE") < lines.index("C: go")
+    assert lines.index("E is at the end of its way, HE") < lines.index("C: released")
     people.close()
 
 

@@ -196,7 +196,7 @@ def test_the_checklist_is_followed_word_for_word(tmp_path: Path, broker: Mosquit
             for line in (go_one, hold, go):
                 assert follow(tmp_path, line).returncode == 0
             wait_for(lambda: "A2 sets out from Park" in driving.log, 60, "the first drive")
-            assert "A1 sets out" not in driving.log.partition("A2: go")[0]
+            assert "A1 sets out" not in driving.log.partition("A2: released")[0]
 
 
 @pytest.mark.parametrize(
