@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import lru_cache
 from itertools import accumulate, pairwise
 
 import numpy as np
@@ -59,6 +60,7 @@ class WholeLanes:
         return Track.of(vertices, enter)
 
 
+@lru_cache(maxsize=1)  # for several attempts to plan one problem
 def join_pieces(problem: Problem) -> WholeLanes | None:
     """Return a problem with an edge in the place of the pieces of each lane.
 
@@ -90,16 +92,17 @@ def join_pieces(problem: Problem) -> WholeLanes | None:
             whole.append((tail, ends[1], classes.setdefault(parts, len(classes))))
     roads = _make_roadmap(roadmap, whole, list(classes), pieces)
     sizes = problem.resources.sizes
+    given = {ticks for own in problem.itineraries for ticks in (own.edge_ticks, own.surcharges)}
+    # Robots of one kind share one tuple, which is as long as all lanes where lengths differ.
+    sums = {ticks: tuple(_add_up(ticks, parts) for parts in classes) for ticks in given if ticks}
     itineraries = (
         replace(
-            robot,
-            edge_ticks=tuple(_add_up(robot.edge_ticks, parts) for parts in classes),
-            surcharges=tuple(_add_up(robot.surcharges, parts) for parts in classes)
-            if robot.surcharges
-            else (),
+            own,
+            edge_ticks=sums.get(own.edge_ticks, ()),
+            surcharges=sums.get(own.surcharges, ()),
             turning=None,
         )
-        for robot in problem.itineraries
+        for own in problem.itineraries
     )
     return WholeLanes(
         problem=replace(
