@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 
+from tests.builders import strict_robots
 from tests.builders.brokers import MOSQUITTO, Command, Mosquitto, WarmCommand, wait_for
 from tests.builders.strict_robots import AgvMap, StrictAgv
 
@@ -313,9 +314,13 @@ def test_a_strict_agv_refuses_nothing(site: Site, tmp_path: Path, broker: Mosqui
 
 @pytest.mark.parametrize("version", ["2.0.0", "2.1.0", "3.0.0"])
 def test_a_strict_agv_joins_a_control_that_is_killed(
-    version: str, tmp_path: Path, broker: Mosquitto
+    version: str, tmp_path: Path, broker: Mosquitto, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """It is killed before it reads the command, directly after it, and after the AGV has joined."""
+    """It is killed before it reads the command, directly after it, and after the AGV has joined.
+
+    The others drive so slowly that they are on their way until then: a drive ends with them.
+    """
+    monkeypatch.setattr(strict_robots, "PAUSE", 0.2)
     site = SITES["lif"]
     hall = Hall(replace(site, identities={**site.identities, "version": version}), tmp_path, broker)
     ways = ("--from", "Regal 7/3", "--to", "Übergabe (A)")
