@@ -57,7 +57,7 @@ def draw_work_document(
         "format": "rightofway-scenario/1",
         "map": {"grid": grid},
         "robots": robots,
-        **({"batteries": {"tank": TANK}} if has_batteries else {}),
+        **({"batteries": {"tank": {**TANK}}} if has_batteries else {}),
         "jobs": jobs,
         "rules": {"turn": 0, "occupancy": draw.choice(["one", "both"])},
     }
