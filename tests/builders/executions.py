@@ -30,8 +30,8 @@ __all__ = [
 ]
 
 ONE_CHAIN = frozenset({"closures", "forbidden turns", "passed", "sizes", "spacing", "zones"})
-"""What the oracle of robots that look does not know: its order is one chain of visits a vertex, and
-it has no places of several vertices."""
+"""Features unknown to the oracle of robots that look: its order is one chain of visits for each
+vertex, and it has no places of several vertices."""
 
 RANDOM = (
     (),

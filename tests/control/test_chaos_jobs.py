@@ -30,7 +30,7 @@ def test_each_stop_is_done_once_and_a_job_that_nobody_does_has_a_reason(kind: st
         ("floor, all", 0),  # a kept part led into what is closed for good
         ("floor, all", 15),  # a robot was placed while another one was in a chain
         ("floor, all", 720001),  # an order was withdrawn in a chain
-        ("arrive, joins", 52),  # rounds found no routes, again and again, and nobody was told
+        ("arrive, joins", 52),  # rounds without routes followed each other without a report
         ("arrive, wrong fields", 326),  # a withdrawn stop came before one that was asked for
     ],
 )

@@ -88,7 +88,7 @@ def test_a_recording_says_which_job_a_robot_does_and_how_full_it_is(tmp_path: Pa
 
 
 def test_a_recording_compares_the_ends_of_jobs_with_their_planned_ends(tmp_path: Path) -> None:
-    """At 0 all jobs are open and as planned; in the end the page has what the report has."""
+    """At 0 all jobs are open and as planned; in the end the page agrees with the report."""
     plan = floor_plan()
     source = Journalled(recorded(plan, tmp_path, delays="exponential:0.5", seed=3))
     recording = Recording(plan, source, clock=lambda: source.until)

@@ -209,7 +209,7 @@ def _measure_ticks(
     ]
     at, ticks = np.array(places.vertices), np.stack(columns, axis=1)
     turns = (at[:, None] != at[None, :]) & (ticks >= 0)
-    turns[n_used:] = False  # nobody turns at a start
+    turns[n_used:] = False  # robots do not turn at starts
     return np.asarray(ticks + turns * turn, np.int32)
 
 
@@ -283,7 +283,7 @@ def _measure_drives(
     def measure(vertex: VertexId) -> NDArray[np.int64]:
         return distances.measure_energies(vertex, edge_ticks, battery.drive, most)
 
-    drives = np.full((len(places.vertices),) * 2, most, np.int64)  # nobody drives to a start
+    drives = np.full((len(places.vertices),) * 2, most, np.int64)  # starts are no targets
     for place in range(places.n_used):
         drives[:, place] = places.measure_to(place, measure)
     return drives

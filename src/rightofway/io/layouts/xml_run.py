@@ -30,7 +30,7 @@ class ElementRun:
     columns
         For each value of the form, in the order of the text, those of all elements.
     text
-        The text of the elements, and of what is between them.
+        The text of the elements, with the text between them.
     line
         The line at which it begins.
     """
@@ -48,7 +48,7 @@ def cut_run(text: str, name: str, most: int) -> tuple[str, ElementRun | None]:
     Notes
     -----
     The lines of all else stay as they are. There is no run in a text with comments, declarations
-    or prefixes in front of the first element: only expat can tell what is an element there.
+    or prefixes in front of the first element: only expat recognizes elements there.
     """
     begin = text.find(f"<{name} ")
     if not name or begin < 0 or "<!" in text or "<?" in text[2:] or f":{name}" in text[:begin]:
